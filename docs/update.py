@@ -203,7 +203,7 @@ def catalogue_page(program):
     for key in ("body.horn", "body.shaft", "tendon.diameter_mm", "material.name", "tendon.modulus_MPa"):
         catalogue.update(json.loads(output(program, "explain", key, "--json"))["explained"].get("catalogue", {}))
     titles = {"horns": "Horns and splines of servos: `body.horn`", "shafts": "Shafts of motors: `body.shaft`",
-              "tendons": "Tendons", "materials": "Materials: `material.name`"}
+              "motors": "Motors: `motor.model`", "tendons": "Tendons", "materials": "Materials: `material.name`"}
     text = f"# Catalogue\n\n{WRITTEN}\n" + wrapped(
         "Parts and materials that the program knows by name, with their sources. Where a source says “measure yours”, no drawing was "
         "found: measure the part before you print. To add an entry, write its table into a file of `profiles/catalogue/` and compile again.")

@@ -13,6 +13,7 @@
 #include "export/report/report_parts.h"
 #include "export/report/svg.h"
 #include "export/report/tables.h"
+#include "export/report/under_load.h"
 #include "fusee/base.h"
 #include "mechanism/lengths.h"
 
@@ -20,14 +21,6 @@ namespace fusee::formats {
 namespace {
 
 std::string at_words(double alpha) { return "at α = " + readable(degrees(alpha), 1) + "°"; }
-
-std::string ranges_words(const std::vector<analysis::AlphaRange>& ranges) {
-  std::string words;
-  for (const analysis::AlphaRange& range : ranges)
-    words += (words.empty() ? "α = " : ", ") + readable(degrees(range.from), 1) + "° … " +
-             readable(degrees(range.to), 1) + "°";
-  return words.empty() ? "nowhere" : words;
-}
 
 std::string key_numbers_of(const analysis::AnalysisResult& result, const Mechanism& mechanism) {
   const analysis::TensionExtreme& most = result.largest_tension;
@@ -39,12 +32,15 @@ std::string key_numbers_of(const analysis::AnalysisResult& result, const Mechani
   if (result.strength)
     numbers.add("Strength of the tendon", with_unit(result.strength->tension, "N"),
                 with_unit(result.strength->at_knot, "N") + " at a knot");
+  if (const auto factor = result.safety_factor())
+    numbers.add("Safety factor", readable_rounded(*factor, 3), "against breaking");
   numbers.add("Motor torque", with_unit(result.largest_torque.value, "N mm"), at_words(result.largest_torque.alpha));
   numbers.add("Hysteresis", with_unit(degrees(result.hysteresis.value), "deg"), at_words(result.hysteresis.alpha));
-  numbers.add("Tendon 1 slack", ranges_words(result.slack1));
-  numbers.add("Tendon 2 slack", ranges_words(result.slack2));
-  if (result.taut_pretension)
-    numbers.add("Both taut from", with_unit(*result.taut_pretension, "N"), "tendon.pretension_N");
+  numbers.add("Joint angle error", with_unit(degrees(result.theta_error.value), "deg"),
+              load_words(mechanism) + ", " + at_words(result.theta_error.alpha));
+  numbers.add("Tendon 1 slack", slack_words(result, result.slack1), pretension_words(result, result.slack1));
+  numbers.add("Tendon 2 slack", slack_words(result, result.slack2), pretension_words(result, result.slack2));
+  add_motor(numbers, result);
   return numbers.html(mechanism.units);
 }
 
@@ -129,9 +125,10 @@ std::string tolerances_table(const std::vector<analysis::ToleranceEffect>& effec
   for (const analysis::ToleranceEffect& effect : effects)
     rows += "<tr>" + html_cell(effect.key) + angle_cell(effect.theta_by_derivative, 4) +
             angle_cell(effect.theta_by_monte_carlo, 4) + angle_cell(effect.theta_at, 1) +
-            html_number_cell(readable(effect.slack_by_derivative, 4)) +
-            html_number_cell(readable(effect.slack_by_monte_carlo, 4)) + "</tr>";
-  return html_table({"tolerance of", "#θ (°)", "#sampled", "#at α (°)", "#slack of tendon 2 (mm)", "#sampled"}, rows);
+            html_number_cell(readable(effect.excess_by_derivative, 4)) +
+            html_number_cell(readable(effect.excess_by_monte_carlo, 4)) + "</tr>";
+  return html_table({"tolerance of", "#θ (°)", "#sampled", "#at α (°)", "#excess length of tendon 2 (mm)", "#sampled"},
+                    rows);
 }
 
 std::string said_section(const std::vector<Diagnostic>& said, LengthUnit units) {
@@ -180,7 +177,7 @@ std::string analysis_html(const MechanismFile& file, const analysis::AnalysisRes
                html_section("tolerances", "Tolerances",
                             "<p class=\"lead\">Each dimension within " +
                                 safe_text(with_unit(options.dimension_tolerance, "mm")) +
-                                " (95 %), and the resulting limits of joint angle and slack.</p>" +
+                                " (95 %), and the resulting limits of joint angle and excess length.</p>" +
                                 tolerances_table(result.tolerances)),
        .foot =
            "Lengths in mm, angles in degrees, forces in N. Tensions are the full model’s in its third cycle, unless "

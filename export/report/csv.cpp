@@ -68,7 +68,7 @@ void add_slopes(std::vector<double>& row, const HelixProduct& helix, std::size_t
 
 struct AsBuilt {
   double theta = k_none;
-  double slack = k_none;
+  double excess = k_none;
 };
 
 /// The rewound pulley at `alpha`, interpolated; empty outside its points.
@@ -77,11 +77,11 @@ AsBuilt as_built_at(const std::vector<profile::RewindPoint>& points, double alph
   const auto right = std::lower_bound(points.begin(), points.end(), alpha - k_same_alpha,
                                       [](const profile::RewindPoint& point, double a) { return point.alpha < a; });
   if (right == points.end()) return {};
-  if (std::abs(right->alpha - alpha) <= k_same_alpha) return {right->theta, right->slack};
+  if (std::abs(right->alpha - alpha) <= k_same_alpha) return {right->theta, right->excess};
   if (right == points.begin()) return {};
   const auto left = right - 1;
   const double t = (alpha - left->alpha) / (right->alpha - left->alpha);
-  return {std::lerp(left->theta, right->theta, t), std::lerp(left->slack, right->slack, t)};
+  return {std::lerp(left->theta, right->theta, t), std::lerp(left->excess, right->excess, t)};
 }
 
 }  // namespace
@@ -151,7 +151,7 @@ std::string transmission_csv(const Product& product) {
                                forces.elongation,
                                degrees(forces.theta_error),
                                degrees(as_built.theta),
-                               as_built.slack};
+                               as_built.excess};
     if (product.helix) add_slopes(row, *product.helix, i);
     put_row(table, row);
   }

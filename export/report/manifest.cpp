@@ -8,6 +8,7 @@
 #include "export/report/input_json.h"
 #include "export/report/report.h"
 #include "export/report/tendon_lengths.h"
+#include "export/report/under_load.h"
 #include "export/tool.h"
 #include "fusee/base.h"
 #include "fusee/mechanism_file.h"
@@ -60,8 +61,8 @@ Json checks_json(const std::vector<Check>& checks) {
 Json as_built_json(const profile::RewindResult& as_built) {
   return {{"max_theta_error_deg", number(degrees(as_built.max_theta_error))},
           {"max_theta_error_at_alpha_deg", number(degrees(as_built.max_theta_error_at))},
-          {"max_slack_mm", number(as_built.max_slack)},
-          {"max_slack_at_alpha_deg", number(degrees(as_built.max_slack_at))}};
+          {"max_slack_mm", number(as_built.max_excess)},
+          {"max_slack_at_alpha_deg", number(degrees(as_built.max_excess_at))}};
 }
 
 Json fleet_json(const coil::HelicalRewind& as_built) {
@@ -182,6 +183,8 @@ std::string manifest_json(const Product& product, const std::vector<OutputFile>&
   manifest["print"] = print_json(product.pulley);
   manifest["as_built"] = as_built_json(product.as_built);
   if (product.helix) manifest["as_built"].update(fleet_json(product.helix->as_built));
+  manifest["under_load"] = under_load_json(product.under_load);
+  if (product.under_load.motor) manifest["motor"] = motor_json(*product.under_load.motor);
   manifest["tendons_at_home"] = tendons_json(product);
   manifest["knots"] = knots_json(product);
   manifest["mechanism"] = mechanism_json(product.file.mechanism);

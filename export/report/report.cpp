@@ -23,6 +23,7 @@
 #include "export/report/report_plots.h"
 #include "export/report/tables.h"
 #include "export/report/tendon_lengths.h"
+#include "export/report/under_load.h"
 #include "export/tool.h"
 #include "mechanism/catalogue.h"
 #include "mechanism/lengths.h"
@@ -49,9 +50,9 @@ std::string as_built_words(const Product& product) {
   return "With tendons wound on the mesh itself, the joint follows the declared θ(α) within " +
          with_unit(degrees(built.max_theta_error), "deg") + limit_words(find_check(product, "theta_error")) +
          ", worst at α = " + readable(degrees(built.max_theta_error_at), 1) +
-         "°, and the tendon length is right within " + with_unit(built.max_slack, "mm") +
-         limit_words(find_check(product, "slack")) + ", worst at α = " + readable(degrees(built.max_slack_at), 1) +
-         "°.";
+         "°, and the tendons’ excess length stays within " + with_unit(built.max_excess, "mm") +
+         limit_words(find_check(product, "excess_length")) +
+         ", worst at α = " + readable(degrees(built.max_excess_at), 1) + "°.";
 }
 
 std::string verdict_words(const Product& product) {
@@ -68,9 +69,10 @@ std::string verdict_words(const Product& product) {
     const bool paper = product.joint.mechanism.pulley.method == Method::paper;
     return std::string(paper ? "Made by the paper’s drawing: " : "Checked: ") +
            "the pulley as built follows θ(α) within " + with_unit(degrees(product.as_built.max_theta_error), "deg") +
-           limit_words(find_check(product, "theta_error")) + " and keeps the tendon’s length within " +
-           with_unit(product.as_built.max_slack, "mm") + limit_words(find_check(product, "slack")) +
-           (paper ? " (reported, not judged)" : "") + ". All " + count + " checks hold.";
+           limit_words(find_check(product, "theta_error")) + " and the tendons’ excess length stays within " +
+           with_unit(product.as_built.max_excess, "mm") + limit_words(find_check(product, "excess_length")) +
+           (paper ? " (reported, not judged)" : "") + ". All " + count + " checks hold." +
+           under_load_sentences(product.under_load, product.joint.mechanism);
   }
   return "Do not build it unchanged: " + std::to_string(failed.size()) + " of " + count + " checks failed. " +
          joined(failed, "; ") + ".";
@@ -85,7 +87,9 @@ struct PageVerdict {
 PageVerdict verdict_of(const Product& product) {
   const std::string words = verdict_words(product);
   if (product.checks.empty() || !all_ok(product.checks)) return {"bad", "✕", words};
-  if (product.joint.mechanism.pulley.method == Method::paper) return {"noted", "!", words};
+  const analysis::UnderLoad& load = product.under_load;
+  const bool suffices = !load.lost_at && (!load.motor || load.motor->ok());
+  if (product.joint.mechanism.pulley.method == Method::paper || !suffices) return {"noted", "!", words};
   return {"good", "✓", words};
 }
 
@@ -223,6 +227,7 @@ std::string key_numbers(const Product& product) {
         "Spring on the joint", readable_rounded(spring.stiffness, 4) + "\u00a0N·mm/rad",
         readable_rounded(spring.preload, 4) + "\u00a0N·mm at θ = " + readable_rounded(degrees(spring.free), 4) + "°");
   }
+  add_motor(numbers, product.under_load);
   add_part(numbers, product.pulley);
   return numbers.html(product.file.mechanism.units);
 }

@@ -168,8 +168,8 @@ std::vector<Plot> as_built_plots(const Product& product) {
   return {as_built_plot(product, "Error of the joint angle", {"θ as built less θ declared", "°", {}, {}, 1e-4},
                         find_check(product, "theta_error"),
                         [](const auto& p) { return degrees(p.theta - p.theta_declared); }),
-          as_built_plot(product, "Slack of tendon 2", {"slack (+), stretch (−)", "mm", {}, {}, 1e-4},
-                        find_check(product, "slack"), [](const auto& p) { return p.slack; })};
+          as_built_plot(product, "Excess length of tendon 2", {"excess (+), stretch (−)", "mm", {}, {}, 1e-4},
+                        find_check(product, "excess_length"), [](const auto& p) { return p.excess; })};
 }
 
 namespace {

@@ -12,7 +12,7 @@ namespace fusee::formats {
 
 /// r1 and r2, θ with its best straight line and the deviation from it, radius of curvature of both pitch curves.
 std::vector<Plot> transmission_plots(const Product& product);
-/// Error of the joint angle and slack over α between their limits. Empty if no tendon was wound.
+/// Error of the joint angle and excess length over α between their limits. Empty if no tendon was wound.
 std::vector<Plot> as_built_plots(const Product& product);
 /// Tension of tendon 2 and the joint angle lost by its stretch. Empty without a tip force.
 std::vector<Plot> force_plots(const Product& product);

@@ -76,9 +76,9 @@ constexpr PlainName k_plain_names[] = {
     {"nothing_outside", "Contours outside the part or the sheet"},
     // pipeline: what wound tendons give
     {"theta_error", "Joint angle as built against the declared θ(α)"},
-    {"slack", "Slack or stretch of tendon 2 as built"},
+    {"excess_length", "Excess length or stretch of tendon 2 as built"},
     {"theta_error_reported", "Joint angle as built against the declared θ(α) (method “paper”: reported only)"},
-    {"slack_reported", "Slack or stretch of tendon 2 as built (method “paper”: reported only)"},
+    {"excess_length_reported", "Excess length or stretch of tendon 2 as built (method “paper”: reported only)"},
 };
 
 /// Checks of one file among several.
@@ -195,7 +195,7 @@ std::string checks_tables(const std::vector<Check>& checks) {
     const std::size_t file = file_index(check.name);
     Check named = check;
     named.name = plain_name(check.ok && file < std::size(k_prefixes) ? without_file(check.name) : check.name);
-    const bool as_built = check.name.rfind("theta_error", 0) == 0 || check.name.rfind("slack", 0) == 0;
+    const bool as_built = check.name.rfind("theta_error", 0) == 0 || check.name.rfind("excess_length", 0) == 0;
     groups[!check.ok ? 0 : as_built ? 1 : file < std::size(k_prefixes) ? 3 + file : 2].checks.push_back(named);
   }
   std::string html = "<div class=\"groups\">";

@@ -9,6 +9,7 @@
 
 #include "fusee/base.h"
 #include "fusee/joint.h"
+#include "fusee/mechanism_file.h"
 #include "fusee/profile.h"
 #include "fusee/transmission.h"
 
@@ -78,10 +79,10 @@ struct ToleranceEffect {
   std::string key;                 ///< "guides.EB_mm"; "print_offset" (offset of both pulleys); "all"
   double theta_by_derivative = 0;  ///< error of the joint angle with tendon 1 taut, rad
   double theta_by_monte_carlo = 0;
-  double theta_at = 0;             ///< α, rad
-  double slack_by_derivative = 0;  ///< slack of tendon 2, mm
-  double slack_by_monte_carlo = 0;
-  double slack_at = 0;
+  double theta_at = 0;              ///< α, rad
+  double excess_by_derivative = 0;  ///< excess length of tendon 2, mm
+  double excess_by_monte_carlo = 0;
+  double excess_at = 0;
 };
 
 /// Known strength of a tendon.
@@ -91,24 +92,41 @@ struct Strength {
   std::string source;  ///< "tendon.strength_N", or the tendon of the catalogue
 };
 
-/// Result of analyse(). Rows follow α over the range.
-struct AnalysisResult {
-  /// True if the law and both tendon paths exist over the range. Otherwise only `obstacles` and `advice` are set.
-  bool exists = false;
-  std::vector<profile::Condition>
-      obstacles;  ///< failed conditions of a pulley; with `exists`, forces are known though no pulley can be made
-  std::vector<profile::Change> advice;  ///< searched only if the law does not exist
+/// What the joint requires of its motor, beside what the motor gives.
+struct MotorCheck {
+  std::string model;              ///< of the catalogue; "" for a motor with numbers of its own
+  bool enforced = false;          ///< the joint is refused unless every condition holds
+  bool holds = false;             ///< the motor can hold its torque continuously
+  double travel = 0;              ///< required: from the lowest α to the highest, rad
+  double travel_limit = 0;        ///< rad; this and the other limits are 0 where they are unknown
+  Extreme torque;                 ///< required: largest magnitude under the load, in both directions, N·mm
+  double torque_limit = 0;        ///< at stall, N·mm
+  double ratio = 0;               ///< largest |dα/dθ|
+  double speed_limit = 0;         ///< of the motor without load, rad/s
+  double joint_speed_free = 0;    ///< speed of the joint without load, where it is lowest, rad/s
+  double joint_speed = 0;         ///< the same under the load, rad/s
+  double joint_speed_needed = 0;  ///< rad/s; 0: none is required
+  /// "motor_travel", "motor_torque", "motor_speed": those with a known limit.
+  std::vector<profile::Condition> conditions;
+  std::vector<std::string> sufficient_models;  ///< of the catalogue: those that fit the bore first, the weakest first
+  /// Set by the caller: changes with which every condition holds and the pulley passes every check of a full build.
+  profile::Advice advice;
 
+  bool ok() const { return profile::failed_of(conditions).empty(); }
+  /// "XL330-M288, XC330-M288 or 12 more"; "" if no model of the catalogue suffices.
+  std::string models_text() const;
+};
+
+/// The full model over the range under [load] and [spring]: what a build reports beside its geometric error.
+struct UnderLoad {
   std::vector<AnalysisRow> rows;
-  profile::SynthesisResult synthesis;  ///< the curves, if they can be drawn; its stroke has the same points as the rows
-  TensionExtreme largest_tension;      ///< full model
-  /// Maximum tension at the ends of both tendons, full model: the load of a knot at C, N.
-  Extreme largest_at_joint;
-  std::vector<DrumHold> on_drum;   ///< tendons that rub on a drum
-  Extreme largest_paper_tension;   ///< T_b
-  Extreme largest_torque;          ///< magnitude of the motor torque, full model, N·mm
-  Extreme hysteresis;              ///< largest |θ rising − θ falling| at one α, rad
-  std::vector<AlphaRange> slack1;  ///< where tendon 1 is slack (α increasing)
+  TensionExtreme largest_tension;
+  Extreme largest_at_joint;  ///< tension at the ends of both tendons: the load of a knot at C, N
+  Extreme largest_torque;    ///< magnitude of the motor torque, N·mm
+  Extreme hysteresis;        ///< largest |θ rising − θ falling| at one α, rad
+  Extreme theta_error;       ///< largest |θ − declared θ| in either direction, rad
+  /// Where tendon 1 is slack, which is without tension, in either direction.
+  std::vector<AlphaRange> slack1;
   std::vector<AlphaRange> slack2;
   std::vector<AlphaRange> untensioned;  ///< where both are slack, and nothing holds the joint
   /// The minimum pretension of tendon 1 that keeps both tendons taut over the range, N. Set if a tendon is slack and
@@ -118,6 +136,26 @@ struct AnalysisResult {
   std::optional<Strength> strength;
   /// α of the row where the largest tension exceeds the strength, or the tension at the joint the strength at a knot.
   std::optional<double> breaks_at;
+  std::optional<MotorCheck> motor;  ///< for a mechanism with [motor]
+
+  /// Breaking strength per largest tension, or that of a knot per tension at the joint if it is less. Empty if the
+  /// strength is unknown or no tendon is tensioned.
+  std::optional<double> safety_factor() const;
+  /// True if these ranges of slack are the whole range.
+  bool is_whole_range(const std::vector<AlphaRange>& ranges) const;
+};
+
+/// Result of analyse(). Rows follow α over the range.
+struct AnalysisResult : UnderLoad {
+  /// True if the law and both tendon paths exist over the range. Otherwise only `obstacles` and `advice` are set.
+  bool exists = false;
+  std::vector<profile::Condition>
+      obstacles;  ///< failed conditions of a pulley; with `exists`, forces are known though no pulley can be made
+  std::vector<profile::Change> advice;  ///< searched only if the law does not exist
+
+  profile::SynthesisResult synthesis;  ///< the curves, if they can be drawn; its stroke has the same points as the rows
+  std::vector<DrumHold> on_drum;       ///< tendons that rub on a drum
+  Extreme largest_paper_tension;       ///< T_b
   std::vector<ErrorSource> sources;
   std::vector<ToleranceEffect> tolerances;  ///< by key; "all" last
   std::vector<Diagnostic> warnings;         ///< set by the caller: plausibility warnings of the file
@@ -125,6 +163,19 @@ struct AnalysisResult {
 
 /// Analyses a joint with tendons over its range. A law that does not exist is a value. Throws Stopped.
 AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options = {}, const RunContext& context = {});
+
+/// The load's effects at `steps` + 1 places of the range and at home. The law must exist over the range.
+UnderLoad under_load(const Mechanism& mechanism, int steps = AnalysisOptions{}.steps);
+
+/// An error, without a place, for a load that no joint angle carries. Null if there is one everywhere.
+std::optional<Diagnostic> no_equilibrium(const UnderLoad& load);
+
+/// The conditions of the mechanism's motor that fail, for searches. If its travel is too small, that one alone, without
+/// an equilibrium. The law must exist over the range.
+std::vector<profile::Condition> motor_obstacles(const Mechanism& mechanism);
+/// A warning, or an error if the motor is enforced, for each failed condition, at the key of its limit. The hint
+/// contains the advice and the models that would suffice.
+std::vector<Diagnostic> motor_warnings(const MotorCheck& motor, const MechanismFile& file);
 
 /// Deviations of θ from the target motion by single causes: stretch, friction, and simplifications in drawing a pulley.
 std::vector<ErrorSource> error_sources(const Mechanism& mechanism);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "fusee/analysis.h"
 #include "fusee/base.h"
 #include "fusee/calibration.h"
 #include "fusee/coil.h"
@@ -51,6 +52,7 @@ struct Product {
   std::optional<solid::BodyLayout> cut_layout;  ///< layout for cutting, without shrinkage and chamfer, if known
   solid::Holding holding;                       ///< of its tendons
   profile::RewindResult as_built;
+  analysis::UnderLoad under_load;  ///< with the declared load; `as_built` is geometry alone
   std::vector<Check> checks;
   /// mechanism.toml, which describes `file.mechanism`, and its law's table if there is one
   std::vector<OutputFile> mechanism_files = {};

@@ -439,6 +439,20 @@ struct Spring {
   double torque(double theta) const { return preload + stiffness * (theta - free); }
 };
 
+/// The motor that turns the pulley. Zero: not written; a model of the catalogue supplies it (mechanism/catalogue.h).
+struct Motor {
+  std::string model = "none";  ///< a name of the catalogue
+  double travel = 0;           ///< angle from one end of its range to the other, rad
+  double stall_torque = 0;     ///< N·mm
+  double speed = 0;            ///< without load, rad/s
+  double joint_speed = 0;      ///< required of the joint under the load, rad/s
+  bool enforce = false;        ///< a joint that needs more than the motor gives is refused
+
+  bool operator==(const Motor&) const = default;
+
+  bool is_there() const { return *this != Motor{}; }
+};
+
 /// All passive torques on a joint, which the motor holds for law = torque.
 struct JointLoad {
   double lever = 0;  ///< OC, at whose end the tip force acts, mm
@@ -594,6 +608,7 @@ struct Mechanism {
   Tendon tendon;
   Load load;
   Spring spring;
+  Motor motor;
   /// The load that defines law = torque, when the joint now carries a different one (keep_law(), load.h). No key sets
   /// it.
   std::optional<JointLoad> law_load = std::nullopt;

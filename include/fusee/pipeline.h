@@ -44,7 +44,7 @@ namespace fusee::pipeline {
 /// Largest deviations of the pulley as built that pass the checks.
 struct AsBuiltLimits {
   double theta_error_deg = 0.05;
-  double slack = 0.05;  ///< mm
+  double excess = 0.05;  ///< length of a tendon beyond its path, mm
 };
 
 /// Accuracy, formats and place of build().
@@ -369,15 +369,15 @@ struct RewoundPart {
   PartPlace place = PartPlace::as_made;
   /// Position of the part, or one each for P1 and P2 if the file has both side by side.
   std::vector<solid::Placement> placements;
-  /// Set if the file has only this pulley: only its tendon is wound, and slack is unknown.
+  /// Set if the file has only this pulley: only its tendon is wound, and the excess length is unknown.
   std::optional<transmission::Side> alone = std::nullopt;
 };
 /// As rewind_part(), but a mesh that was moved, turned about its axis or turned over is moved back first. Throws
 /// InputError also for a mirrored mesh or one of another size.
 RewoundPart rewind_moved_part(const joint::IdentifiedJoint& joint, const Part& part);
 
-/// Checks "theta_error" and "slack" against their limits. The slack of method = "paper" is expected: it is reported as
-/// "theta_error_reported" and "slack_reported", with the limits 180 deg and the joint's length.
+/// Checks "theta_error" and "excess_length" against their limits. Those of method = "paper" are expected: they are
+/// reported as "theta_error_reported" and "excess_length_reported", with the limits 180 deg and the joint's length.
 std::vector<Check> as_built_checks(const Mechanism& mechanism, const profile::RewindResult& as_built,
                                    const AsBuiltLimits& limits);
 

@@ -161,7 +161,7 @@ struct SynthesisResult {
   std::vector<transmission::TransmissionPoint> stroke;  ///< evenly spaced in α over the range, home included
   std::vector<Condition> conditions;                    ///< all of them, passed ones included
   std::vector<Change> advice;                           ///< empty when made, or when no change of one number suffices
-  /// Issues that do not prevent making: tight bends, slack of method = "paper" …
+  /// Issues that do not prevent making: tight bends, excess length of method = "paper" …
   std::vector<std::string> warnings;
 
   bool made() const { return status == SynthesisStatus::made; }
@@ -189,7 +189,7 @@ struct RewindPoint {
   double alpha = 0;           ///< rad
   double theta_declared = 0;  ///< by the target motion, rad
   double theta = 0;           ///< with tendon 1 taut (or with the only string), rad
-  double slack = 0;           ///< slack of tendon 2 at that θ: > 0 hangs loose, < 0 would have to stretch, mm
+  double excess = 0;          ///< excess length of tendon 2 at that θ: > 0 hangs loose, < 0 would have to stretch, mm
 };
 
 /// Result of rewind(), with its largest deviations.
@@ -197,14 +197,14 @@ struct RewindResult {
   std::vector<RewindPoint> points;
   double max_theta_error = 0;     ///< max |theta − theta_declared|, rad
   double max_theta_error_at = 0;  ///< α, rad
-  double max_slack = 0;           ///< max |slack|, mm
-  double max_slack_at = 0;        ///< α, rad
+  double max_excess = 0;          ///< max |excess|, mm
+  double max_excess_at = 0;       ///< α, rad
 };
 
 /// `floor1`, `floor2`: the groove floors in the pulley's frame at home, axis at the origin, mm. The string bridges
 /// hollows. Throws InputError when a floor does not surround the axis or contains a pin.
 RewindResult rewind(const Mechanism& mechanism, const Polygon& floor1, const Polygon& floor2, int steps = 180);
-/// Winds only the string of `side`, which then determines the joint angle; the slack is reported as 0.
+/// Winds only the string of `side`, which then determines the joint angle; the excess length is reported as 0.
 RewindResult rewind_one(const Mechanism& mechanism, transmission::Side side, const Polygon& floor, int steps = 180);
 
 }  // namespace fusee::profile

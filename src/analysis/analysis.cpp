@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis/motor.h"
 #include "base/text.h"
 #include "fusee/mechanism_file.h"
 #include "mechanism/catalogue.h"
@@ -80,13 +81,16 @@ std::vector<AlphaRange> ranges_where(const std::vector<AnalysisRow>& rows, Predi
 
 bool is_slack(const joint::TendonState& tendon) { return tendon.upper <= k_min_tension; }
 
-void summarise(AnalysisResult& result) {
+bool is_slack_in(const AnalysisRow& row, joint::TendonState joint::EquilibriumPoint::*tendon) {
+  return (held(row.rising) && is_slack(row.rising.*tendon)) || (held(row.falling) && is_slack(row.falling.*tendon));
+}
+
+void summarise(UnderLoad& result) {
   LargestTensions tensions;
   for (const AnalysisRow& row : result.rows) {
     const double alpha = row.declared.alpha;
     update_tensions(tensions, row.rising, true);
     update_tensions(tensions, row.falling, false);
-    enlarge(result.largest_paper_tension, row.paper.Tb, alpha);
     const bool both_held = held(row.rising) && held(row.falling);
     if (!both_held) {
       if (!result.lost_at) result.lost_at = alpha;
@@ -95,13 +99,15 @@ void summarise(AnalysisResult& result) {
     enlarge(result.largest_torque, std::max(std::abs(row.rising.motor_torque), std::abs(row.falling.motor_torque)),
             alpha);
     enlarge(result.hysteresis, std::abs(row.rising.theta - row.falling.theta), alpha);
+    const double theta = row.declared.theta;
+    enlarge(result.theta_error, std::max(std::abs(row.rising.theta - theta), std::abs(row.falling.theta - theta)),
+            alpha);
   }
   result.largest_tension = tensions.anywhere;
   result.largest_at_joint = tensions.at_joint;
-  result.slack1 =
-      ranges_where(result.rows, [](const AnalysisRow& row) { return held(row.rising) && is_slack(row.rising.t1); });
-  result.slack2 =
-      ranges_where(result.rows, [](const AnalysisRow& row) { return held(row.rising) && is_slack(row.rising.t2); });
+  using Point = joint::EquilibriumPoint;
+  result.slack1 = ranges_where(result.rows, [](const AnalysisRow& row) { return is_slack_in(row, &Point::t1); });
+  result.slack2 = ranges_where(result.rows, [](const AnalysisRow& row) { return is_slack_in(row, &Point::t2); });
   result.untensioned = ranges_where(result.rows, [](const AnalysisRow& row) {
     return held(row.rising) && is_slack(row.rising.t1) && is_slack(row.rising.t2);
   });
@@ -137,9 +143,16 @@ bool stays_taut(Mechanism mechanism, double pretension, const std::vector<double
   });
 }
 
+/// `value` > 0 rounded up to three digits, as it is printed.
+double three_digits_up(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  return std::stod(rounded(std::ceil(value / unit) * unit, 3));
+}
+
 /// The taut pretension within 1 %, rounded up.
-std::optional<double> taut_pretension(const Mechanism& mechanism) {
-  const std::vector<double> alphas = transmission::alphas_over_range(transmission::Transmission(mechanism), 12);
+std::optional<double> taut_pretension(const Mechanism& mechanism, const std::vector<AnalysisRow>& rows) {
+  std::vector<double> alphas;
+  for (const AnalysisRow& row : rows) alphas.push_back(row.declared.alpha);
   double slack = mechanism.tendon.pretension;
   double taut = std::max(1.0, slack);
   while (!stays_taut(mechanism, taut, alphas)) {
@@ -151,7 +164,7 @@ std::optional<double> taut_pretension(const Mechanism& mechanism) {
     const double middle = 0.5 * (slack + taut);
     (stays_taut(mechanism, middle, alphas) ? taut : slack) = middle;
   }
-  return taut;
+  return three_digits_up(taut);
 }
 
 Strength with_knots(double tension, const Tendon& tendon, const std::string& source) {
@@ -159,7 +172,7 @@ Strength with_knots(double tension, const Tendon& tendon, const std::string& sou
 }
 
 /// At C every tendon ends in an unrelieved knot; on the pulley the wrap relieves it (fusee/solid.h).
-std::optional<double> breaking_place(const AnalysisResult& result) {
+std::optional<double> breaking_place(const UnderLoad& result) {
   if (!result.strength) return std::nullopt;
   if (result.largest_at_joint.value > result.strength->at_knot) return result.largest_at_joint.alpha;
   if (result.largest_tension.tension > result.strength->tension) return result.largest_tension.alpha;
@@ -235,6 +248,58 @@ std::optional<Diagnostic> tendon_breaks(const LargestTensions& largest, const St
   return breaks;
 }
 
+std::optional<Diagnostic> no_equilibrium(const UnderLoad& load) {
+  if (!load.lost_at) return std::nullopt;
+  Diagnostic lost;
+  lost.message = "the load pulls the joint past its dead centre at alpha = " + fixed(degrees(*load.lost_at), 1) +
+                 " deg: there is no equilibrium";
+  lost.hint = "reduce [load], or use stiffer tendons (tendon.diameter_mm, tendon.modulus_MPa)";
+  return lost;
+}
+
+std::optional<double> UnderLoad::safety_factor() const {
+  if (!strength || !(largest_tension.tension > k_min_tension)) return std::nullopt;
+  const double of_tendon = strength->tension / largest_tension.tension;
+  return largest_at_joint.value > 0 ? std::min(of_tendon, strength->at_knot / largest_at_joint.value) : of_tendon;
+}
+
+bool UnderLoad::is_whole_range(const std::vector<AlphaRange>& ranges) const {
+  return ranges.size() == 1 && ranges.front().from == rows.front().declared.alpha &&
+         ranges.front().to == rows.back().declared.alpha;
+}
+
+namespace {
+
+UnderLoad over_stroke(const Mechanism& mechanism, const std::vector<transmission::TransmissionPoint>& stroke) {
+  UnderLoad result;
+  result.rows = rows_of(mechanism, stroke);
+  summarise(result);
+  if (!result.slack1.empty() || !result.slack2.empty())
+    result.taut_pretension = taut_pretension(mechanism, result.rows);
+  result.strength = tendon_strength(mechanism.tendon);
+  result.breaks_at = breaking_place(result);
+  if (mechanism.motor.is_there()) result.motor = motor_check(mechanism, result);
+  return result;
+}
+
+}  // namespace
+
+UnderLoad under_load(const Mechanism& mechanism, int steps) {
+  return over_stroke(mechanism, transmission::stroke_over_range(transmission::Transmission(mechanism), steps));
+}
+
+std::vector<profile::Condition> motor_obstacles(const Mechanism& mechanism) {
+  if (!mechanism.motor.is_there()) return {};
+  const transmission::Transmission law(mechanism);
+  const std::vector<profile::Condition> travel =
+      profile::failed_of(travel_check(mechanism, law.alpha_max() - law.alpha_min()).conditions);
+  if (!travel.empty()) return travel;
+  UnderLoad load;
+  load.rows = rows_of(mechanism, transmission::stroke_over_range(law, AnalysisOptions{}.steps));
+  summarise(load);
+  return profile::failed_of(motor_check(mechanism, load).conditions);
+}
+
 AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options, const RunContext& context) {
   AnalysisResult result;
   profile::SynthesisOptions synthesis_options;
@@ -248,12 +313,9 @@ AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& option
     result.advice = profile::synthesise(mechanism, synthesis_options).advice;
     return result;
   }
-  result.rows = rows_of(mechanism, synthesis.stroke);
-  summarise(result);
+  static_cast<UnderLoad&>(result) = over_stroke(mechanism, synthesis.stroke);
+  for (const AnalysisRow& row : result.rows) enlarge(result.largest_paper_tension, row.paper.Tb, row.declared.alpha);
   result.on_drum = drum_holds(mechanism, result.rows);
-  if (!result.slack1.empty() || !result.slack2.empty()) result.taut_pretension = taut_pretension(mechanism);
-  result.strength = tendon_strength(mechanism.tendon);
-  result.breaks_at = breaking_place(result);
   result.sources = error_sources(mechanism);
   result.tolerances = tolerance_effects(mechanism, options, context);
   result.synthesis = std::move(synthesis);

@@ -96,7 +96,7 @@ ErrorSource friction(const Mechanism& mechanism) {
 /// Half widths at each α.
 struct Spread {
   std::vector<double> theta;
-  std::vector<double> slack;
+  std::vector<double> excess;
 };
 
 /// Twice the standard deviation (95 %) about the target motion, over `samples` joints.
@@ -112,16 +112,16 @@ Spread spread_of(const std::vector<double>& alphas, const RigidJoint& declared, 
     for (std::size_t k = 0; k < count; ++k) {
       const RigidPoint point = joint.at(alphas[k]);
       const double dtheta = point.theta - nominal[k].theta;
-      const double dslack = point.slack - nominal[k].slack;
-      if (!std::isfinite(dtheta) || !std::isfinite(dslack)) continue;
+      const double dexcess = point.excess - nominal[k].excess;
+      if (!std::isfinite(dtheta) || !std::isfinite(dexcess)) continue;
       ++used[k];
       spread.theta[k] += dtheta * dtheta;
-      spread.slack[k] += dslack * dslack;
+      spread.excess[k] += dexcess * dexcess;
     }
   }
   for (std::size_t k = 0; k < count; ++k) {
     spread.theta[k] = 2.0 * std::sqrt(spread.theta[k] / std::max(1, used[k]));
-    spread.slack[k] = 2.0 * std::sqrt(spread.slack[k] / std::max(1, used[k]));
+    spread.excess[k] = 2.0 * std::sqrt(spread.excess[k] / std::max(1, used[k]));
   }
   return spread;
 }
@@ -133,9 +133,9 @@ std::size_t largest(const std::vector<double>& values) {
 ToleranceEffect effect(std::string key, const std::vector<double>& alphas, const Spread& derived,
                        const Spread& sampled) {
   const std::size_t theta = largest(derived.theta);
-  const std::size_t slack = largest(derived.slack);
-  return {std::move(key),       derived.theta[theta], sampled.theta[theta], alphas[theta],
-          derived.slack[slack], sampled.slack[slack], alphas[slack]};
+  const std::size_t excess = largest(derived.excess);
+  return {std::move(key),         derived.theta[theta],   sampled.theta[theta], alphas[theta],
+          derived.excess[excess], sampled.excess[excess], alphas[excess]};
 }
 
 Spread by_derivative(const std::vector<double>& alphas, const RigidJoint& joint, const Dimension& dimension,
@@ -144,7 +144,7 @@ Spread by_derivative(const std::vector<double>& alphas, const RigidJoint& joint,
   for (const double alpha : alphas) {
     const RigidPoint rate = derivative(joint, dimension, alpha);
     spread.theta.push_back(std::abs(rate.theta) * tolerance);
-    spread.slack.push_back(std::abs(rate.slack) * tolerance);
+    spread.excess.push_back(std::abs(rate.excess) * tolerance);
   }
   return spread;
 }
@@ -153,7 +153,7 @@ Spread by_derivative(const std::vector<double>& alphas, const RigidJoint& joint,
 void add_squares(Spread& sum, const Spread& more) {
   for (std::size_t k = 0; k < sum.theta.size(); ++k) {
     sum.theta[k] = std::hypot(sum.theta[k], more.theta[k]);
-    sum.slack[k] = std::hypot(sum.slack[k], more.slack[k]);
+    sum.excess[k] = std::hypot(sum.excess[k], more.excess[k]);
   }
 }
 

@@ -24,7 +24,7 @@ RigidPoint RigidJoint::at(double alpha) const {
     point.theta -= step;
     if (!(std::abs(step) > 1e-14)) break;
   }
-  point.slack = home_[1] - below(1, paths[1]) - transmission::upper_span(pins_[1], point.theta).length;
+  point.excess = home_[1] - below(1, paths[1]) - transmission::upper_span(pins_[1], point.theta).length;
   return point;
 }
 
@@ -176,7 +176,7 @@ RigidPoint derivative(const RigidJoint& joint, const Dimension& dimension, doubl
   };
   RigidPoint rate;
   rate.theta = -growth(0, transmission::Side::left) / transmission::upper_span(joint.pins()[0], -theta).m;
-  rate.slack = transmission::upper_span(joint.pins()[1], theta).m * rate.theta - growth(1, transmission::Side::right);
+  rate.excess = transmission::upper_span(joint.pins()[1], theta).m * rate.theta - growth(1, transmission::Side::right);
   return rate;
 }
 

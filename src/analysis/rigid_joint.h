@@ -1,5 +1,5 @@
 /// \file
-/// Pulleys made for one mechanism in another one, with inextensible tendons: joint angle, slack, and the derivatives of
+/// Pulleys made for one mechanism in another one, with inextensible tendons: joint angle, excess length, and the derivatives of
 /// both.
 #pragma once
 
@@ -11,8 +11,8 @@
 namespace fusee::analysis {
 
 struct RigidPoint {
-  double theta = 0;  ///< tendon 1 taut, rad
-  double slack = 0;  ///< slack of tendon 2 at that θ, mm; negative: it would have to stretch
+  double theta = 0;   ///< tendon 1 taut, rad
+  double excess = 0;  ///< excess length of tendon 2 at that θ, mm; negative: it would have to stretch
 };
 
 /// The joint with tendons of the length that they have at home.

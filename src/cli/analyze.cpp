@@ -7,30 +7,22 @@
 #include "cli/analysis_table.h"
 #include "cli/command.h"
 #include "cli/pins.h"
+#include "cli/strict.h"
 #include "cli/table.h"
+#include "cli/under_load.h"
 #include "export/report/analysis.h"
+#include "export/report/under_load.h"
 #include "fusee/base.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {
 namespace {
 
-std::string alpha_text(double alpha) { return "alpha = " + fixed(degrees(alpha), 1) + " deg"; }
-
-std::string range_text(const analysis::AlphaRange& range) {
-  if (range.from == range.to) return "at " + alpha_text(range.from);
-  return "alpha = " + fixed(degrees(range.from), 1) + " to " + fixed(degrees(range.to), 1) + " deg";
-}
-
-std::string ranges_text(const std::vector<analysis::AlphaRange>& ranges) {
-  std::string text;
-  for (const analysis::AlphaRange& range : ranges) text += (text.empty() ? "" : ", ") + range_text(range);
-  return text;
-}
-
 // ---- summary --------------------------------------------------------------------------------------------------------
 
-std::string line(const std::string& title, const std::string& text) { return titled(title, text, 18); }
+constexpr std::size_t k_column = 18;
+
+std::string line(const std::string& title, const std::string& text) { return titled(title, text, k_column); }
 
 std::string tension_line(const analysis::AnalysisResult& result, const Mechanism& mechanism) {
   const analysis::TensionExtreme& most = result.largest_tension;
@@ -45,13 +37,12 @@ std::string strength_line(const analysis::AnalysisResult& result, const Mechanis
   const std::string source = result.strength->source == "tendon.strength_N"
                                  ? result.strength->source
                                  : result.strength->source + " of the catalogue";
-  std::string margin;
-  if (result.largest_tension.tension > 0)
-    margin = ", " + rounded(result.strength->tension / result.largest_tension.tension, 3) + " times the tension";
-  return line("tendon strength", rounded(result.strength->tension) + " N (" + source + ")" + margin) +
+  const auto factor = result.safety_factor();
+  return line("tendon strength", rounded(result.strength->tension) + " N (" + source + ")") +
          line("", rounded(result.strength->at_knot) + " N at a knot (tendon.knot_efficiency)") +
          line("", std::string("its knot ") + (mechanism.joint.is_plain() ? "at C" : "at the joint") +
-                      " carries up to " + rounded(result.largest_at_joint.value) + " N");
+                      " carries up to " + rounded(result.largest_at_joint.value) + " N") +
+         (factor ? line("safety factor", rounded(*factor, 3) + " against breaking") : "");
 }
 
 std::string drum_lines(const analysis::AnalysisResult& result) {
@@ -70,10 +61,13 @@ std::string drum_lines(const analysis::AnalysisResult& result) {
 std::string slack_lines(const analysis::AnalysisResult& result) {
   if (result.slack1.empty() && result.slack2.empty()) return line("slack", "none: both tendons stay taut");
   std::string text;
-  if (!result.slack1.empty()) text += line("tendon 1 slack", ranges_text(result.slack1));
-  if (!result.slack2.empty()) text += line("tendon 2 slack", ranges_text(result.slack2));
-  if (result.taut_pretension)
-    text += line("", "taut with tendon.pretension_N >= " + rounded(*result.taut_pretension, 3));
+  const std::string remedy = pretension_text(result);
+  for (const bool first : {true, false}) {
+    const std::vector<analysis::AlphaRange>& ranges = first ? result.slack1 : result.slack2;
+    if (ranges.empty()) continue;
+    text += line(first ? "tendon 1 slack" : "tendon 2 slack", slack_text(result, ranges));
+    if (!remedy.empty()) text += line("", remedy);
+  }
   return text;
 }
 
@@ -95,13 +89,13 @@ std::string tolerances_table(const std::vector<analysis::ToleranceEffect>& effec
   for (const analysis::ToleranceEffect& effect : effects) {
     cells.push_back({effect.key, fixed(degrees(effect.theta_by_derivative), 4),
                      fixed(degrees(effect.theta_by_monte_carlo), 4), fixed(degrees(effect.theta_at), 1),
-                     fixed(effect.slack_by_derivative, 4), fixed(effect.slack_by_monte_carlo, 4)});
+                     fixed(effect.excess_by_derivative, 4), fixed(effect.excess_by_monte_carlo, 4)});
   }
   return table({{"tolerance of", Align::left},
                 {"theta_deg", Align::right},
                 {"sampled", Align::right},
                 {"at alpha", Align::right},
-                {"slack2_mm", Align::right},
+                {"excess2_mm", Align::right},
                 {"sampled", Align::right}},
                cells);
 }
@@ -114,9 +108,13 @@ std::string summary(const analysis::AnalysisResult& result, const analysis::Anal
                "up to " + rounded(result.largest_torque.value) + " Nmm, " + alpha_text(result.largest_torque.alpha));
   text += line("hysteresis", "up to " + rounded(degrees(result.hysteresis.value), 3) + " deg between directions, " +
                                  alpha_text(result.hysteresis.alpha));
+  text += line("theta error", "up to " + rounded(degrees(result.theta_error.value), 3) + " deg, " +
+                                  alpha_text(result.theta_error.alpha));
+  text += motor_lines(result, k_column);
   text += "\nError budget\n" + sources_table(result.sources);
   text += "\nTolerances: each dimension within " + shortest(options.dimension_tolerance) +
-          " mm (95 %), and the resulting limits of theta and slack\n" + tolerances_table(result.tolerances);
+          " mm (95 %), and the resulting limits of theta and of the\nexcess length of tendon 2\n" +
+          tolerances_table(result.tolerances);
   return text;
 }
 
@@ -159,6 +157,9 @@ Json summary_json(const analysis::AnalysisResult& result) {
                                   {"alpha_deg", degrees(result.largest_torque.alpha)}};
   json["hysteresis"] = {{"value_deg", degrees(result.hysteresis.value)},
                         {"alpha_deg", degrees(result.hysteresis.alpha)}};
+  json["theta_error"] = {{"value_deg", degrees(result.theta_error.value)},
+                         {"alpha_deg", degrees(result.theta_error.alpha)}};
+  json["safety_factor"] = optional_json(result.safety_factor());
   return json;
 }
 
@@ -182,9 +183,9 @@ Json tolerances_json(const std::vector<analysis::ToleranceEffect>& effects) {
                       {"monte_carlo", degrees(effect.theta_by_monte_carlo)},
                       {"alpha_deg", degrees(effect.theta_at)}}},
                     {"slack2_mm",
-                     {{"derivative", effect.slack_by_derivative},
-                      {"monte_carlo", effect.slack_by_monte_carlo},
-                      {"alpha_deg", degrees(effect.slack_at)}}}});
+                     {{"derivative", effect.excess_by_derivative},
+                      {"monte_carlo", effect.excess_by_monte_carlo},
+                      {"alpha_deg", degrees(effect.excess_at)}}}});
   }
   return list;
 }
@@ -198,11 +199,7 @@ void add_findings(const analysis::AnalysisResult& result, const std::string& fil
     reply.diagnostics.push_back(diagnostic);
     if (severity == Severity::error) reply.exit = Exit::check_failed;
   };
-  if (result.lost_at) {
-    say(Severity::error,
-        "the load pulls the joint past its dead centre at " + alpha_text(*result.lost_at) + ": there is no equilibrium",
-        "reduce [load], or use stiffer tendons (tendon.diameter_mm, tendon.modulus_MPa)");
-  }
+  if (const auto lost = analysis::no_equilibrium(result)) say(lost->severity, lost->message, lost->hint);
   if (result.breaks_at) {
     const auto breaks = analysis::tendon_breaks({result.largest_tension, result.largest_at_joint}, *result.strength);
     say(breaks->severity, breaks->message, breaks->hint);
@@ -210,7 +207,7 @@ void add_findings(const analysis::AnalysisResult& result, const std::string& fil
   const bool declared_loose = result.largest_tension.tension < 1e-6;
   if (!result.untensioned.empty()) {
     say(declared_loose ? Severity::warning : Severity::error,
-        "both tendons are slack, " + ranges_text(result.untensioned) + ": nothing holds the joint",
+        "both tendons are slack " + slack_text(result, result.untensioned) + ": nothing holds the joint",
         result.taut_pretension ? "tendon.pretension_N >= " + rounded(*result.taut_pretension, 3) + " keeps both taut"
                                : "raise tendon.pretension_N");
   }
@@ -284,6 +281,7 @@ Reply run_analyze(const Arguments& arguments, Console& console, const RunContext
   }
   add_pins_note(file, reply);
   add_findings(result, file.path, reply);
+  if (result.motor && result.motor->enforced && !result.motor->ok()) reply.exit = Exit::infeasible;
   write_result(arguments, file, result, options, *context.files, reply);
   const bool csv = arguments.has("--csv");
   reply.text = csv ? stroke_csv(result.rows)
@@ -291,9 +289,11 @@ Reply run_analyze(const Arguments& arguments, Console& console, const RunContext
                          summary(result, options, file.mechanism);
   reply.fields["name"] = file.mechanism.name;
   reply.fields["summary"] = summary_json(result);
+  if (result.motor) reply.fields["motor"] = formats::motor_json(*result.motor);
   reply.fields["error_budget"] = sources_json(result.sources);
   reply.fields["tolerances"] = tolerances_json(result.tolerances);
   reply.fields["rows"] = stroke_json(result.rows);
+  apply_strict(arguments, reply);
   return reply;
 }
 
@@ -315,7 +315,8 @@ Command analyze_command() {
            {"--steps", "N", "steps of the table (default 60)"},
            {"--tolerance-mm", "MM", "tolerance of every dimension (default 0.1)"},
            {"--samples", "N", "Monte Carlo samples (default 1000)"},
-           {"--seed", "N", "random seed of the samples (default 1)"}},
+           {"--seed", "N", "random seed of the samples (default 1)"},
+           strict_option()},
           {{"fusee analyze arm.toml", "tables and summary"},
            {"fusee analyze arm.toml --set load.tip_force_N=10", "what would a load of 10 N do?"},
            {"fusee analyze arm.toml -o arm.html", "a page on which the joint moves"},

@@ -16,7 +16,7 @@ std::string with_unit(double value, const std::string& unit) {
 const std::vector<Option>& limit_options() {
   static const std::vector<Option> options = {
       {"--max-theta-error-deg", "DEG", "largest error of the joint angle (default 0.05)"},
-      {"--max-slack-mm", "MM", "largest slack of a tendon (default 0.05)"},
+      {"--max-slack-mm", "MM", "largest excess length of a tendon (default 0.05)"},
   };
   return options;
 }
@@ -24,20 +24,20 @@ const std::vector<Option>& limit_options() {
 pipeline::AsBuiltLimits limits_from(const Arguments& arguments) {
   pipeline::AsBuiltLimits limits;
   limits.theta_error_deg = arguments.number("--max-theta-error-deg", limits.theta_error_deg, 0.0, 180.0, "deg");
-  limits.slack = arguments.number("--max-slack-mm", limits.slack, 0.0, 1000.0, "mm");
+  limits.excess = arguments.number("--max-slack-mm", limits.excess, 0.0, 1000.0, "mm");
   return limits;
 }
 
 std::string as_built_text(const profile::RewindResult& as_built) {
-  return "theta within " + rounded(degrees(as_built.max_theta_error), 2) + " deg, slack within " +
-         rounded(as_built.max_slack, 2) + " mm";
+  return "theta within " + rounded(degrees(as_built.max_theta_error), 2) + " deg, excess length within " +
+         rounded(as_built.max_excess, 2) + " mm";
 }
 
 Json to_json(const profile::RewindResult& as_built) {
   return {{"max_theta_error_deg", degrees(as_built.max_theta_error)},
           {"max_theta_error_at_alpha_deg", degrees(as_built.max_theta_error_at)},
-          {"max_slack_mm", as_built.max_slack},
-          {"max_slack_at_alpha_deg", degrees(as_built.max_slack_at)}};
+          {"max_slack_mm", as_built.max_excess},
+          {"max_slack_at_alpha_deg", degrees(as_built.max_excess_at)}};
 }
 
 std::string checks_table(const std::vector<Check>& checks) {

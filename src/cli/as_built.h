@@ -15,7 +15,7 @@ namespace fusee::cli {
 const std::vector<Option>& limit_options();
 pipeline::AsBuiltLimits limits_from(const Arguments& arguments);
 
-/// Summary, such as "theta within 0.0012 deg, slack within 0.003 mm".
+/// Summary, such as "theta within 0.0012 deg, excess length within 0.003 mm".
 std::string as_built_text(const profile::RewindResult& as_built);
 /// The JSON object of manifest.json.
 Json to_json(const profile::RewindResult& as_built);

@@ -6,8 +6,11 @@
 #include "cli/as_built.h"
 #include "cli/command.h"
 #include "cli/pins.h"
+#include "cli/strict.h"
 #include "cli/table.h"
+#include "cli/under_load.h"
 #include "export/report/tendon_lengths.h"
+#include "export/report/under_load.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {
@@ -111,6 +114,8 @@ std::string summary(const pipeline::BuildResult& built, const pipeline::BuildOpt
   text += titled("r2", range_text(ranges.r2, 3, "mm"));
   text += size_text(product.pulley) + tendons_text(product) + knots_text(product.holding);
   text += titled("as built", as_built_text(product.as_built));
+  text += under_load_lines(product.under_load, formats::load_words(product.joint.mechanism));
+  text += motor_lines(product.under_load);
   text += checks_line(product.checks);
   text += files_text(built, options);
   return verbose ? text + "\n" + checks_table(product.checks) : text;
@@ -132,6 +137,8 @@ Json product_json(const pipeline::BuildResult& built, const pipeline::BuildOptio
   const solid::OuterSize size = solid::outer_size(product.pulley);
   json["size_mm"] = {{"diameter", size.diameter}, {"height", size.height}};
   json["as_built"] = to_json(product.as_built);
+  json["under_load"] = formats::under_load_json(product.under_load);
+  if (product.under_load.motor) json["motor"] = formats::motor_json(*product.under_load.motor);
   json["checks"] = to_json(product.checks);
   json["outputs"] = output_list(built.outputs);
   return json;
@@ -148,6 +155,7 @@ void explain_infeasible(const pipeline::BuildResult& built, Reply& reply) {
   add_advice_together(built.advice.together, reply);
   reply.exit = Exit::infeasible;
   reply.fields["conditions"] = to_json(conditions);
+  if (product.under_load.motor) reply.fields["motor"] = formats::motor_json(*product.under_load.motor);
   // Numbers and words in separate lists, so that "to" is always a number in the first.
   std::vector<profile::Change> numbers = built.advice.alone, words;
   const auto first_word = std::stable_partition(numbers.begin(), numbers.end(),
@@ -223,6 +231,7 @@ Reply run_build(const Arguments& arguments, Console& console, const RunContext& 
   if (built.published) add_trial_note(arguments, reply);
   if (arguments.has("--json")) reply.fields = product_json(built, options);
   if (built.status == pipeline::BuildStatus::check_failed) add_failed_checks(built, options, reply);
+  apply_strict(arguments, reply);
   return reply;
 }
 
@@ -237,6 +246,7 @@ Command build_command() {
       {"--step", "", "also write pulley.step for CAD (takes some seconds)"},
   };
   for (const Option& option : limit_options()) options.push_back(option);
+  options.push_back(strict_option());
   return {"build",
           "SPEC",
           "the pulley in every format, checked",

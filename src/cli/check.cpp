@@ -1,6 +1,7 @@
 #include "base/text.h"
 #include "cli/as_built.h"
 #include "cli/command.h"
+#include "cli/strict.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {
@@ -92,6 +93,7 @@ Reply run_check(const Arguments& arguments, Console&, const RunContext& context)
     reply.exit = Exit::check_failed;
     add_failures(checks, reply);
   }
+  apply_strict(arguments, reply);
   return reply;
 }
 
@@ -106,7 +108,7 @@ Command check_command() {
           "value and a limit, and a failed one the place of the fault. A faulty facet or a\n"
           "duplicate line fails one check and is omitted from the others. Reports size and\n"
           "volume, and warns if the size suggests inches or metres.",
-          {},
+          {strict_option()},
           {{"fusee check out/arm/pulley.stl", "is the mesh a solid that can be printed?"},
            {"fusee check out/arm/plates.dxf", "are all contours closed and free of crossings?"},
            {"fusee check out/arm/pulley.3mf --json", "for a script"}},

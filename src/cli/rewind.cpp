@@ -20,13 +20,13 @@ std::string points_table(const std::vector<profile::RewindPoint>& points, bool a
     const profile::RewindPoint& point = points[rows < 2 ? 0 : row * (points.size() - 1) / (rows - 1)];
     cells.push_back({fixed(degrees(point.alpha), 2), fixed(degrees(point.theta_declared), 3),
                      fixed(degrees(point.theta), 3), fixed(degrees(point.theta - point.theta_declared), 4),
-                     fixed(point.slack, 4)});
+                     fixed(point.excess, 4)});
   }
   return table({{"alpha_deg", Align::right},
                 {"declared_deg", Align::right},
                 {"theta_deg", Align::right},
                 {"error_deg", Align::right},
-                {"slack_mm", Align::right}},
+                {"excess_mm", Align::right}},
                cells);
 }
 
@@ -36,7 +36,7 @@ Json points_json(const std::vector<profile::RewindPoint>& points) {
     list.push_back({{"alpha_deg", degrees(point.alpha)},
                     {"theta_declared_deg", degrees(point.theta_declared)},
                     {"theta_deg", degrees(point.theta)},
-                    {"slack_mm", point.slack}});
+                    {"slack_mm", point.excess}});
   }
   return list;
 }
@@ -77,7 +77,8 @@ std::string place_text(const pipeline::RewoundPart& part) {
     text += wrapped("found from its grooves: " + placement_text(placement), "  ", "  ");
   if (part.alone)
     text += wrapped("the file has only " + std::string(word(*part.alone)) + ": only tendon " +
-                        (*part.alone == transmission::Side::left ? "1" : "2") + " was wound, and the slack is unknown",
+                        (*part.alone == transmission::Side::left ? "1" : "2") +
+                        " was wound, and the excess length is unknown",
                     "  ", "  ");
   return text;
 }
@@ -139,7 +140,7 @@ pipeline::RewoundPart rewind_file(const joint::IdentifiedJoint& joint, const std
   }
 }
 
-/// With only one tendon the slack is unknown.
+/// With only one tendon the excess length is unknown.
 std::vector<Check> checks_of(const Mechanism& mechanism, const pipeline::RewoundPart& part,
                              const pipeline::AsBuiltLimits& limits) {
   std::vector<Check> checks = pipeline::as_built_checks(mechanism, part.as_built, limits);

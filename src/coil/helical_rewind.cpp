@@ -228,7 +228,7 @@ class Winder {
     turn_to(place.alpha);
     profile::RewindPoint point{place.alpha, place.theta, 0, 0};
     point.theta = taut_angle(strings_[0], place.alpha, place.theta);
-    point.slack = -strings_[1].excess(point.theta);
+    point.excess = -strings_[1].excess(point.theta);
     note(point);
     for (const HelicalString& string : strings_) {
       const double fleet = std::abs(string.fleet(point.theta));
@@ -256,9 +256,9 @@ class Winder {
       result.max_theta_error = error;
       result.max_theta_error_at = point.alpha;
     }
-    if (std::abs(point.slack) >= result.max_slack) {
-      result.max_slack = std::abs(point.slack);
-      result.max_slack_at = point.alpha;
+    if (std::abs(point.excess) >= result.max_excess) {
+      result.max_excess = std::abs(point.excess);
+      result.max_excess_at = point.alpha;
     }
   }
 

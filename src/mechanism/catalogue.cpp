@@ -75,11 +75,17 @@ BoardType make(const toml::table& item, BoardType type) {
   return type;
 }
 
+std::vector<std::string> names_of_fits(const toml::table& item) {
+  std::vector<std::string> names;
+  if (const toml::array* fits = item["fits"].as_array()) {
+    for (const toml::node& name : *fits) names.push_back(name.value_or(std::string()));
+  }
+  return names;
+}
+
 MotorType make(const toml::table& item, MotorType type) {
   const auto or_none = [&item](const char* key) { return item.contains(key) ? number(item, key) : 0.0; };
-  if (const toml::array* fits = item["fits"].as_array()) {
-    for (const toml::node& name : *fits) type.fits.push_back(name.value_or(std::string()));
-  }
+  type.fits = names_of_fits(item);
   type.shaft = or_none("shaft_mm");
   type.shaft_length = or_none("shaft_length_mm");
   type.face = or_none("face_mm");
@@ -95,6 +101,16 @@ MotorType make(const toml::table& item, MotorType type) {
   type.hole = number(item, "hole_mm");
   type.head = number(item, "head_mm");
   return type;
+}
+
+MotorModel make(const toml::table& item, MotorModel model) {
+  const auto or_none = [&item](const char* key) { return item.contains(key) ? number(item, key) : 0.0; };
+  model.fits = names_of_fits(item);
+  model.travel = radians(or_none("travel_deg"));
+  model.stall_torque = number(item, "stall_torque_Nmm");
+  model.speed = radians(or_none("speed_deg_per_s"));
+  model.holds = or_none("holds") != 0;
+  return model;
 }
 
 /// All [[key]] tables of one file of the catalogue.
@@ -162,8 +178,27 @@ const std::vector<MotorType>& motor_types() {
   return all;
 }
 
+const std::vector<MotorModel>& motor_models() {
+  static const std::vector<MotorModel> all = load<MotorModel>("motors", "model");
+  return all;
+}
+
 const HornType* find_horn(std::string_view name) { return find(horns(), name); }
 const ShaftType* find_shaft(std::string_view name) { return find(shafts(), name); }
+
+const MotorModel* find_motor_model(std::string_view name) { return find(motor_models(), name); }
+
+MotorModel motor_limits(const Motor& motor) {
+  const MotorModel* known = find_motor_model(motor.model);
+  MotorModel limits = known == nullptr ? MotorModel{} : *known;
+  if (motor.travel > 0) limits.travel = motor.travel;
+  if (motor.speed > 0) limits.speed = motor.speed;
+  if (motor.stall_torque > 0) {
+    limits.stall_torque = motor.stall_torque;
+    limits.holds = false;
+  }
+  return limits;
+}
 
 const Horn& horn_of(const Mechanism& mechanism) {
   if (mechanism.body.horn == k_own_horn) return mechanism.horn;

@@ -94,6 +94,18 @@ struct MotorType {
   double head = 0;  ///< height of the screws' heads
 };
 
+/// A motor by its maker's figures.
+struct MotorModel {
+  std::string name;
+  std::string description;
+  std::string source;
+  std::vector<std::string> fits;  ///< names of horns and shafts
+  double travel = 0;              ///< rad; 0: turns without end
+  double stall_torque = 0;        ///< N·mm
+  double speed = 0;               ///< without load, rad/s; 0: unknown
+  bool holds = false;             ///< the torque can be held continuously, at that speed
+};
+
 const std::vector<HornType>& horns();
 const std::vector<ShaftType>& shafts();
 const std::vector<TendonType>& tendon_types();
@@ -101,10 +113,15 @@ const std::vector<MaterialType>& material_types();
 const std::vector<BearingType>& bearing_types();  ///< the largest first
 const std::vector<BoardType>& board_types();
 const std::vector<MotorType>& motor_types();
+const std::vector<MotorModel>& motor_models();
 
 /// Finds an entry by name; null when there is none.
 const HornType* find_horn(std::string_view name);
 const ShaftType* find_shaft(std::string_view name);
+const MotorModel* find_motor_model(std::string_view name);
+
+/// The limits of the mechanism's motor: each number that [motor] has, else that of its model. Zero: no limit is known.
+MotorModel motor_limits(const Motor& motor);
 
 /// The value of body.horn that selects Mechanism::horn.
 inline constexpr std::string_view k_own_horn = "own";

@@ -70,6 +70,18 @@ std::string tendon_list() {
   return text;
 }
 
+std::string motor_list() {
+  std::string text = "  Known motors (profiles/catalogue/motors.toml):\n";
+  for (const MotorModel& model : motor_models()) {
+    const std::string travel =
+        model.travel > 0 ? shortest(degrees_as_read(model.travel)) + " deg" : "turns without end";
+    const std::string speed = model.speed > 0 ? ", " + shortest(degrees_as_read(model.speed)) + " deg/s" : "";
+    text += entry(model.name + ": " + travel + ", " + shortest(model.stall_torque) + " Nmm" +
+                  (model.holds ? " held" : " at stall") + speed + ". " + model.description + ". " + model.source);
+  }
+  return text;
+}
+
 std::string material_list() {
   std::string text = "  Known materials (profiles/catalogue/materials.toml):\n";
   for (const MaterialType& type : material_types()) {
@@ -83,6 +95,7 @@ std::string material_list() {
 std::string catalogue_text(const Field& field) {
   if (field.name() == "body.horn") return horn_list();
   if (field.name() == "body.shaft") return shaft_list();
+  if (field.name() == "motor.model") return motor_list();
   if (field.table == "tendon" && field.key != "pretension_N") return tendon_list();
   if (field.name() == "material.name" || field.name() == "material.shrinkage_percent") return material_list();
   return {};
@@ -181,6 +194,15 @@ Json catalogue_json() {
                                  {"shrinkage_least_percent", type.shrinkage_least},
                                  {"shrinkage_typical_percent", type.shrinkage_typical},
                                  {"shrinkage_most_percent", type.shrinkage_most}});
+  }
+  for (const MotorModel& model : motor_models()) {
+    json["motors"].push_back({{"name", model.name},
+                              {"description", model.description},
+                              {"source", model.source},
+                              {"travel_deg", degrees_as_read(model.travel)},
+                              {"stall_torque_Nmm", model.stall_torque},
+                              {"speed_deg_per_s", degrees_as_read(model.speed)},
+                              {"holds", model.holds}});
   }
   return json;
 }

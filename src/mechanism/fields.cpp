@@ -162,6 +162,12 @@ Field texts(const Row& row, std::vector<std::string_view> choices = {}) {
   return field;
 }
 
+std::vector<std::string_view> motor_names() {
+  std::vector<std::string_view> names{"none"};
+  for (const MotorModel& model : motor_models()) names.push_back(model.name);
+  return names;
+}
+
 std::vector<std::string_view> shaft_names() {
   std::vector<std::string_view> names{"none"};
   for (const ShaftType& type : shafts()) names.push_back(type.name);
@@ -342,6 +348,55 @@ void add_spring(std::vector<Field>& table) {
   table.back().is_set = has_spring;
 }
 
+double from_rpm(double rpm) { return radians(6.0 * rpm); }
+/// The number that from_rpm() converts to this speed, to the last bit if there is one.
+double in_rpm(double speed) {
+  const double rpm = degrees_as_read(speed) / 6.0;
+  for (const double near : {rpm, std::nextafter(rpm, 0.0), std::nextafter(rpm, HUGE_VAL)}) {
+    if (from_rpm(near) == speed) return near;
+  }
+  return rpm;
+}
+
+void add_motor(std::vector<Field>& table) {
+  constexpr auto motor = &Mechanism::motor;
+  table.push_back(text<motor, &Motor::model>(
+      {"motor.model", "", "\"none\"",
+       "the motor of the catalogue that turns the pulley; numbers written beside it replace its own"},
+      motor_names()));
+  table.back().is_set = [](const DeclaredMechanism& m) { return m.motor.model != "none"; };
+  const auto add = [&table](Field field, std::string_view otherwise, bool (*is_set)(const DeclaredMechanism&)) {
+    field.required = false;
+    field.otherwise = otherwise;
+    field.is_set = is_set;
+    table.push_back(std::move(field));
+  };
+  constexpr std::string_view of_model = "that of motor.model; without one, no limit";
+  add(number<motor, &Motor::travel, degrees_as_read, radians>(
+          {"motor.travel_deg", "", "", "angle that the motor turns from one end of its range to the other"}, "deg", 1,
+          1000000),
+      of_model, [](const DeclaredMechanism& m) { return m.motor.travel > 0; });
+  add(number<motor, &Motor::stall_torque>({"motor.stall_torque_Nmm", "", "", "torque at which the motor stalls"}, "Nmm",
+                                          0.001, 100000000),
+      of_model, [](const DeclaredMechanism& m) { return m.motor.stall_torque > 0; });
+  add(number<motor, &Motor::speed, degrees_as_read, radians>(
+          {"motor.speed_deg_per_s", "", "", "speed of the motor without load"}, "deg/s", 0.001, 1000000),
+      of_model, [](const DeclaredMechanism& m) { return m.motor.speed > 0; });
+  // The same number in another unit: it is written in deg/s.
+  add(number<motor, &Motor::speed, in_rpm, from_rpm>(
+          {"motor.speed_rpm", "", "", "speed of the motor without load, in place of speed_deg_per_s"}, "rpm", 0.001,
+          100000),
+      "motor.speed_deg_per_s", [](const DeclaredMechanism&) { return false; });
+  add(number<motor, &Motor::joint_speed, degrees_as_read, radians>(
+          {"motor.joint_speed_deg_per_s", "", "", "speed that the joint must reach at every angle under [load]"},
+          "deg/s", 0.001, 1000000),
+      "no speed is required", [](const DeclaredMechanism& m) { return m.motor.joint_speed > 0; });
+  table.push_back(boolean<motor, &Motor::enforce>(
+      {"motor.enforce", "", "false",
+       "true: a joint that requires more travel, torque or speed than the motor has is refused; false: a warning"}));
+  table.back().is_set = [](const DeclaredMechanism& m) { return m.motor.enforce; };
+}
+
 void add_mechanism(std::vector<Field>& table) {
   constexpr auto joint = &Mechanism::joint;
   constexpr auto guides = &Mechanism::guides;
@@ -465,6 +520,7 @@ void add_mechanism(std::vector<Field>& table) {
       "", 0.05, 1));
   add_load(table);
   add_spring(table);
+  add_motor(table);
 }
 
 void add_body(std::vector<Field>& table) {
@@ -875,6 +931,7 @@ std::string_view table_meaning(std::string_view table) {
   if (table == "tendon") return "both tendons";
   if (table == "load") return "the load on the joint";
   if (table == "spring") return "a spring about the joint's axis";
+  if (table == "motor") return "the motor, with which travel, torque and speed are compared";
   if (table == "body") return "the body of the pulley";
   if (table == "horn") return "a servo's horn of your own, or its toothed shaft (body.bore = \"horn\")";
   if (table == "material") return "the material of the part";

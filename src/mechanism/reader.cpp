@@ -123,6 +123,7 @@ class MechanismReader {
   void check_idlers();
   void check_sheath();
   void check_horn();
+  void check_motor();
   void check_optimize();
   void check_prior();
   void load_table();
@@ -661,6 +662,26 @@ void MechanismReader::check_horn() {
   }
 }
 
+/// The speed has two keys, and a limit must exist for what is compared with it.
+void MechanismReader::check_motor() {
+  const bool all_read = std::all_of(fields().begin(), fields().end(), [this](const Field& field) {
+    return field.table != "motor" || !has(field.name()) || good_[field.name()];
+  });
+  if (!has_table("motor") || !all_read) return;
+  if (has("motor.speed_rpm") && has("motor.speed_deg_per_s"))
+    fail(entries_["motor.speed_rpm"].place, "motor.speed_rpm and motor.speed_deg_per_s both define the motor's speed",
+         "leave one of them out");
+  const MotorModel limits = motor_limits(mechanism_.motor);
+  if (mechanism_.motor.enforce && limits.travel == 0 && limits.stall_torque == 0 && limits.speed == 0)
+    fail(entries_["motor.enforce"].place, "motor.enforce = true has no limit to enforce",
+         "add motor.model (fusee explain motor.model lists the motors), motor.travel_deg, motor.stall_torque_Nmm or "
+         "motor.speed_deg_per_s");
+  if (has("motor.joint_speed_deg_per_s") && limits.speed == 0)
+    warn(entries_["motor.joint_speed_deg_per_s"].place,
+         "motor.joint_speed_deg_per_s is not compared: the motor's speed is unknown",
+         "add motor.speed_deg_per_s or motor.speed_rpm");
+}
+
 /// A shaft supplies omitted keys; written keys must agree with it.
 void MechanismReader::take_shaft() {
   const ShaftType* shaft = find_shaft(mechanism_.body.shaft);
@@ -802,6 +823,7 @@ DeclaredMechanism MechanismReader::read(std::string_view text, const std::vector
   check_idlers();
   check_sheath();
   check_horn();
+  check_motor();
   check_optimize();
   check_prior();
   load_table();

@@ -241,9 +241,9 @@ Claim drawing_claim(const Reproduction& so_far) {
   const profile::RewindResult wound =
       profile::rewind(mechanism, profile::parallel(drawn.p1, -half), profile::parallel(drawn.p2, -half));
   const auto [low, high] = std::minmax_element(wound.points.begin(), wound.points.end(),
-                                               [](const auto& a, const auto& b) { return a.slack < b.slack; });
-  claim.equations_give = "a string wound on that drawing is off by " + rounded(low->slack, 2) + " to " +
-                         rounded(high->slack, 2) +
+                                               [](const auto& a, const auto& b) { return a.excess < b.excess; });
+  claim.equations_give = "a string wound on that drawing is off by " + rounded(low->excess, 2) + " to " +
+                         rounded(high->excess, 2) +
                          " mm of tendon 2: r2 is the distance of the tendon's line from the axis, and the profile is "
                          "the envelope of those lines";
   return claim;

@@ -3,6 +3,8 @@
 #include "analysis/plausibility.h"
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
+#include "pipeline/design.h"
+#include "pipeline/motor_advice.h"
 #include "pipeline/several_turns.h"
 
 namespace fusee::pipeline {
@@ -12,6 +14,17 @@ namespace {
 void wind_several_times(analysis::AnalysisResult& result) {
   std::erase_if(result.obstacles,
                 [](const profile::Condition& condition) { return condition.name.rfind("one_turn_", 0) == 0; });
+}
+
+/// Advice of build() on a motor that does not suffice; none if no pulley can be made.
+profile::Advice advice_on_motor(const MechanismFile& file, const RunContext& context) {
+  context.begin_step("looking for what would suit the motor");
+  const BuildOptions options;
+  formats::Product product;
+  product.file = file;
+  product.joint = joint::identified_joint(file.mechanism);
+  if (!design_any(product, options.chord_error_mm, options.limits, context.without_progress())) return {};
+  return motor_advice(product, options, context.without_progress());
 }
 
 }  // namespace
@@ -35,6 +48,11 @@ analysis::AnalysisResult analyze(const MechanismFile& file, const analysis::Anal
     wind_several_times(result);
     result.warnings.push_back(*turns);
     for (Diagnostic& warning : warnings_of_turns(file)) result.warnings.push_back(std::move(warning));
+  }
+  if (result.motor && !result.motor->ok()) {
+    result.motor->advice = advice_on_motor(file, context);
+    for (Diagnostic& warning : analysis::motor_warnings(*result.motor, file))
+      result.warnings.push_back(std::move(warning));
   }
   return result;
 }

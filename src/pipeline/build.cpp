@@ -15,6 +15,7 @@
 #include "pipeline/axle_room.h"
 #include "pipeline/design.h"
 #include "pipeline/law_table_copy.h"
+#include "pipeline/motor_advice.h"
 #include "pipeline/omissions.h"
 #include "pipeline/several_turns.h"
 #include "pipeline/thin_walls.h"
@@ -356,8 +357,11 @@ bool is_made(const MechanismFile& file, const BuildOptions& options, const RunCo
 /// reuses the file's curves.
 class FeasibilityCheck {
  public:
-  FeasibilityCheck(const formats::Product& refused, const BuildOptions& options, const RunContext& context)
-      : file_(refused.file),
+  /// `with_motor`: the mechanism's motor must suffice, too.
+  FeasibilityCheck(const formats::Product& refused, const BuildOptions& options, const RunContext& context,
+                   bool with_motor)
+      : with_motor_(with_motor),
+        file_(refused.file),
         options_(options),
         context_(context),
         own_(curves_of(refused.file.mechanism)),
@@ -403,8 +407,9 @@ class FeasibilityCheck {
     const auto floor = [&mechanism](const profile::Outline& outline) {
       return profile::parallel(outline, -0.5 * mechanism.tendon.diameter);
     };
-    return profile::failed_of(
+    const auto not_wound = profile::failed_of(
         windable(mechanism, [&] { profile::rewind(mechanism, floor(synthesis.p1), floor(synthesis.p2)); }));
+    return not_wound.empty() && with_motor_ ? analysis::motor_obstacles(mechanism) : not_wound;
   }
 
   void record_size(double reach) const {
@@ -413,6 +418,7 @@ class FeasibilityCheck {
     }
   }
 
+  bool with_motor_;
   const MechanismFile& file_;
   const BuildOptions& options_;
   const RunContext& context_;
@@ -422,22 +428,42 @@ class FeasibilityCheck {
   mutable std::atomic<double> largest_ = 0;
 };
 
+bool motor_suffices(const MechanismFile& file) {
+  return analysis::motor_obstacles(joint::identified_joint(file.mechanism).mechanism).empty();
+}
+
 profile::Advice advice_for(const formats::Product& product, const BuildOptions& options, const RunContext& context) {
   const MechanismFile& file = product.file;
+  const bool with_motor = file.mechanism.motor.enforce;
+  const auto made = [&](const Mechanism& changed) {
+    const MechanismFile trial = with_declared(file, changed);
+    return is_made(trial, options, context) && (!with_motor || motor_suffices(trial));
+  };
   if (product.helix) {
-    const auto made = [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options, context); };
     return advice_for_several_turns(product, {options.chord_error_mm, made, context});
   }
-  const FeasibilityCheck check(product, options, context);
+  const FeasibilityCheck check(product, options, context, with_motor);
   std::atomic<int> begun = 0;
   const profile::FeasibilityOracle judge{.obstacles = [&](const Mechanism& changed) { return check(changed); },
                                          .made =
                                              [&](const Mechanism& changed) {
                                                ++begun;
-                                               return is_made(with_declared(file, changed), options, context);
+                                               return made(changed);
                                              },
                                          .builds_left = [&] { return check.max_builds() - begun; }};
   return solid::body_advice(file.mechanism, judge, product.pulley.layout.parts);
+}
+
+/// Adds the warnings about a motor that does not suffice, with advice.
+void compare_with_motor(BuildContext& context) {
+  formats::Product& product = context.result.product;
+  if (!product.under_load.motor || product.under_load.motor->ok()) return;
+  if (context.options.advice) {
+    context.step("looking for what would suit the motor");
+    product.under_load.motor->advice = motor_advice(product, context.options, context.run.without_progress());
+  }
+  for (Diagnostic& warning : analysis::motor_warnings(*product.under_load.motor, product.file))
+    product.file.warnings.push_back(std::move(warning));
 }
 
 std::vector<std::string> names_with_table(const Mechanism& mechanism) {
@@ -489,15 +515,45 @@ void write_and_check(BuildContext& context) {
   const RunContext trials = context.run.without_progress();
   auto notes = run_async([&] { return advised_notes(product, context.options, trials); });
   auto in_the_way = run_async([&] { return parts_in_the_way(product, context.options, trials); });
+  auto loaded = run_async([&joint = product.joint] { return analysis::under_load(joint.mechanism); });
   Tables tables = write_and_check_parts(context);
   product.pulley.layout.notes = notes.get();
   for (Diagnostic& part : in_the_way.get()) product.file.warnings.push_back(std::move(part));
+  product.under_load = loaded.get();
+  if (auto lost = analysis::no_equilibrium(product.under_load)) {
+    lost->severity = Severity::warning;
+    lost->place = product.file.place_of("load.tip_force_N");
+    product.file.warnings.push_back(std::move(*lost));
+  }
+  compare_with_motor(context);
   for (Diagnostic& thin : walls_below_a_line(product)) product.file.warnings.push_back(std::move(thin));
   write_texts(context, std::move(tables));
   context.result.status = all_ok(context.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
 }
 
 }  // namespace
+
+profile::Advice motor_advice(const formats::Product& product, const BuildOptions& options, const RunContext& context) {
+  const MechanismFile& file = product.file;
+  const FeasibilityCheck check(product, options, context, true);
+  profile::FeasibilityOracle judge;
+  // A change may need several turns, if the pulley does. Their conditions are tested by the full build.
+  if (product.helix)
+    judge.obstacles = [&file](const Mechanism& changed) -> std::vector<profile::Condition> {
+      const Mechanism trial =
+          joint::identified_joint(with_declared(file, changed).mechanism, joint::LawSearch::brief).mechanism;
+      if (const auto obstacle = profile::obstacle_but_one_turn(trial)) return {*obstacle};
+      return analysis::motor_obstacles(trial);
+    };
+  else
+    judge.obstacles = [&check](const Mechanism& changed) { return check(changed); };
+  judge.made = [&](const Mechanism& changed) {
+    const MechanismFile trial = with_declared(file, changed);
+    return is_made(trial, options, context) && motor_suffices(trial);
+  };
+  judge.is_expensive = true;
+  return profile::find_advice(file.mechanism, judge);
+}
 
 const std::vector<std::string>& output_names() {
   static const std::vector<std::string> names = {
@@ -527,6 +583,19 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options, const 
     context.begin_step("looking for what would make it possible");
     result.advice = advice_for(result.product, options, context.without_progress());
     return result;
+  }
+  if (file.mechanism.motor.enforce) {
+    result.product.under_load = analysis::under_load(result.product.joint.mechanism);
+    analysis::MotorCheck& motor = *result.product.under_load.motor;
+    if (!motor.ok()) {
+      result.status = BuildStatus::infeasible;
+      std::vector<profile::Condition>& conditions = result.product.pulley.conditions;
+      conditions.insert(conditions.end(), motor.conditions.begin(), motor.conditions.end());
+      if (!options.advice) return result;
+      context.begin_step("looking for what would suit the motor");
+      result.advice = motor.advice = motor_advice(result.product, options, context.without_progress());
+      return result;
+    }
   }
   if (!result.product.helix) {
     for (Diagnostic& unused : unused_turn_keys(file)) result.product.file.warnings.push_back(std::move(unused));

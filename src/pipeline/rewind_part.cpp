@@ -293,15 +293,15 @@ std::vector<Check> as_built_checks(const Mechanism& mechanism, const profile::Re
                                    const AsBuiltLimits& limits) {
   const double error = degrees(as_built.max_theta_error);
   const std::string error_at = "at alpha = " + rounded(degrees(as_built.max_theta_error_at)) + " deg";
-  const std::string slack_at = "at alpha = " + rounded(degrees(as_built.max_slack_at)) + " deg";
+  const std::string excess_at = "at alpha = " + rounded(degrees(as_built.max_excess_at)) + " deg";
   if (mechanism.pulley.method == Method::paper) {
     // No limits: a larger value would be a bug of the rewinding.
     const double whole_mechanism = mechanism.joint.R + mechanism.pulley.EF;
     return {at_most("theta_error_reported", error, 180.0, "deg", error_at),
-            at_most("slack_reported", as_built.max_slack, whole_mechanism, "mm", slack_at)};
+            at_most("excess_length_reported", as_built.max_excess, whole_mechanism, "mm", excess_at)};
   }
   return {at_most("theta_error", error, limits.theta_error_deg, "deg", error_at),
-          at_most("slack", as_built.max_slack, limits.slack, "mm", slack_at)};
+          at_most("excess_length", as_built.max_excess, limits.excess, "mm", excess_at)};
 }
 
 }  // namespace fusee::pipeline

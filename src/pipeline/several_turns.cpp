@@ -217,18 +217,18 @@ bool design_several_turns(formats::Product& product, double chord_error_mm, cons
 namespace {
 
 /// A string on a polygon inscribed in its curve is too short by a share of the tolerance per radian of winding. If the
-/// slack over the range exceeds its limit, the curves are drawn again, as finely as the limit requires (campaign of
-/// seed 620001, design 316: 10.5 rad, 0.11 mm of slack).
+/// excess length over the range exceeds its limit, the curves are drawn again, as finely as the limit requires (campaign of
+/// seed 620001, design 316: 10.5 rad, 0.11 mm of excess length).
 bool design_turns_within(formats::Product& product, double chord_error_mm, const AsBuiltLimits& limits,
                          const RunContext& context, solid::TieOffSearch search) {
   if (!design_several_turns(product, chord_error_mm, context, search)) return false;
   double furthest = 0;  // rad
   for (const transmission::TransmissionPoint& place : product.synthesis.stroke)
     furthest = std::max(furthest, std::abs(place.alpha));
-  if (furthest * chord_error_mm <= limits.slack) return true;
+  if (furthest * chord_error_mm <= limits.excess) return true;
   const profile::RewindResult wound = rewind_several_turns(product, product.pulley.mesh).result;
   if (all_ok(as_built_checks(product.joint.mechanism, wound, limits))) return true;
-  return design_several_turns(product, 0.5 * limits.slack / furthest, context, search);
+  return design_several_turns(product, 0.5 * limits.excess / furthest, context, search);
 }
 
 }  // namespace

@@ -150,14 +150,14 @@ void note_largest(RewindResult& result) {
       result.max_theta_error = error;
       result.max_theta_error_at = point.alpha;
     }
-    if (std::abs(point.slack) >= result.max_slack) {
-      result.max_slack = std::abs(point.slack);
-      result.max_slack_at = point.alpha;
+    if (std::abs(point.excess) >= result.max_excess) {
+      result.max_excess = std::abs(point.excess);
+      result.max_excess_at = point.alpha;
     }
   }
 }
 
-/// Winds with the joint held by the first string. The slack is that of the last string, 0 if there is only one.
+/// Winds with the joint held by the first string. The excess length is that of the last string, 0 if there is only one.
 RewindResult wind(const transmission::Transmission& declared, std::vector<String> strings, int steps) {
   const auto turn_to = [&strings](double alpha) {
     for (String& string : strings) string.turn_to(alpha);
@@ -169,7 +169,7 @@ RewindResult wind(const transmission::Transmission& declared, std::vector<String
     turn_to(alpha);
     RewindPoint point{alpha, declared.theta(alpha), 0, 0};
     point.theta = taut_theta(strings.front(), alpha, point.theta_declared);
-    if (strings.size() > 1) point.slack = -strings.back().excess(point.theta);
+    if (strings.size() > 1) point.excess = -strings.back().excess(point.theta);
     result.points.push_back(point);
   }
   note_largest(result);

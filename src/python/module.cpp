@@ -66,24 +66,23 @@ py::object number(const Field& field, const DeclaredMechanism& mechanism, int en
   return py::float_(value);
 }
 
-/// True for an optional table that is missing.
-bool lacks_table(const Field& field, const DeclaredMechanism& mechanism) {
+/// True for a key that is not written and has no default, and for those of an optional table that is missing.
+bool lacks_value(const Field& field, const DeclaredMechanism& mechanism) {
   return field.is_set != nullptr && !field.is_set(mechanism) &&
-         std::any_of(fields().begin(), fields().end(),
-                     [&field](const Field& other) { return other.table == field.table && other.needed_in_table; });
+         (field.fallback.empty() || std::any_of(fields().begin(), fields().end(), [&field](const Field& other) {
+            return other.table == field.table && other.needed_in_table;
+          }));
 }
 
 /// The value of a key, by its row of the field table.
 py::object value_of(const CarriedMechanism& carried, const Field& field) {
   // Access to lists needs a mutable mechanism, so a copy is read.
   DeclaredMechanism mechanism = carried.file.mechanism;
-  if (lacks_table(field, mechanism)) return py::none();
+  if (lacks_value(field, mechanism)) return py::none();
   switch (field.kind) {
     case FieldKind::number:
       return number(field, mechanism, 0);
     case FieldKind::point:
-      if (!field.is_set(mechanism)) return py::none();
-      [[fallthrough]];
     case FieldKind::range:
       return py::make_tuple(number(field, mechanism, 0), number(field, mechanism, 1));
     case FieldKind::choice:
@@ -140,7 +139,7 @@ py::dict synthesise_joint(const CarriedMechanism& carried, double tolerance, boo
   }));
 }
 
-pipeline::AsBuiltLimits limits_of(double max_theta_error, double max_slack) { return {max_theta_error, max_slack}; }
+pipeline::AsBuiltLimits limits_of(double max_theta_error, double max_excess) { return {max_theta_error, max_excess}; }
 
 /// Rewinds a part; faults are reported with its file name.
 pipeline::RewoundPart rewound(const joint::IdentifiedJoint& joint, const std::string& path, bool as_is,
@@ -161,19 +160,19 @@ py::dict with_checks(const CarriedMechanism& carried, const std::shared_ptr<cons
   py::dict dict = to_python(part);
   std::vector<Check> checks =
       pipeline::as_built_checks(joint::identified_joint(carried.file.mechanism).mechanism, part->as_built, limits);
-  // With only one tendon the slack is unknown.
+  // With only one tendon the excess length is unknown.
   if (part->alone) checks.erase(checks.begin() + 1, checks.end());
   dict["checks"] = to_python(checks);
   return dict;
 }
 
 py::dict rewind_file(const CarriedMechanism& carried, const std::string& path, bool as_is, double max_theta_error,
-                     double max_slack) {
+                     double max_excess) {
   const auto part = made_unlocked(carried.files, Stop(), [&](const RunContext& context) {
     demand_tendons(carried.file, "wind");
     return rewound(joint::identified_joint(carried.file.mechanism), path, as_is, *context.files);
   });
-  return with_checks(carried, part, limits_of(max_theta_error, max_slack));
+  return with_checks(carried, part, limits_of(max_theta_error, max_excess));
 }
 
 using Floor = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -186,7 +185,7 @@ Polygon polygon_of(const Floor& floor) {
 }
 
 py::dict rewind_floors(const CarriedMechanism& carried, const Floor& floor1, const Floor& floor2,
-                       double max_theta_error, double max_slack) {
+                       double max_theta_error, double max_excess) {
   const Polygon p1 = polygon_of(floor1), p2 = polygon_of(floor2);
   const auto part = made_unlocked(carried.files, Stop(), [&](const RunContext&) {
     demand_tendons(carried.file, "wind");
@@ -194,7 +193,7 @@ py::dict rewind_floors(const CarriedMechanism& carried, const Floor& floor1, con
                                  pipeline::PartPlace::as_made,
                                  {}};
   });
-  return with_checks(carried, part, limits_of(max_theta_error, max_slack));
+  return with_checks(carried, part, limits_of(max_theta_error, max_excess));
 }
 
 py::dict check_file(const std::string& path) {
@@ -225,13 +224,13 @@ formats::DxfVersion dxf_version(const std::string& name) {
 }
 
 py::dict build_pulley(const CarriedMechanism& carried, const Target& target, double tolerance, const std::string& dxf,
-                      bool step, double max_theta_error, double max_slack, const Stop& stop) {
+                      bool step, double max_theta_error, double max_excess, const Stop& stop) {
   return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
     demand_tendons(carried.file, "build a pulley for");
     pipeline::BuildOptions options;
     aim(options, target);
     options.chord_error_mm = tolerance;
-    options.limits = limits_of(max_theta_error, max_slack);
+    options.limits = limits_of(max_theta_error, max_excess);
     options.dxf = dxf_version(dxf);
     options.step = step;
     return pipeline::build(carried.file, options, context);

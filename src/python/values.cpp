@@ -213,11 +213,11 @@ py::dict to_dict(const py::capsule& kept, const profile::RewindResult& result) {
   dict["alpha_rad"] = rows(&profile::RewindPoint::alpha);
   dict["theta_declared_rad"] = rows(&profile::RewindPoint::theta_declared);
   dict["theta_rad"] = rows(&profile::RewindPoint::theta);
-  dict["slack_mm"] = rows(&profile::RewindPoint::slack);
+  dict["slack_mm"] = rows(&profile::RewindPoint::excess);
   dict["max_theta_error_rad"] = result.max_theta_error;
   dict["max_theta_error_at_rad"] = result.max_theta_error_at;
-  dict["max_slack_mm"] = result.max_slack;
-  dict["max_slack_at_rad"] = result.max_slack_at;
+  dict["max_slack_mm"] = result.max_excess;
+  dict["max_slack_at_rad"] = result.max_excess_at;
   return dict;
 }
 
@@ -268,9 +268,9 @@ py::dict to_dict(const analysis::ToleranceEffect& effect) {
   dict["theta_by_derivative_rad"] = effect.theta_by_derivative;
   dict["theta_by_monte_carlo_rad"] = effect.theta_by_monte_carlo;
   dict["theta_at_rad"] = effect.theta_at;
-  dict["slack_by_derivative_mm"] = effect.slack_by_derivative;
-  dict["slack_by_monte_carlo_mm"] = effect.slack_by_monte_carlo;
-  dict["slack_at_rad"] = effect.slack_at;
+  dict["slack_by_derivative_mm"] = effect.excess_by_derivative;
+  dict["slack_by_monte_carlo_mm"] = effect.excess_by_monte_carlo;
+  dict["slack_at_rad"] = effect.excess_at;
   return dict;
 }
 
@@ -280,6 +280,39 @@ py::object to_object(const std::optional<analysis::Strength>& strength) {
   dict["tension_N"] = strength->tension;
   dict["at_knot_N"] = strength->at_knot;
   dict["source"] = words(strength->source);
+  return dict;
+}
+
+py::object to_object(const std::optional<analysis::MotorCheck>& motor) {
+  if (!motor) return py::none();
+  const auto known = [](double limit) { return limit > 0 ? py::object(py::float_(limit)) : py::none(); };
+  py::dict dict;
+  dict["model"] = words(motor->model);
+  dict["enforced"] = motor->enforced;
+  dict["ok"] = motor->ok();
+  dict["travel_rad"] = motor->travel;
+  dict["travel_limit_rad"] = known(motor->travel_limit);
+  dict["torque_Nmm"] = motor->torque.value;
+  dict["torque_at_rad"] = motor->torque.alpha;
+  dict["torque_limit_Nmm"] = known(motor->torque_limit);
+  dict["speed_limit_rad_per_s"] = known(motor->speed_limit);
+  dict["joint_speed_rad_per_s"] =
+      motor->speed_limit > 0 ? py::object(py::float_(motor->joint_speed)) : py::object(py::none());
+  dict["joint_speed_needed_rad_per_s"] = known(motor->joint_speed_needed);
+  dict["sufficient_models"] = tuple_of(motor->sufficient_models, [](const std::string& name) { return words(name); });
+  dict["advice"] = to_python(motor->advice.alone);
+  return dict;
+}
+
+py::dict to_dict(const analysis::UnderLoad& load) {
+  py::dict dict;
+  dict["theta_error_rad"] = to_dict(load.theta_error);
+  dict["slack1_rad"] = to_tuple(load.slack1);
+  dict["slack2_rad"] = to_tuple(load.slack2);
+  dict["taut_pretension_N"] = maybe(load.taut_pretension);
+  dict["lost_at_rad"] = maybe(load.lost_at);
+  dict["safety_factor"] = maybe(load.safety_factor());
+  dict["motor"] = to_object(load.motor);
   return dict;
 }
 
@@ -430,6 +463,8 @@ py::dict to_python(std::shared_ptr<const pipeline::BuildResult> result) {
   dict["synthesis"] = to_dict(kept, product.synthesis);
   dict["mesh"] = to_dict(kept, product.pulley.mesh);
   dict["as_built"] = to_dict(kept, product.as_built);
+  dict["under_load"] =
+      product.under_load.rows.empty() ? py::object(py::none()) : py::object(to_dict(product.under_load));
   dict["checks"] = to_python(product.checks);
   dict["conditions"] = to_python(product.synthesis.made() ? product.pulley.conditions : product.synthesis.conditions);
   dict["advice"] = to_python(result->advice.alone);
@@ -459,6 +494,7 @@ py::dict to_python(std::shared_ptr<const analysis::AnalysisResult> result) {
   dict["largest_paper_tension_N"] = to_dict(result->largest_paper_tension);
   dict["largest_torque_Nmm"] = to_dict(result->largest_torque);
   dict["hysteresis_rad"] = to_dict(result->hysteresis);
+  dict["theta_error_rad"] = to_dict(result->theta_error);
   dict["slack1_rad"] = to_tuple(result->slack1);
   dict["slack2_rad"] = to_tuple(result->slack2);
   dict["untensioned_rad"] = to_tuple(result->untensioned);
@@ -466,6 +502,8 @@ py::dict to_python(std::shared_ptr<const analysis::AnalysisResult> result) {
   dict["lost_at_rad"] = maybe(result->lost_at);
   dict["strength"] = to_object(result->strength);
   dict["breaks_at_rad"] = maybe(result->breaks_at);
+  dict["safety_factor"] = maybe(result->safety_factor());
+  dict["motor"] = to_object(result->motor);
   dict["sources"] = tuple_of(result->sources, [](const analysis::ErrorSource& source) { return to_dict(source); });
   dict["tolerances"] =
       tuple_of(result->tolerances, [](const analysis::ToleranceEffect& effect) { return to_dict(effect); });

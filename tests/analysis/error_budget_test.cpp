@@ -27,7 +27,7 @@ TEST(RigidJoint, ReproducesTargetMotion) {
     for (const double theta : {-0.3, 0.0, 0.4}) {
       const RigidPoint point = as_declared(mechanism).at(transmission.alpha(theta));
       EXPECT_NEAR(point.theta, theta, 1e-12);
-      EXPECT_NEAR(point.slack, 0.0, 1e-11);
+      EXPECT_NEAR(point.excess, 0.0, 1e-11);
     }
   }
 }
@@ -45,7 +45,7 @@ TEST(RigidJoint, DerivativesAgreeWithDifferences) {
         const double alpha = transmission.alpha(theta);
         const RigidPoint rate = derivative(as_declared(mechanism), dimension, alpha);
         EXPECT_NEAR((more.at(alpha).theta - less.at(alpha).theta) / (2 * step), rate.theta, 1e-8) << dimension.key;
-        EXPECT_NEAR((more.at(alpha).slack - less.at(alpha).slack) / (2 * step), rate.slack, 1e-6) << dimension.key;
+        EXPECT_NEAR((more.at(alpha).excess - less.at(alpha).excess) / (2 * step), rate.excess, 1e-6) << dimension.key;
       }
     }
   }
@@ -80,7 +80,7 @@ TEST(RigidJoint, DrumCentreAgreesWithDifferences) {
         const double alpha = transmission.alpha(theta);
         const RigidPoint rate = derivative(as_declared(mechanism), dimension, alpha);
         EXPECT_NEAR((more.at(alpha).theta - less.at(alpha).theta) / (2 * step), rate.theta, 1e-6) << dimension.key;
-        EXPECT_NEAR((more.at(alpha).slack - less.at(alpha).slack) / (2 * step), rate.slack, 1e-5) << dimension.key;
+        EXPECT_NEAR((more.at(alpha).excess - less.at(alpha).excess) / (2 * step), rate.excess, 1e-5) << dimension.key;
       }
     }
   }
@@ -161,7 +161,7 @@ TEST(Tolerances, MethodsAgree) {
       // Twice the standard deviation of 2000 samples: ± 5 %.
       EXPECT_NEAR(effect.theta_by_monte_carlo, effect.theta_by_derivative, 0.06 * effect.theta_by_derivative + 1e-12)
           << effect.key;
-      EXPECT_NEAR(effect.slack_by_monte_carlo, effect.slack_by_derivative, 0.06 * effect.slack_by_derivative + 1e-9)
+      EXPECT_NEAR(effect.excess_by_monte_carlo, effect.excess_by_derivative, 0.06 * effect.excess_by_derivative + 1e-9)
           << effect.key;
     }
     EXPECT_GT(effects.back().theta_by_derivative, effects.front().theta_by_derivative);

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import math
+import re
 import xml.etree.ElementTree
 
 import harness
@@ -56,6 +57,67 @@ class Analyze(harness.Scratch):
                     self.assertEqual(float(ours[name]), value, name)
         self.assertEqual(document["summary"]["largest_tension"]["tendon"], 2)
         self.assertEqual(document["tolerances"][-1]["key"], "all")
+
+    def test_build_summary_agrees_with_analysis(self):
+        """The summary, banner and manifest of build have the figures of analyze, to every printed digit."""
+        for strain in ("--set load.tip_force_N=10", "--set load.tip_force_N=-12 --set guides.friction=0.3", "--set tendon.pretension_N=40",
+                       "--set load.torque_Nmm=700 --set motor.travel_deg=180 --set motor.stall_torque_Nmm=300"):
+            with self.subTest(strain):
+                document = self.expect_json(f"analyze arm.toml --samples 10 {strain}", 0)
+                told, motor = document["summary"], document.get("motor")
+                built = self.expect_json(f"build arm.toml --force {strain}", 0)
+                manifest = json.loads((self.folder / "out/arm/manifest.json").read_bytes())
+                for load in (built["under_load"], manifest["under_load"]):
+                    self.assertEqual(load["max_theta_error_deg"], told["theta_error"]["value_deg"])
+                    self.assertEqual(load["max_theta_error_at_alpha_deg"], told["theta_error"]["alpha_deg"])
+                    self.assertEqual((load["slack1"], load["slack2"]), (told["slack1_alpha_deg"], told["slack2_alpha_deg"]))
+                    self.assertEqual(load["taut_pretension_N"], told["taut_pretension_N"])
+                    self.assertEqual(load["safety_factor"], told["safety_factor"])
+                self.assertEqual(built.get("motor"), motor)
+                self.assertEqual(manifest.get("motor"), motor)
+                text = self.expect(f"build arm.toml --dry-run {strain}", 0).stdout.decode()
+                error = re.search(r"theta up to ([\d.e-]+) deg off, alpha = (-?[\d.]+) deg", text)
+                self.assertEqual(error[1], f"{told['theta_error']['value_deg']:.3g}")
+                self.assertEqual(error[2], f"{told['theta_error']['alpha_deg']:.1f}")
+                self.assertIn(f"safety factor {told['safety_factor']:.3g}", text)
+                if told["taut_pretension_N"]:
+                    self.assertIn(f"tendon.pretension_N >= {told['taut_pretension_N']:.3g} keeps it taut", text)
+                else:
+                    self.assertNotIn("slack", text)
+                if motor:
+                    self.assertIn(f"travel {motor['travel']['needed_deg']:.4g} of 180 deg", text)
+                    self.assertIn(f"torque {motor['torque']['needed_Nmm']:.4g} of 300 Nmm", text)
+                banner = re.search(r'class="verdict.*?</p>', (self.folder / "out/arm/report.html").read_text(), re.S)[0]
+                self.assertIn(f"{told['theta_error']['value_deg']:.3g}", banner)
+
+    def test_advice_stands_in_cell_of_slack_tendon(self):
+        self.expect("analyze arm.toml -o slack.html --samples 10 --set load.tip_force_N=10", 0)
+        cells = re.findall(r"<dt>(.*?)</dt><dd>(.*?)</dd>", (self.folder / "slack.html").read_text(), re.S)
+        cells = {title: text for title, text in cells}
+        self.assertIn("pretension_N", cells["Tendon 1 slack"])
+        self.assertIn("over the whole range", cells["Tendon 1 slack"])
+        self.assertNotIn("pretension_N", cells["Tendon 2 slack"])
+
+    def test_motor_is_compared(self):
+        short = "--set motor.travel_deg=180"
+        self.expect(f"analyze arm.toml --samples 10 {short}", 0, r"motor +travel 236\.\d of 180 deg.*suitable: ",
+                    "warning: the motor turns 180 deg, and the range requires 236\\.\\d deg.*make r1 ≥ .*of the catalogue")
+        self.expect(f"analyze arm.toml --samples 10 {short} --set motor.enforce=true", 4, "Summary", "error: the motor turns 180 deg")
+        self.expect("analyze arm.toml --samples 10 --set motor.model=MG996R --set motor.speed_rpm=60 --set motor.travel_deg=300", 0,
+                    "MG996R: travel .*joint turns at .* deg/s under the load", "^$")
+
+    def test_strict_turns_warnings_into_failure(self):
+        warned = "--set motor.travel_deg=180"
+        for command in ("analyze arm.toml --samples 10 -o a.csv", "build arm.toml -o parts"):
+            with self.subTest(command):
+                self.expect(f"{command} --strict --force", 0)
+                self.expect(f"{command} --strict --force {warned}", 5, ".", "exit code 5 because of 1 warning")
+                self.assertEqual(self.expect_json(f"{command} --strict --force {warned}", 5)["ok"], False)
+                self.expect(f"{command} --force {warned}", 0)
+        self.assertTrue((self.folder / "parts/manifest.json").exists())
+        (self.folder / "inch.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+        self.expect("check inch.obj", 0, "valid", "inches")
+        self.expect("check inch.obj --strict", 5, "valid", "because of 1 warning")
 
     def test_files_are_complete_and_protected(self):
         self.expect("analyze arm.toml -o stroke.csv --samples 10", 0)

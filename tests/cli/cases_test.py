@@ -150,7 +150,7 @@ CASES = [
     ("analyze arm.toml --samples many", 2, "^$", "'many' is not"),
     ("analyze missing.toml", 3, "^$", "missing.toml"),
     ("analyze arm.toml --set load.mass_kg=-1", 3, "^$", "mass_kg"),
-    ("analyze arm.toml --set tendon.pretension_N=0", 0, "Summary", "warning: both tendons are slack, alpha = .*nothing holds.*pretension_N >="),
+    ("analyze arm.toml --set tendon.pretension_N=0", 0, "Summary", "warning: both tendons are slack over the whole range: nothing holds.*pretension_N >="),
     ("analyze arm.toml --set joint.range_deg=[-30,60]", 4, "^$", "at θ = 53.58°, α = 199°.*dead centre.*try "),
     ("analyze arm.toml --set tendon.modulus_MPa=30 --set load.tip_force_N=300", 5, "Summary", "past its dead centre at alpha = "),
     ("analyze arm.toml --set load.tip_force_N=900", 5, "Summary", "the tendon breaks at alpha = .*hmpe-1.0"),

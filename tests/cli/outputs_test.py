@@ -157,14 +157,14 @@ class Build(harness.Scratch):
         below, above = (groove["z_mm"] for groove in harness.json.loads((self.folder / stl).with_name("manifest.json").read_bytes())["grooves"])
         self.move(stl, "upper.stl", turn=30, keep=lambda z: z > (below + above) / 2)
         done = self.expect("rewind arm.toml upper.stl", 0, r"the file has only P2: only tendon\s+2\s+was\s+wound", "^((?!mirrored).)*$")
-        self.assertNotIn("slack within", done.stdout.decode())
+        self.assertNotIn("length within", done.stdout.decode())
         alone = self.expect_json("rewind arm.toml upper.stl", 0)
         self.assertEqual((alone["alone"], [check["name"] for check in alone["checks"]]), ("P2", ["theta_error"]))
         self.move(stl, "mirrored_upper.stl", mirror=-1, keep=lambda z: z > (below + above) / 2)
         self.expect("rewind arm.toml mirrored_upper.stl", 0, "upside down", "warning: a single groove")
         self.move(stl, "mirrored.stl", mirror=-1)
         self.expect("rewind arm.toml mirrored.stl", 3, "^$", "mirrored.stl: error: the part is the mirror image.*--as-is")
-        self.expect("rewind arm.toml mirrored.stl --as-is", 5, "mirrored.stl: theta within", "check 'slack' failed")
+        self.expect("rewind arm.toml mirrored.stl --as-is", 5, "mirrored.stl: theta within", "check 'excess_length' failed")
         self.expect(f"rewind arm.toml {stl} --as-is", 0, "^pulley.stl: theta within", "^$")
 
     def test_tight_limits_fail_build(self):

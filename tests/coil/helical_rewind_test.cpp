@@ -138,7 +138,7 @@ TEST(HelicalRewind, MatchesClosedForm) {
         return RoundCapstan::radius * alpha * std::hypot(1.0, joint.slope) +
                std::hypot(planar, end2 - joint.take_off(joint.p2, alpha));
       };
-      EXPECT_NEAR(point.slack, length2(0, joint.free2) - length2(point.alpha, free2), 0.002) << degrees(point.alpha);
+      EXPECT_NEAR(point.excess, length2(0, joint.free2) - length2(point.alpha, free2), 0.002) << degrees(point.alpha);
     }
     EXPECT_NEAR(degrees(wound.max_fleet), degrees(fleet), 0.03);
     EXPECT_GT(degrees(wound.result.max_theta_error), aside > 0 ? 0.1 : 0.02);

@@ -33,7 +33,7 @@ TEST(ProfileLaws, AcceptedProfilesRewindToLaw) {
     RC_ASSERT(is_convex(floor2));
     const profile::RewindResult wound = profile::rewind(mechanism, floor1, floor2);
     RC_ASSERT(degrees(wound.max_theta_error) < 0.05);
-    RC_ASSERT(wound.max_slack < 0.05);
+    RC_ASSERT(wound.max_excess < 0.05);
     return true;
   });
 }
@@ -50,7 +50,7 @@ bool rewinds_to_its_law(const Mechanism& mechanism) {
   // At a fifth of the arm, position errors are five times as large.
   const profile::RewindResult wound = profile::rewind(mechanism, floor1, floor2);
   RC_ASSERT(degrees(wound.max_theta_error) < 0.02);
-  RC_ASSERT(wound.max_slack < 0.005 * mechanism.joint.R);
+  RC_ASSERT(wound.max_excess < 0.005 * mechanism.joint.R);
   return true;
 }
 

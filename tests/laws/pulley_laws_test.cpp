@@ -31,7 +31,7 @@ TEST(PulleyLaws, AcceptedPulleysAreValidAndRewind) {
     const Polygon floor2 = solid::outer_loop(solid::section(pulley.mesh, pulley.layout.z_p2));
     const profile::RewindResult wound = profile::rewind(mechanism, floor1, floor2);
     RC_ASSERT(degrees(wound.max_theta_error) < 0.05);
-    RC_ASSERT(wound.max_slack < 0.05);
+    RC_ASSERT(wound.max_excess < 0.05);
     return true;
   });
 }

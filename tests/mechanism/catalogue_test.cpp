@@ -44,6 +44,10 @@ TEST(Catalogue, KeysOfHornsAndShaftsAreKnown) {
   const std::vector<std::string> words{"name", "description", "source"};
   for (const std::string& key : lines("horns.toml"))
     EXPECT_TRUE(find_field("horn." + key) != nullptr || testing::Value(words, Contains(key))) << key;
+  const std::vector<std::string> of_motors{"fits", "travel_deg", "stall_torque_Nmm", "speed_deg_per_s", "holds"};
+  const std::vector<std::string> motors = lines("motors.toml");
+  for (auto key = std::find(motors.rbegin(), motors.rend(), "head_mm").base(); key != motors.end(); ++key)
+    EXPECT_TRUE(testing::Value(words, Contains(*key)) || testing::Value(of_motors, Contains(*key))) << *key;
   for (const std::string& key : lines("shafts.toml"))
     EXPECT_TRUE(key == "diameter_mm" || key == "flat_mm" || testing::Value(words, Contains(key))) << key;
 }
@@ -83,6 +87,46 @@ TEST(Catalogue, BearingsBoardsAndMotorsAreConsistent) {
     } else {
       EXPECT_GT(type.hole_front - 0.5 * type.hole, type.front) << type.name;
       EXPECT_GT(type.hole_back - 0.5 * type.hole, type.back) << type.name;
+    }
+  }
+}
+
+// Torque times speed is at most four times the power of a motor of this size, and a misspelt key would be no limit.
+TEST(Catalogue, MotorModelsHaveFiguresAndSources) {
+  ASSERT_GT(motor_models().size(), 20u);
+  for (const MotorModel& model : motor_models()) {
+    EXPECT_EQ(find_motor_model(model.name), &model) << "a name occurs twice";
+    EXPECT_GT(model.stall_torque, 1) << model.name;
+    EXPECT_TRUE(model.travel == 0 || model.travel >= radians(90)) << model.name;
+    EXPECT_TRUE(model.speed == 0 || (degrees(model.speed) > 60 && degrees(model.speed) < 5000)) << model.name;
+    EXPECT_LT(model.stall_torque / 1000 * model.speed / 4, 200) << model.name << ": W";
+    EXPECT_TRUE(testing::Value(model.source, testing::ContainsRegex("rpm|s/60 deg|holding torque|no figure found")))
+        << model.name;
+    for (const std::string& name : model.fits)
+      EXPECT_TRUE(find_shaft(name) != nullptr || find_horn(name) != nullptr) << model.name << " " << name;
+  }
+  EXPECT_EQ(find_motor_model("none"), nullptr);
+}
+
+// Speeds are given as rpm or s/60° in the source, torques as kgf·cm, kgf·mm, N·m or N·cm: the first number of each.
+TEST(Catalogue, MotorModelsAgreeWithTheirSources) {
+  for (const MotorModel& model : motor_models()) {
+    const std::string text = model.source;
+    const auto before = [&text](const std::string& unit) -> double {
+      const std::size_t at = text.find(unit);
+      if (at == std::string::npos) return 0;
+      const std::size_t begin = text.find_last_not_of("0123456789.", at - 1);
+      return std::stod(text.substr(begin + 1, at - begin - 1));
+    };
+    const double torque = std::max(
+        {98.0665 * before(" kgf·cm"), 9.80665 * before(" kgf·mm"), 1000 * before(" N·m"), 10 * before(" N·cm")});
+    if (torque > 0) {
+      EXPECT_NEAR(model.stall_torque / torque, 1, 2e-3) << model.name;
+    }
+    const double turn = before(" s/60 deg");
+    const double speed = turn > 0 ? 60 / turn : 6 * before(" rpm");
+    if (speed > 0) {
+      EXPECT_NEAR(degrees(model.speed) / speed, 1, 2e-3) << model.name;
     }
   }
 }

@@ -70,6 +70,12 @@ TEST(Explain, ShowsCatalogueEntries) {
   EXPECT_THAT(shaft_words, HasSubstr("3 mm, 2.5 mm over the flat"));
   EXPECT_THAT(explain("tendon.modulus_MPa"), HasSubstr("steel-7x19-2.4"));
   EXPECT_THAT(explain("material.name"), HasSubstr("PETG"));
+  const std::string motor_words = with_whole_entries(explain("motor.model"));
+  for (const MotorModel& model : motor_models()) {
+    EXPECT_THAT(motor_words, HasSubstr("    " + model.name + ": "));
+    EXPECT_THAT(motor_words, HasSubstr(". " + model.source + "\n"));
+  }
+  EXPECT_THAT(motor_words, HasSubstr("MG996R: 180 deg, 1078.7 Nmm at stall, 429 deg/s."));
 }
 
 TEST(Explain, SuggestsNearestKey) {
@@ -87,6 +93,8 @@ TEST(Explain, JsonContainsEveryField) {
   EXPECT_EQ(json["catalogue"]["horns"].size(), horns().size());
   EXPECT_EQ(json["catalogue"]["horns"][0]["bolt_circle_mm"], 16.66);
   EXPECT_EQ(json["catalogue"]["shafts"].size(), shafts().size());
+  EXPECT_EQ(json["catalogue"]["motors"].size(), motor_models().size());
+  EXPECT_EQ(json["catalogue"]["motors"][0]["travel_deg"], 180.0);
   EXPECT_EQ(nlohmann::json::parse(explain_json("EF_mm"))["fields"][0]["unit"], "mm");
 }
 

@@ -22,9 +22,8 @@ TEST(Fields, NamesAreUniqueAndFound) {
 
 TEST(Fields, NamesIncludeUnits) {
   for (const Field& field : fields()) {
-    const std::string unit = field.unit == "%"      ? "percent"
-                             : field.unit == "N/mm" ? "N_per_mm"
-                                                    : std::string(field.unit);
+    std::string unit = field.unit == "%" ? "percent" : std::string(field.unit);
+    if (const std::size_t slash = unit.find('/'); slash != std::string::npos) unit.replace(slash, 1, "_per_");
     EXPECT_TRUE(unit.empty() || field.key.ends_with("_" + unit)) << field.name();
   }
 }

@@ -154,6 +154,26 @@ TEST(Reader, ReadsIdlers) {
   EXPECT_THAT(only_error(idlers, {{"guides.kind", "roller"}}), HasSubstr("guides.kind = \"roller\" is not known"));
 }
 
+TEST(Reader, ReadsMotor) {
+  EXPECT_FALSE(parse_mechanism(k_good_file, "f.toml").motor.is_there());
+  const auto motor = [](const std::string& keys) { return with("[tendon]\n", "[motor]\n" + keys + "[tendon]\n"); };
+  const DeclaredMechanism m = parse_mechanism(
+      motor("model = \"MG996R\"\ntravel_deg = 120\nspeed_rpm = 55\njoint_speed_deg_per_s = 90\nenforce = true\n"),
+      "f.toml");
+  EXPECT_EQ(m.motor, (Motor{"MG996R", radians(120), 0, radians(330), radians(90), true}));
+  EXPECT_THAT(write_mechanism(m), HasSubstr("speed_deg_per_s = 330\n"));
+  EXPECT_EQ(parse_mechanism(write_mechanism(m), "g.toml"), m);
+  EXPECT_THAT(only_error(motor("model = \"mg996r\"\n")), HasSubstr("did you mean \"MG996R\"?"));
+  EXPECT_THAT(only_error(motor("travel_deg = 0\n")), HasSubstr("motor.travel_deg = 0 deg is out of range"));
+  EXPECT_THAT(only_error(motor("stall_torque_Nmm = \"strong\"\n")), HasSubstr("must be a number in Nmm"));
+  EXPECT_THAT(only_error(motor("speed_deg_per_s = 300\nspeed_rpm = 50\n")), HasSubstr("both define the motor's speed"));
+  EXPECT_THAT(only_error(motor("enforce = true\n")), HasSubstr("has no limit to enforce"));
+  std::vector<Diagnostic> warnings;
+  parse_mechanism(motor("travel_deg = 180\njoint_speed_deg_per_s = 90\n"), "f.toml", ".", {}, &warnings);
+  ASSERT_THAT(warnings, SizeIs(1));
+  EXPECT_THAT(warnings[0].message, HasSubstr("the motor's speed is unknown"));
+}
+
 TEST(Reader, RejectsRangeWithoutHome) {
   EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[10, 20]")),
               HasSubstr("5:13 joint.range_deg = [10, 20] deg does not include home"));

@@ -374,9 +374,68 @@ TEST_F(Build, PaperMethodReportsSlack) {
   file_.mechanism.pulley.method = Method::paper;
   const pipeline::BuildResult built = pipeline::build(file_, options_);
   EXPECT_EQ(built.status, pipeline::BuildStatus::done);
-  EXPECT_GT(built.product.as_built.max_slack, 0.05);
-  EXPECT_THAT(names_of(built.product.checks),
-              ::testing::AllOf(::testing::Contains("slack_reported"), ::testing::Not(::testing::Contains("slack"))));
+  EXPECT_GT(built.product.as_built.max_excess, 0.05);
+  EXPECT_THAT(names_of(built.product.checks), ::testing::AllOf(::testing::Contains("excess_length_reported"),
+                                                               ::testing::Not(::testing::Contains("excess_length"))));
+}
+
+// The range requires 236.8° of the motor.
+TEST_F(Build, MotorAdviceIsTriedWithFullBuild) {
+  file_.mechanism.motor.travel = radians(180);
+  options_.dry_run = true;
+  const pipeline::BuildResult built = pipeline::build(file_, options_);
+  EXPECT_EQ(built.status, pipeline::BuildStatus::done) << "a warning unless the motor is enforced";
+  const analysis::MotorCheck& motor = *built.product.under_load.motor;
+  EXPECT_FALSE(motor.ok());
+  ASSERT_THAT(motor.advice.alone, Not(IsEmpty()));
+  EXPECT_THAT(motor.advice.alone, Contains(Field(&profile::Change::key, "pulley.r1_mm")));
+  EXPECT_THAT(built.product.file.warnings, Contains(Field(&Diagnostic::message, HasSubstr("turns 180 deg"))));
+  for (const profile::Change& change : motor.advice.alone) {
+    MechanismFile changed = file_;
+    find_number_key(change.key)->set(changed.mechanism, change.to);
+    const pipeline::BuildResult better = pipeline::build(changed, options_);
+    EXPECT_EQ(better.status, pipeline::BuildStatus::done) << change.text;
+    EXPECT_TRUE(better.product.under_load.motor->ok()) << change.text;
+  }
+  // analyze finds the same.
+  const analysis::AnalysisResult analysed = pipeline::analyze(file_);
+  ASSERT_TRUE(analysed.motor);
+  EXPECT_EQ(analysed.motor->travel, motor.travel);
+  ASSERT_EQ(analysed.motor->advice.alone.size(), motor.advice.alone.size());
+  EXPECT_EQ(analysed.motor->advice.alone.front().text, motor.advice.alone.front().text);
+}
+
+TEST_F(Build, EnforcedMotorRefusesJoint) {
+  file_.mechanism.motor.travel = radians(180);
+  file_.mechanism.motor.enforce = true;
+  const pipeline::BuildResult built = pipeline::build(file_, options_);
+  EXPECT_EQ(built.status, pipeline::BuildStatus::infeasible);
+  EXPECT_THAT(built.product.pulley.conditions, Contains(Field(&profile::Condition::name, "motor_travel")));
+  EXPECT_THAT(built.advice.alone, Not(IsEmpty()));
+  EXPECT_THAT(names_in(scratch_), IsEmpty());
+  file_.mechanism.motor.travel = radians(300);
+  EXPECT_EQ(pipeline::build(file_, options_).status, pipeline::BuildStatus::done);
+}
+
+// An infeasible pulley with an enforced motor: the advice suits both.
+TEST_F(Build, AdviceOnPulleySuitsEnforcedMotor) {
+  file_.mechanism.pulley.r1 = 60;
+  file_.mechanism.motor.travel = radians(300);
+  file_.mechanism.motor.enforce = true;
+  const pipeline::BuildResult built = pipeline::build(file_, options_);
+  ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
+  for (const profile::Change& change : built.advice.alone) {
+    MechanismFile changed = file_;
+    find_number_key(change.key)->set(changed.mechanism, change.to);
+    EXPECT_EQ(pipeline::build(changed, options_).status, pipeline::BuildStatus::done) << change.text;
+  }
+}
+
+TEST_F(Build, FilesWithoutMotorDoNotMentionOne) {
+  options_.dry_run = true;
+  const pipeline::BuildResult built = pipeline::build(file_, options_);
+  EXPECT_FALSE(built.product.under_load.motor);
+  EXPECT_THAT(built.outputs.back().bytes, Not(HasSubstr("\"motor\"")));
 }
 
 class Profiles : public Build, public ::testing::WithParamInterface<fs::path> {};

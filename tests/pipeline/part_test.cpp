@@ -73,18 +73,18 @@ TEST_F(MadePart, DetectsSmallPrint) {
 }
 
 TEST_F(MadePart, DetectsEccentricBore) {
-  EXPECT_THAT(failures(changed([](Vec3& v) { v.x() += 0.2; })), ElementsAre("theta_error", "slack"));
+  EXPECT_THAT(failures(changed([](Vec3& v) { v.x() += 0.2; })), ElementsAre("theta_error", "excess_length"));
 }
 
 TEST_F(MadePart, DetectsMirroring) {
-  EXPECT_THAT(failures(changed([](Vec3& v) { v.x() = -v.x(); })), Contains("slack"));
+  EXPECT_THAT(failures(changed([](Vec3& v) { v.x() = -v.x(); })), Contains("excess_length"));
 }
 
 TEST_F(MadePart, DetectsTurnOnShaft) {
   // The profile meets the tendons at the wrong place.
   const double c = std::cos(radians(5.0)), s = std::sin(radians(5.0));
   EXPECT_THAT(failures(changed([&](Vec3& v) { v.head<2>() = Vec2(c * v.x() - s * v.y(), s * v.x() + c * v.y()); })),
-              Contains("slack"));
+              Contains("excess_length"));
 }
 
 TEST_F(MadePart, RejectsPartWithoutGrooves) {
@@ -110,7 +110,7 @@ TEST_F(MadePart, UnmovedPartIsNotChanged) {
   EXPECT_THAT(part.placements, IsEmpty());
   const profile::RewindResult as_it_lies = pipeline::rewind_part({*mechanism_, {}}, *mesh_);
   EXPECT_EQ(part.as_built.max_theta_error, as_it_lies.max_theta_error);
-  EXPECT_EQ(part.as_built.max_slack, as_it_lies.max_slack);
+  EXPECT_EQ(part.as_built.max_excess, as_it_lies.max_excess);
 }
 
 TEST_F(MadePart, MovedPartHasSameAngles) {
@@ -124,7 +124,7 @@ TEST_F(MadePart, MovedPartHasSameAngles) {
       EXPECT_EQ(part.placements[0].turned_over, over);
       for (std::size_t i = 0; i < unmoved.points.size(); ++i)
         EXPECT_NEAR(degrees(part.as_built.points[i].theta), degrees(unmoved.points[i].theta), 1e-4);
-      EXPECT_NEAR(part.as_built.max_slack, unmoved.max_slack, 1e-4);
+      EXPECT_NEAR(part.as_built.max_excess, unmoved.max_excess, 1e-4);
     }
   }
 }
@@ -176,7 +176,7 @@ TEST_F(MadePart, FindsPulleysSideBySide) {
       pipeline::rewind_moved_part({*mechanism_, {}}, put(upper, true, 70, Vec3(60, 0, 20)));
   EXPECT_EQ(p2.alone, transmission::Side::right);
   EXPECT_LT(degrees(p2.as_built.max_theta_error), 0.01);
-  EXPECT_EQ(p2.as_built.max_slack, 0);
+  EXPECT_EQ(p2.as_built.max_excess, 0);
 
   solid::TriangleMesh both = put(lower, false, 10, Vec3(-40, 7, 0));
   const solid::TriangleMesh other = put(upper, true, 70, Vec3(60, 0, 20));
@@ -187,7 +187,7 @@ TEST_F(MadePart, FindsPulleysSideBySide) {
   ASSERT_EQ(part.placements.size(), 2u);
   EXPECT_FALSE(part.alone);
   EXPECT_LT(degrees(part.as_built.max_theta_error), 0.01);
-  EXPECT_LT(part.as_built.max_slack, 0.01);
+  EXPECT_LT(part.as_built.max_excess, 0.01);
 }
 
 TEST_F(MadePart, ReportsPartOfAnotherMechanism) {
@@ -251,7 +251,7 @@ TEST_F(MadePart, DrawingHasSameAngles) {
   // Chord error of the polygons: 0.01 mm of tendon is 0.01° here.
   EXPECT_NEAR(degrees(by_floors.max_theta_error), degrees(by_pitches.max_theta_error), 0.005);
   std::swap(floors.paths[0].layer, floors.paths[1].layer);
-  EXPECT_THAT(failures(floors), Contains("slack"));
+  EXPECT_THAT(failures(floors), Contains("excess_length"));
 }
 
 TEST_F(MadePart, RejectsDrawingWithoutLayers) {

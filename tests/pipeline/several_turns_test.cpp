@@ -68,7 +68,7 @@ TEST_P(SeveralTurns, FollowTargetMotion) {
   ASSERT_TRUE(built.product.helix);
   EXPECT_GT(built.product.helix->synthesis.sides[0].turns, 2.5);
   EXPECT_LT(degrees(built.product.as_built.max_theta_error), 0.0005);
-  EXPECT_LT(built.product.as_built.max_slack, 0.02);
+  EXPECT_LT(built.product.as_built.max_excess, 0.02);
   EXPECT_LT(degrees(built.product.helix->as_built.max_fleet), 2.0);
 }
 

@@ -24,7 +24,7 @@ TEST(Rewind, ReproducesTargetMotion) {
     ASSERT_TRUE(fine.made()) << fine.brief();
     const RewindResult result = wound(mechanism, fine);
     EXPECT_LT(degrees(result.max_theta_error), 2e-6);
-    EXPECT_LT(result.max_slack, 2e-6);
+    EXPECT_LT(result.max_excess, 2e-6);
   }
 }
 
@@ -41,7 +41,7 @@ TEST(Rewind, DetectsWrongTurningSense) {
   Polygon wrong;
   for (const Vec2& point : parallel(made.p2, -0.5)) wrong.insert(wrong.begin(), Vec2(-point.x(), point.y()));
   const RewindResult result = rewind(forearm(), parallel(made.p1, -0.5), wrong);
-  EXPECT_GT(result.max_slack, 1.0);
+  EXPECT_GT(result.max_excess, 1.0);
 }
 
 TEST(Rewind, DetectsScaledAndTurnedPulley) {
@@ -53,7 +53,7 @@ TEST(Rewind, DetectsScaledAndTurnedPulley) {
   const Vec2 by = unit(radians(3));
   for (Vec2& point : turned)
     point = Vec2(by.x() * point.x() - by.y() * point.y(), by.y() * point.x() + by.x() * point.y());
-  EXPECT_GT(rewind(forearm(), parallel(made.p1, -0.5), turned).max_slack, 0.05);
+  EXPECT_GT(rewind(forearm(), parallel(made.p1, -0.5), turned).max_excess, 0.05);
 }
 
 TEST(Rewind, DetectsMovedSheathExit) {

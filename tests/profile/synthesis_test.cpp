@@ -129,7 +129,7 @@ TEST(Synthesis, ReproducesSlackOfPolarDrawing) {
   ASSERT_TRUE(result.made()) << result.brief();
   EXPECT_TRUE(result.warnings.empty());
   const RewindResult wound = rewind(mechanism, parallel(result.p1, -0.005), parallel(result.p2, -0.005));
-  EXPECT_NEAR(wound.max_slack, 0.30, 0.01);  // known value: −0.30 … +0.20 mm
+  EXPECT_NEAR(wound.max_excess, 0.30, 0.01);  // known value: −0.30 … +0.20 mm
 }
 
 TEST(Synthesis, BridgesAndReportsHollowPolarDrawing) {
@@ -144,7 +144,7 @@ TEST(Synthesis, BridgesAndReportsHollowPolarDrawing) {
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_NE(result.warnings.front().find("hollow"), std::string::npos);
   const RewindResult wound = rewind(mechanism, parallel(result.p1, -0.005), parallel(result.p2, -0.005));
-  EXPECT_GT(wound.max_slack, 5.0);  // known value: −6 … +17 mm at ±35°, where a tendon would leave its pin
+  EXPECT_GT(wound.max_excess, 5.0);  // known value: −6 … +17 mm at ±35°, where a tendon would leave its pin
 }
 
 TEST(Synthesis, BriefReportsStrokeAndRadii) {

@@ -106,6 +106,22 @@ class Agreement(harness.Scratch):
         self.assertEqual([row["alpha_deg"] for row in said["rows"]], [math.degrees(alpha) for alpha in mine.declared.alpha_rad])
         self.assertEqual([row["r2_mm"] for row in said["rows"]], list(mine.declared.r2_mm))
         self.assertEqual(len(said["tolerances"]), len(mine.tolerances))
+        self.assertEqual(said["summary"]["theta_error"]["value_deg"], math.degrees(mine.theta_error_rad.value))
+        self.assertEqual(said["summary"]["safety_factor"], mine.safety_factor)
+        self.assertIsNone(mine.motor)
+
+    def test_motor_and_load(self):
+        said = self.expect_json("build arm.toml --dry-run --set load.tip_force_N=10 --set motor.model=MG996R", 0)
+        joint = self.arm.with_({"load.tip_force_N": 10, "motor.model": "MG996R"})
+        mine = fusee.build(joint).under_load
+        self.assertEqual(said["under_load"]["max_theta_error_deg"], math.degrees(mine.theta_error_rad.value))
+        self.assertEqual(said["under_load"]["slack1"], [[math.degrees(a) for a in part] for part in mine.slack1_rad])
+        self.assertEqual(said["motor"]["travel"]["needed_deg"], math.degrees(mine.motor.travel_rad))
+        self.assertEqual(tuple(said["motor"]["sufficient_models"]), mine.motor.sufficient_models)
+        self.assertEqual([change["to"] for change in said["motor"]["advice"]], [change.to for change in mine.motor.advice])
+        self.assertFalse(mine.motor.ok)
+        self.assertIsNone(joint["motor.travel_deg"])
+        self.assertEqual(fusee.build(joint.with_({"motor.enforce": True})).status, "infeasible")
 
     def test_optimize(self):
         with open("arm.toml", "a") as file:

@@ -33,6 +33,7 @@ from ._values import (
     Knot,
     LargestTension,
     Mesh,
+    Motor,
     NextMeasurement,
     Optimum,
     Outline,
@@ -50,6 +51,7 @@ from ._values import (
     Synthesis,
     Table,
     ToleranceEffect,
+    UnderLoad,
     Winding,
 )
 from ._verbs import Log, analyze, build, calibrate, check, compare, kit, optimize, plan, rewind, simulate, synthesise
@@ -78,6 +80,7 @@ __all__ = [
     "Log",
     "Mechanism",
     "Mesh",
+    "Motor",
     "NextMeasurement",
     "Optimum",
     "Outline",
@@ -96,6 +99,7 @@ __all__ = [
     "Synthesis",
     "Table",
     "ToleranceEffect",
+    "UnderLoad",
     "Winding",
     "__version__",
     "analyze",

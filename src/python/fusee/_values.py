@@ -236,10 +236,10 @@ class Winding(Value):
     alpha_rad: Numbers
     theta_declared_rad: Numbers
     theta_rad: Numbers
-    slack_mm: Numbers  #: of tendon 2
+    slack_mm: Numbers  #: excess length of tendon 2
     max_theta_error_rad: float
     max_theta_error_at_rad: float  #: α
-    max_slack_mm: float
+    max_slack_mm: float  #: largest excess length
     max_slack_at_rad: float  #: α
 
 
@@ -248,7 +248,7 @@ class Rewound(Winding):
     """Result of rewinding a part from a file."""
 
     place: str  #: "as_made", "found" (it was moved) or "not_recognised" (wound in its present position)
-    alone: Optional[str]  #: "left" or "right" if the file has only that pulley; slack is unknown then
+    alone: Optional[str]  #: "left" or "right" if the file has only that pulley; the excess length is unknown then
     placements: Tuple[Placement, ...]
     checks: Tuple[Check, ...]
 
@@ -278,6 +278,46 @@ class Knot(Value):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class Extreme(Value):
+    """A largest value, in the unit of its name, and its place."""
+
+    value: float
+    alpha_rad: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Motor(Value):
+    """What the joint requires of its motor, beside the motor's limits. None: the limit is unknown."""
+
+    model: str  #: of the catalogue; "" for a motor with numbers of its own
+    enforced: bool
+    ok: bool  #: no known limit is exceeded
+    travel_rad: float  #: required
+    travel_limit_rad: Optional[float]
+    torque_Nmm: float  #: required: the largest under the load
+    torque_at_rad: float  #: α
+    torque_limit_Nmm: Optional[float]
+    speed_limit_rad_per_s: Optional[float]  #: of the motor without load
+    joint_speed_rad_per_s: Optional[float]  #: the lowest that the joint reaches under the load
+    joint_speed_needed_rad_per_s: Optional[float]
+    sufficient_models: Tuple[str, ...]  #: of the catalogue
+    advice: Tuple[Change, ...]  #: each change suffices alone
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class UnderLoad(Value):
+    """The joint under [load] and [spring], beside the geometry that ``as_built`` describes."""
+
+    theta_error_rad: Extreme  #: from the declared law, in either direction
+    slack1_rad: Tuple[Tuple[float, float], ...]  #: parts of α where tendon 1 is without tension
+    slack2_rad: Tuple[Tuple[float, float], ...]
+    taut_pretension_N: Optional[float]  #: keeps a slack tendon taut
+    lost_at_rad: Optional[float]  #: α without equilibrium
+    safety_factor: Optional[float]  #: against breaking; None if the tendon's strength is unknown
+    motor: Optional[Motor]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Built(Value):
     """The checked pulley in every format, or the reasons and advice for an infeasible one."""
 
@@ -285,6 +325,7 @@ class Built(Value):
     synthesis: Synthesis
     mesh: Mesh
     as_built: Winding  #: from tendons wound on the written mesh
+    under_load: Optional[UnderLoad]  #: None without a pulley
     checks: Tuple[Check, ...]
     conditions: Tuple[Condition, ...]
     advice: Tuple[Change, ...]  #: each change suffices alone
@@ -334,14 +375,6 @@ class Forces(Value):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Extreme(Value):
-    """A largest value, in the unit of its name in Analysis, and its place."""
-
-    value: float
-    alpha_rad: float
-
-
-@dataclass(frozen=True, eq=False, repr=False)
 class LargestTension(Value):
     tension_N: float
     alpha_rad: float
@@ -369,7 +402,7 @@ class ToleranceEffect(Value):
     theta_by_derivative_rad: float
     theta_by_monte_carlo_rad: float
     theta_at_rad: float
-    slack_by_derivative_mm: float
+    slack_by_derivative_mm: float  #: excess length of tendon 2
     slack_by_monte_carlo_mm: float
     slack_at_rad: float
 
@@ -397,13 +430,16 @@ class Analysis(Value):
     largest_paper_tension_N: Extreme
     largest_torque_Nmm: Extreme
     hysteresis_rad: Extreme
-    slack1_rad: Tuple[Tuple[float, float], ...]  #: parts of α
+    theta_error_rad: Extreme  #: from the declared law, in either direction
+    slack1_rad: Tuple[Tuple[float, float], ...]  #: parts of α where tendon 1 is without tension
     slack2_rad: Tuple[Tuple[float, float], ...]
     untensioned_rad: Tuple[Tuple[float, float], ...]  #: parts of α where both tendons are slack
     taut_pretension_N: Optional[float]
     lost_at_rad: Optional[float]
     strength: Optional[Strength]
     breaks_at_rad: Optional[float]
+    safety_factor: Optional[float]  #: against breaking
+    motor: Optional[Motor]
     sources: Tuple[ErrorSource, ...]
     tolerances: Tuple[ToleranceEffect, ...]
     warnings: Tuple[Diagnostic, ...]

@@ -142,6 +142,17 @@ def check(part: PathLike) -> Tuple[_values.Check, ...]:
     return _each(_values.Check, heard(lambda stop: _core.check(path))["checks"])
 
 
+def _motor(row: Optional[Row]) -> Optional[_values.Motor]:
+    return None if row is None else _values.Motor(advice=_each(_values.Change, row.pop("advice")), **row)
+
+
+def _under_load(row: Optional[Row]) -> Optional[_values.UnderLoad]:
+    if row is None:
+        return None
+    error, motor = _values.Extreme(**row.pop("theta_error_rad")), _motor(row.pop("motor"))
+    return _values.UnderLoad(theta_error_rad=error, motor=motor, **row)
+
+
 def build(
     mechanism: Mechanism,
     folder: Optional[PathLike] = None,
@@ -177,6 +188,7 @@ def build(
         "synthesis": _synthesis(made.pop("synthesis")),
         "mesh": _values.Mesh(**made.pop("mesh")),
         "as_built": _values.Winding(**made.pop("as_built")),
+        "under_load": _under_load(made.pop("under_load")),
     }
     return _values.Built(**parts, **_with_values(made))
 
@@ -202,8 +214,9 @@ def analyze(mechanism: Mechanism, *, steps: int = 60, tolerance_mm: float = 0.1,
     parts: Row = {"declared": _values.Stroke(**made.pop("declared")), "paper": _values.PaperForces(**made.pop("paper"))}
     for name in ("rising", "falling"):
         parts[name] = _values.Forces(**made.pop(name))
-    for name in ("largest_at_joint_N", "largest_paper_tension_N", "largest_torque_Nmm", "hysteresis_rad"):
+    for name in ("largest_at_joint_N", "largest_paper_tension_N", "largest_torque_Nmm", "hysteresis_rad", "theta_error_rad"):
         parts[name] = _values.Extreme(**made.pop(name))
+    parts["motor"] = _motor(made.pop("motor"))
     parts["largest_tension"] = _values.LargestTension(**made.pop("largest_tension"))
     return _values.Analysis(strength=_values.Strength(**strength) if strength else None, **parts, **_with_values(made))
 

@@ -101,8 +101,8 @@ TEST(TransmissionCsv, InterpolatesRewoundPointsOnly) {
   Product product = round_product();
   auto& points = product.as_built.points;
   points.erase(points.begin() + 1);
-  points[0].slack = 0.0;
-  points[1].slack = 0.3;
+  points[0].excess = 0.0;
+  points[1].excess = 0.3;
   product.synthesis.stroke[0].alpha -= 1.0;
   const double t = (0.0 - points[0].alpha) / (points[1].alpha - points[0].alpha);
   const auto rows = cells(transmission_csv(product));

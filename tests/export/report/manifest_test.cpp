@@ -24,7 +24,7 @@ Product made_product() {
   product.pulley.layout.scale = 1.01;
   product.pulley.layout.notes = {"no hub"};
   product.as_built.max_theta_error = radians(0.01);
-  product.as_built.max_slack = 0.002;
+  product.as_built.max_excess = 0.002;
   product.checks = {at_most("theta_error", 0.01, 0.05, "deg"), exactly("euler", 0, 0, "1")};
   return product;
 }
@@ -70,7 +70,7 @@ TEST(Manifest, ExcludesMachineAndInvalidText) {
 
 TEST(Manifest, InvalidNumberIsNullAndFails) {
   Product product = made_product();
-  product.as_built.max_slack = std::numeric_limits<double>::infinity();
+  product.as_built.max_excess = std::numeric_limits<double>::infinity();
   product.checks.push_back(at_most("volume", std::numeric_limits<double>::quiet_NaN(), 1, "mm³", "nowhere"));
   const Json manifest = Json::parse(manifest_json(product, {}));
   EXPECT_TRUE(manifest["as_built"]["max_slack_mm"].is_null());

@@ -73,9 +73,9 @@ Product sample(Mechanism mechanism = forearm()) {
   }
   product.holding.loaded.resize(product.synthesis.stroke.size());
   product.as_built.max_theta_error = radians(0.004);
-  product.as_built.max_slack = 0.002;
+  product.as_built.max_excess = 0.002;
   product.checks = {exactly("open_edges", 0, 0, "1"), at_most("theta_error", 0.004, 0.05, "deg"),
-                    at_most("slack", 0.002, 0.05, "mm"), at_least("wall", 1.9, 1.2, "mm"),
+                    at_most("excess_length", 0.002, 0.05, "mm"), at_least("wall", 1.9, 1.2, "mm"),
                     at_most("obj_deviation", 0, 0.01, "mm")};
   return product;
 }
@@ -153,6 +153,26 @@ TEST(Report, ReportsSuccess) {
   EXPECT_STREQ(verdict.attribute("class").as_string(), "verdict good");
   EXPECT_THAT(words_of(verdict), HasSubstr("within 0.004° (limit 0.05°)"));
   EXPECT_THAT(words_of(verdict), HasSubstr("All 5 checks hold"));
+}
+
+TEST(Report, BannerReportsLoadAndMotor) {
+  Mechanism mechanism = forearm();
+  mechanism.load.tip_force = 10;
+  mechanism.motor.model = "MG996R";  // 180°, and the range requires 238°
+  Product product = sample(mechanism);
+  product.under_load = analysis::under_load(mechanism);
+  const auto document = parsed(report_html(product));
+  const auto verdict = document.select_node("//section[contains(@class, 'verdict')]").node();
+  EXPECT_STREQ(verdict.attribute("class").as_string(), "verdict noted");
+  EXPECT_THAT(words_of(verdict), HasSubstr("All 5 checks hold. Under 10 N, θ is off by up to 0.1"));
+  EXPECT_THAT(words_of(verdict), HasSubstr("Tendon 1 is slack over the whole range: tendon.pretension_N ≥ "));
+  EXPECT_THAT(words_of(verdict), HasSubstr("safety factor against breaking is "));
+  const std::string numbers = words_of(document.select_node("//section[@id='numbers']").node());
+  EXPECT_THAT(numbers, HasSubstr("MG996R"));
+  EXPECT_THAT(numbers, HasSubstr("° of 180° "));
+  mechanism.motor.model = "XM430-W210";
+  product.under_load = analysis::under_load(mechanism);
+  EXPECT_THAT(report_html(product), HasSubstr("verdict good"));
 }
 
 TEST(Report, ReportsFailures) {
@@ -236,8 +256,8 @@ TEST(Report, AcceptsInvalidNumbers) {
   Product product = sample();
   product.checks.push_back(at_most("deviation", k_nan, 0.01, "mm"));
   product.as_built.max_theta_error = k_nan;
-  product.as_built.max_slack = std::numeric_limits<double>::infinity();
-  for (profile::RewindPoint& point : product.as_built.points) point.slack = k_nan;
+  product.as_built.max_excess = std::numeric_limits<double>::infinity();
+  for (profile::RewindPoint& point : product.as_built.points) point.excess = k_nan;
   product.synthesis.stroke[3].t2.p = k_nan;
   product.synthesis.stroke[4].theta = -std::numeric_limits<double>::infinity();
   product.synthesis.p2.points[7].position.x() = k_nan;

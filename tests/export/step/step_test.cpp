@@ -121,7 +121,7 @@ TEST_F(HelicalStep, IsSoundSolidAndWinds) {
   const coil::HelicalRewind wound = pipeline::rewind_several_turns(helical(), inspection.helical);
   // Measured on the surfaces themselves: the error is far below that of facets.
   EXPECT_LT(degrees(wound.result.max_theta_error), 0.002);
-  EXPECT_LT(wound.result.max_slack, 0.001);
+  EXPECT_LT(wound.result.max_excess, 0.001);
 }
 
 TEST_F(HelicalStep, FloorsOfAnotherTendonAreSeen) {

@@ -1,0 +1,194 @@
+#include "analysis/motor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/text.h"
+#include "mechanism/catalogue.h"
+
+namespace fusee::analysis {
+namespace {
+
+/// Stall torque per required torque that is advised for a motor that cannot hold its stall torque. An STS3215 held half
+/// of it for an hour (TheRobotStudio/SO-ARM100, issue 134).
+constexpr double k_advised_margin = 2.0;
+/// α of a range may exceed a limit that equals it by rounding.
+constexpr double k_rounding = 1e-9;
+
+/// Torque and ratio at one place and in one direction of the stroke.
+struct Demand {
+  double alpha = 0;
+  double torque = 0;  ///< magnitude, N·mm
+  double ratio = 0;   ///< |dα/dθ|
+};
+
+std::vector<Demand> demands(const UnderLoad& load) {
+  std::vector<Demand> all;
+  for (const AnalysisRow& row : load.rows) {
+    const double ratio = 1.0 / std::abs(row.declared.g);
+    for (const joint::EquilibriumPoint* point : {&row.rising, &row.falling})
+      if (point->status != joint::EquilibriumStatus::no_equilibrium)
+        all.push_back({row.declared.alpha, std::abs(point->motor_torque), ratio});
+  }
+  return all;
+}
+
+/// Lowest speed of the joint over the stroke, with its place. Speed falls with torque, in a straight line down to
+/// stall; a motor that holds its torque reaches its speed with it. The magnitude of the torque counts: a load that
+/// drives the motor does not speed it up.
+Extreme lowest_joint_speed(const MotorModel& motor, const std::vector<Demand>& all, bool loaded) {
+  Extreme lowest{std::numeric_limits<double>::infinity(), 0};
+  for (const Demand& at : all) {
+    double share = 1;
+    if (loaded && motor.stall_torque > 0) {
+      const double used = at.torque / motor.stall_torque;
+      share = motor.holds ? (used <= 1 ? 1 : 0) : std::max(0.0, 1 - used);
+    }
+    const double speed = share * motor.speed / at.ratio;
+    if (speed < lowest.value) lowest = {speed, at.alpha};
+  }
+  return lowest;
+}
+
+bool suffices(const MotorModel& model, const MotorCheck& need, const std::vector<Demand>& all) {
+  const double margin = model.holds ? 1.0 : k_advised_margin;
+  if (model.travel > 0 && model.travel < need.travel * (1 - k_rounding)) return false;
+  if (model.stall_torque < margin * need.torque.value) return false;
+  return need.joint_speed_needed == 0 ||
+         (model.speed > 0 && lowest_joint_speed(model, all, true).value >= need.joint_speed_needed * (1 - k_rounding));
+}
+
+bool fits(const MotorModel& model, const Body& body) {
+  return std::any_of(model.fits.begin(), model.fits.end(), [&body](const std::string& name) {
+    return name == body.shaft || (body.bore == Bore::horn && name == body.horn);
+  });
+}
+
+std::vector<std::string> sufficient_models(const Mechanism& mechanism, const MotorCheck& need,
+                                           const std::vector<Demand>& all) {
+  std::vector<const MotorModel*> found;
+  for (const MotorModel& model : motor_models()) {
+    if (suffices(model, need, all)) found.push_back(&model);
+  }
+  std::stable_sort(found.begin(), found.end(), [&mechanism](const MotorModel* one, const MotorModel* other) {
+    const bool one_fits = fits(*one, mechanism.body), other_fits = fits(*other, mechanism.body);
+    return one_fits != other_fits ? one_fits : one->stall_torque < other->stall_torque;
+  });
+  std::vector<std::string> names;
+  for (const MotorModel* model : found) names.push_back(model->name);
+  return names;
+}
+
+std::string motor_words(const MotorCheck& motor) {
+  return motor.model.empty() ? "the motor" : "the motor " + motor.model;
+}
+
+profile::Condition travel_condition(const MotorCheck& motor) {
+  const double needed = degrees(motor.travel), limit = degrees(motor.travel_limit);
+  return {"motor_travel",
+          motor.travel <= motor.travel_limit * (1 + k_rounding),
+          0,
+          needed,
+          limit,
+          "deg",
+          motor_words(motor) + " turns " + rounded(limit, 4) + " deg, and the range requires " + rounded(needed, 4) +
+              " deg"};
+}
+
+profile::Condition torque_condition(const MotorCheck& motor) {
+  return {"motor_torque",
+          motor.torque.value <= motor.torque_limit,
+          motor.torque.alpha,
+          motor.torque.value,
+          motor.torque_limit,
+          "Nmm",
+          motor_words(motor) + (motor.holds ? " holds " : " stalls at ") + rounded(motor.torque_limit, 4) +
+              " Nmm, and the load requires " + rounded(motor.torque.value, 4) +
+              " Nmm at alpha = " + fixed(degrees(motor.torque.alpha), 1) + " deg"};
+}
+
+profile::Condition speed_condition(const MotorCheck& motor, double alpha) {
+  const double speed = degrees(motor.joint_speed), needed = degrees(motor.joint_speed_needed);
+  return {"motor_speed",
+          speed >= needed * (1 - k_rounding),
+          alpha,
+          speed,
+          needed,
+          "deg/s",
+          motor_words(motor) + " turns the joint under its load at " + rounded(speed, 4) + " deg/s at alpha = " +
+              fixed(degrees(alpha), 1) + " deg, and " + rounded(needed, 4) + " deg/s are required"};
+}
+
+/// The key of a condition's limit.
+std::string_view key_of(const std::string& condition) {
+  if (condition == "motor_travel") return "motor.travel_deg";
+  if (condition == "motor_torque") return "motor.stall_torque_Nmm";
+  return "motor.joint_speed_deg_per_s";
+}
+
+std::string hint_of(const MotorCheck& motor) {
+  std::string change = profile::advice_sentence(motor.advice.alone);
+  for (const profile::Change& part : motor.advice.together)
+    change += (change.empty() ? "make " : " together with ") + part.text;
+  const std::string models = motor.sufficient_models.empty() ? "no motor of the catalogue suffices"
+                                                             : "of the catalogue these suffice: " + motor.models_text();
+  return change.empty() ? models : change + "; " + models;
+}
+
+}  // namespace
+
+std::string MotorCheck::models_text() const {
+  constexpr std::size_t k_shown = 4;
+  const std::size_t shown = std::min(sufficient_models.size(), k_shown);
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i) text += (i == 0 ? "" : ", ") + sufficient_models[i];
+  return shown == sufficient_models.size() ? text
+                                           : text + " or " + std::to_string(sufficient_models.size() - shown) + " more";
+}
+
+MotorCheck travel_check(const Mechanism& mechanism, double travel) {
+  const MotorModel limits = motor_limits(mechanism.motor);
+  MotorCheck check;
+  check.model = limits.name;
+  check.enforced = mechanism.motor.enforce;
+  check.holds = limits.holds;
+  check.travel = travel;
+  check.travel_limit = limits.travel;
+  if (check.travel_limit > 0) check.conditions.push_back(travel_condition(check));
+  return check;
+}
+
+MotorCheck motor_check(const Mechanism& mechanism, const UnderLoad& load) {
+  const MotorModel limits = motor_limits(mechanism.motor);
+  const std::vector<Demand> all = demands(load);
+  MotorCheck check = travel_check(mechanism, load.rows.back().declared.alpha - load.rows.front().declared.alpha);
+  check.torque = load.largest_torque;
+  check.torque_limit = limits.stall_torque;
+  for (const Demand& at : all) check.ratio = std::max(check.ratio, at.ratio);
+  check.speed_limit = limits.speed;
+  check.joint_speed_needed = mechanism.motor.joint_speed;
+  if (check.torque_limit > 0) check.conditions.push_back(torque_condition(check));
+  if (check.speed_limit > 0 && !all.empty()) {
+    const Extreme slowest = lowest_joint_speed(limits, all, true);
+    check.joint_speed = slowest.value;
+    check.joint_speed_free = lowest_joint_speed(limits, all, false).value;
+    if (check.joint_speed_needed > 0) check.conditions.push_back(speed_condition(check, slowest.alpha));
+  }
+  check.sufficient_models = sufficient_models(mechanism, check, all);
+  return check;
+}
+
+std::vector<Diagnostic> motor_warnings(const MotorCheck& motor, const MechanismFile& file) {
+  std::vector<Diagnostic> warnings;
+  const std::vector<profile::Condition> failed = profile::failed_of(motor.conditions);
+  for (const profile::Condition& condition : failed) {
+    const bool is_written = file.places.contains(key_of(condition.name));
+    warnings.push_back({motor.enforced ? Severity::error : Severity::warning,
+                        file.place_of(is_written ? key_of(condition.name) : "motor.model"), condition.message,
+                        &condition == &failed.back() ? hint_of(motor) : ""});
+  }
+  return warnings;
+}
+
+}  // namespace fusee::analysis

@@ -1,0 +1,165 @@
+// The motor's limits beside what the joint requires, on joints whose figures are known in closed form.
+#include <gmock/gmock.h>
+
+#include "fusee/analysis.h"
+#include "mechanism/catalogue.h"
+#include "support/mechanisms.h"
+
+namespace fusee::analysis {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using testing::forearm;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::linear_wrist;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+/// θ = α/3.2 over ±25°: the motor turns 160°, and 3.2 times as fast as the joint.
+DeclaredMechanism with_motor(double travel_deg, double stall_torque, double speed_deg_per_s) {
+  DeclaredMechanism mechanism = linear_wrist();
+  mechanism.load.tip_force = 10;
+  mechanism.motor.travel = radians(travel_deg);
+  mechanism.motor.stall_torque = stall_torque;
+  mechanism.motor.speed = radians(speed_deg_per_s);
+  return mechanism;
+}
+
+std::vector<std::string> failed_names(const MotorCheck& motor) {
+  std::vector<std::string> names;
+  for (const profile::Condition& condition : profile::failed_of(motor.conditions)) names.push_back(condition.name);
+  return names;
+}
+
+TEST(Motor, NoneIsComparedWithoutTable) {
+  EXPECT_FALSE(under_load(linear_wrist()).motor);
+  EXPECT_THAT(motor_obstacles(linear_wrist()), IsEmpty());
+}
+
+TEST(Motor, RequiresTravelOfLaw) {
+  EXPECT_NEAR(degrees(under_load(with_motor(200, 0, 0)).motor->travel), 160, 1e-9);
+  EXPECT_TRUE(under_load(with_motor(160, 0, 0)).motor->ok());
+  const MotorCheck short_of = *under_load(with_motor(159.9, 0, 0)).motor;
+  EXPECT_THAT(failed_names(short_of), ElementsAre("motor_travel"));
+  EXPECT_THAT(short_of.conditions.front().message, HasSubstr("turns 159.9 deg, and the range requires 160 deg"));
+  EXPECT_THAT(motor_obstacles(with_motor(159.9, 1, 0)), SizeIs(1)) << "torque is not computed if travel fails";
+}
+
+TEST(Motor, RequiresTorqueOfAnalysis) {
+  const UnderLoad load = under_load(with_motor(0, 1e6, 0));
+  EXPECT_EQ(load.motor->torque.value, load.largest_torque.value);
+  // F R dθ/dα at home, and more by friction.
+  EXPECT_GT(load.motor->torque.value, 10.0 * 100.0 / 3.2);
+  EXPECT_LT(load.motor->torque.value, 1.3 * 10.0 * 100.0 / 3.2);
+  const double needed = load.motor->torque.value;
+  EXPECT_TRUE(under_load(with_motor(0, 1.001 * needed, 0)).motor->ok());
+  EXPECT_THAT(failed_names(*under_load(with_motor(0, 0.999 * needed, 0)).motor), ElementsAre("motor_torque"));
+  EXPECT_THAT(motor_obstacles(with_motor(0, 0.999 * needed, 0)), SizeIs(1));
+}
+
+TEST(Motor, SpeedFallsInStraightLineToStall) {
+  DeclaredMechanism mechanism = with_motor(0, 0, 320);
+  const MotorCheck free = *under_load(mechanism).motor;
+  EXPECT_NEAR(free.ratio, 3.2, 1e-9);
+  EXPECT_NEAR(degrees(free.joint_speed_free), 100, 1e-6);
+  EXPECT_NEAR(degrees(free.joint_speed), 100, 1e-6) << "an unknown stall torque slows nothing";
+  mechanism.motor.stall_torque = 4 * free.torque.value;
+  mechanism.motor.joint_speed = radians(75.1);
+  const MotorCheck loaded = *under_load(mechanism).motor;
+  EXPECT_NEAR(degrees(loaded.joint_speed), 75, 1e-6);
+  EXPECT_THAT(failed_names(loaded), ElementsAre("motor_speed"));
+  mechanism.motor.joint_speed = radians(74.9);
+  EXPECT_TRUE(under_load(mechanism).motor->ok());
+}
+
+TEST(Motor, WrittenNumberReplacesThatOfModel) {
+  DeclaredMechanism mechanism = linear_wrist();
+  mechanism.motor.model = "MG996R";
+  const MotorModel& model = *find_motor_model("MG996R");
+  EXPECT_EQ(under_load(mechanism).motor->travel_limit, model.travel);
+  EXPECT_EQ(under_load(mechanism).motor->torque_limit, model.stall_torque);
+  mechanism.motor.travel = radians(120);
+  EXPECT_EQ(under_load(mechanism).motor->travel_limit, radians(120));
+  EXPECT_EQ(under_load(mechanism).motor->torque_limit, model.stall_torque);
+}
+
+TEST(Motor, SufficientModelsHaveTravelAndTwiceTheTorque) {
+  const MotorCheck motor = *under_load(with_motor(100, 0, 0)).motor;
+  ASSERT_THAT(motor.sufficient_models, Not(IsEmpty()));
+  for (const MotorModel& model : motor_models()) {
+    const bool turns = model.travel == 0 || model.travel >= motor.travel;
+    const bool bears = model.stall_torque >= (model.holds ? 1 : 2) * motor.torque.value;
+    EXPECT_EQ(::testing::Value(motor.sufficient_models, Contains(model.name)), turns && bears) << model.name;
+  }
+}
+
+TEST(Motor, ModelThatFitsBoreComesFirst) {
+  DeclaredMechanism mechanism = with_motor(100, 0, 0);
+  mechanism.body.bore = Bore::horn;
+  mechanism.body.horn = "dynamixel-xm430";
+  EXPECT_THAT(under_load(mechanism).motor->sufficient_models.front(), HasSubstr("XM430"));
+  mechanism.body.bore = Bore::round;
+  EXPECT_THAT(under_load(mechanism).motor->sufficient_models.front(), Not(HasSubstr("XM430")));
+}
+
+TEST(Motor, WarningStandsAtLimitOrModel) {
+  MechanismFile file;
+  file.path = "arm.toml";
+  file.mechanism = with_motor(100, 0, 0);
+  file.places["motor.travel_deg"] = {"arm.toml", 7, 14};
+  MotorCheck motor = *under_load(file.mechanism).motor;
+  motor.advice.alone.push_back({"pulley.ratio", 3.2, 2.0, "", "ratio ≤ 2"});
+  const std::vector<Diagnostic> warnings = motor_warnings(motor, file);
+  ASSERT_THAT(warnings, SizeIs(1));
+  EXPECT_EQ(warnings[0].place.line, 7);
+  EXPECT_EQ(warnings[0].severity, Severity::warning);
+  EXPECT_THAT(warnings[0].hint, HasSubstr("make ratio ≤ 2; of the catalogue these suffice: "));
+  motor.enforced = true;
+  EXPECT_EQ(motor_warnings(motor, file)[0].severity, Severity::error);
+}
+
+TEST(UnderLoad, SafetyFactorIsThatOfWeakestPlace) {
+  DeclaredMechanism mechanism = forearm();
+  mechanism.load.tip_force = 10;
+  mechanism.tendon.strength = 400;
+  mechanism.tendon.knot_efficiency = 1;
+  const UnderLoad free = under_load(mechanism);
+  EXPECT_DOUBLE_EQ(*free.safety_factor(), 400 / free.largest_tension.tension);
+  mechanism.tendon.knot_efficiency = 0.25;
+  const UnderLoad knotted = under_load(mechanism);
+  EXPECT_DOUBLE_EQ(*knotted.safety_factor(), 100 / knotted.largest_at_joint.value);
+  mechanism.tendon.strength = 0;
+  mechanism.tendon.diameter = 0.3;  // not in the catalogue
+  EXPECT_FALSE(under_load(mechanism).safety_factor());
+}
+
+TEST(UnderLoad, ErrorIsLargestOfBothDirections) {
+  DeclaredMechanism mechanism = forearm();
+  mechanism.load.tip_force = -10;
+  const UnderLoad load = under_load(mechanism);
+  double most = 0;
+  for (const AnalysisRow& row : load.rows)
+    for (const joint::EquilibriumPoint& point : {row.rising, row.falling})
+      most = std::max(most, std::abs(point.theta - row.declared.theta));
+  EXPECT_EQ(load.theta_error.value, most);
+  EXPECT_GT(degrees(most), 0.05);
+}
+
+// A tendon without tension in one direction alone is slack, too.
+TEST(UnderLoad, SlackCountsInEitherDirection) {
+  for (const double force : {-6.0, -3.0, 2.0, 3.0, 4.0, 6.0}) {
+    DeclaredMechanism mechanism = forearm();
+    mechanism.load.tip_force = force;
+    const UnderLoad load = under_load(mechanism);
+    bool any = false;
+    for (const AnalysisRow& row : load.rows)
+      for (const joint::EquilibriumPoint& point : {row.rising, row.falling})
+        any = any || point.t1.upper <= 1e-6 || point.t2.upper <= 1e-6;
+    EXPECT_EQ(any, !load.slack1.empty() || !load.slack2.empty()) << force;
+  }
+}
+
+}  // namespace
+}  // namespace fusee::analysis
