@@ -167,14 +167,14 @@ std::string explain_json(std::string_view key);
 /// JSON schema of the mechanism file, for editors.
 std::string mechanism_schema();
 
-/// Templates of `fusee new`: the files of profiles/, compiled in.
+/// Templates of `fusee new`: the files of profiles/, compiled in, in the order of profiles/catalogue/templates.toml.
 struct Template {
   std::string_view name;
   std::string_view text;
+  std::string group;        ///< "fingers"; templates of a group are neighbours
+  std::string description;  ///< one sentence
 };
 std::vector<Template> templates();
-/// The description in the template's first line.
-std::string first_comment(const Template& known);
 /// The text of a template. Throws InputError with the nearest name.
 std::string_view find_template(std::string_view name);
 

@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <type_traits>
 
 #include "fusee/base.h"
 #include "fusee/mechanism_file.h"
@@ -97,6 +98,11 @@ MotorType make(const toml::table& item, MotorType type) {
   return type;
 }
 
+TemplateType make(const toml::table& item, TemplateType type) {
+  type.group = text(item, "group");
+  return type;
+}
+
 /// All [[key]] tables of one file of the catalogue.
 template <class Item>
 std::vector<Item> load(std::string_view file_name, const char* key) {
@@ -111,7 +117,7 @@ std::vector<Item> load(std::string_view file_name, const char* key) {
       Item item;
       item.name = text(table, "name");
       item.description = text(table, "description");
-      item.source = text(table, "source");
+      if constexpr (!std::is_same_v<Item, TemplateType>) item.source = text(table, "source");
       items.push_back(make(table, std::move(item)));
     }
   }
@@ -159,6 +165,11 @@ const std::vector<BoardType>& board_types() {
 
 const std::vector<MotorType>& motor_types() {
   static const std::vector<MotorType> all = load<MotorType>("motors", "motor");
+  return all;
+}
+
+const std::vector<TemplateType>& template_types() {
+  static const std::vector<TemplateType> all = load<TemplateType>("templates", "template");
   return all;
 }
 

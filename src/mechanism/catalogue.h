@@ -94,6 +94,13 @@ struct MotorType {
   double head = 0;  ///< height of the screws' heads
 };
 
+/// The entry of a mechanism file of profiles/ in the list of templates.
+struct TemplateType {
+  std::string name;
+  std::string description;
+  std::string group;
+};
+
 const std::vector<HornType>& horns();
 const std::vector<ShaftType>& shafts();
 const std::vector<TendonType>& tendon_types();
@@ -101,6 +108,7 @@ const std::vector<MaterialType>& material_types();
 const std::vector<BearingType>& bearing_types();  ///< the largest first
 const std::vector<BoardType>& board_types();
 const std::vector<MotorType>& motor_types();
+const std::vector<TemplateType>& template_types();  ///< in the order of the list
 
 /// Finds an entry by name; null when there is none.
 const HornType* find_horn(std::string_view name);

@@ -1,4 +1,5 @@
 #include "fusee/mechanism_file.h"
+#include "mechanism/catalogue.h"
 #include "mechanism/embedded.h"
 #include "mechanism/field_text.h"
 
@@ -6,15 +7,8 @@ namespace fusee {
 
 std::vector<Template> templates() {
   std::vector<Template> all;
-  for (const EmbeddedFile& file : embedded_templates()) all.push_back({file.name, file.text});
+  for (const TemplateType& type : template_types()) all.push_back({type.name, find_template(type.name), type.group, type.description});
   return all;
-}
-
-std::string first_comment(const Template& known) {
-  std::string_view line = known.text.substr(0, known.text.find('\n'));
-  if (line.empty() || line[0] != '#') return {};
-  line.remove_prefix(std::min(line.find_first_not_of("# "), line.size()));
-  return std::string(line);
 }
 
 std::string_view find_template(std::string_view name) {

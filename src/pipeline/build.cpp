@@ -14,6 +14,7 @@
 #include "fusee/pipeline.h"
 #include "pipeline/agreement.h"
 #include "pipeline/design.h"
+#include "pipeline/layout.h"
 #include "pipeline/several_turns.h"
 #include "pipeline/thin_walls.h"
 #include "solid/print.h"
@@ -412,6 +413,15 @@ class FeasibilityCheck {
   mutable std::atomic<double> largest_ = 0;
 };
 
+/// The keys of --set.
+std::vector<std::string> typed_keys(const MechanismFile& file) {
+  std::vector<std::string> keys;
+  for (const auto& [key, place] : file.places) {
+    if (place.file.starts_with("--set")) keys.push_back(key);
+  }
+  return keys;
+}
+
 profile::Advice advice_for(const formats::Product& product, const BuildOptions& options, const RunContext& context) {
   const MechanismFile& file = product.file;
   if (product.helix) {
@@ -426,7 +436,8 @@ profile::Advice advice_for(const formats::Product& product, const BuildOptions& 
                                                ++begun;
                                                return is_made(with_declared(file, changed), options, context);
                                              },
-                                         .builds_left = [&] { return check.max_builds() - begun; }};
+                                         .builds_left = [&] { return check.max_builds() - begun; },
+                                         .first = typed_keys(file)};
   return solid::body_advice(file.mechanism, judge, product.pulley.layout.parts);
 }
 
@@ -464,6 +475,7 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options, const 
     if (!options.advice) return result;
     context.begin_step("looking for what would make it possible");
     result.advice = advice_for(result.product, options, context.without_progress());
+    result.advice.layout = drum_advice(file, options, context.without_progress());
     return result;
   }
   if (!result.product.helix) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "base/text.h"
@@ -120,6 +121,18 @@ TEST(Templates, AreReadableProfiles) {
     EXPECT_TRUE(warnings.empty()) << to_text(warnings.front());
   }
   EXPECT_EQ(templates().size(), count);
+}
+
+TEST(Templates, HaveOneSentenceInOneGroup) {
+  constexpr std::size_t longest = 62;  // a line of the list has 80 columns
+  std::vector<std::string> groups;
+  for (const Template& known : templates()) {
+    EXPECT_TRUE(known.description.ends_with('.')) << known.name;
+    EXPECT_EQ(known.description.find(". "), std::string::npos) << known.name;
+    EXPECT_LE(known.description.size(), longest) << known.name;
+    if (groups.empty() || groups.back() != known.group) groups.push_back(known.group);
+  }
+  EXPECT_EQ(std::set<std::string>(groups.begin(), groups.end()).size(), groups.size());
 }
 
 TEST(Templates, SuggestNearestName) {
