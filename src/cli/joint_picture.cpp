@@ -16,7 +16,7 @@ namespace {
 using transmission::Side;
 
 constexpr int k_columns = 44;
-constexpr int k_lines = 34;
+constexpr int k_lines = 26;
 
 /// A sheet of characters, which are twice as high as wide.
 class Sheet {

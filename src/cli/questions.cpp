@@ -274,7 +274,7 @@ class Layouts {
  public:
   Layouts(const std::vector<Setting>& settings, const RunContext& context) : settings_(settings), context_(context) {}
 
-  pipeline::LayoutSearch search(const Answers& answers, const RunContext& context) const {
+  pipeline::LayoutSearch search(const Answers& answers, const RunContext& context, bool any = false) const {
     const auto file = [this](const DeclaredMechanism& mechanism) {
       MechanismFile read;
       read.path = "your answers";
@@ -282,7 +282,7 @@ class Layouts {
                                        *context_.files);
       return read;
     };
-    return pipeline::choose_layout({joint_of(answers), answers.room, answers.motor.travel}, file, context);
+    return pipeline::choose_layout({joint_of(answers), answers.room, answers.motor.travel, any}, file, context);
   }
 
   /// Changes of single answers with which a layout exists.
@@ -313,7 +313,9 @@ class Layouts {
   }
 
  private:
-  bool exists(const Answers& answers) const { return search(answers, context_.without_progress()).chosen.has_value(); }
+  bool exists(const Answers& answers) const {
+    return search(answers, context_.without_progress(), true).chosen.has_value();
+  }
 
   /// The first feasible value, then halved towards the infeasible one; in whole mm, or tenths below 10 mm.
   std::optional<double> nearest(const Answers& answers, double Answers::*number,

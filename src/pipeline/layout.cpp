@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 
 #include "base/text.h"
 #include "fusee/analysis.h"
@@ -30,7 +31,7 @@ constexpr double k_tension_on_pin = 100.0;
 constexpr double k_least_idler = 8.0;
 constexpr double k_least_length_with_idlers = 60.0;
 // Full builds of candidates for one search.
-constexpr int k_max_layout_builds = 8;
+constexpr int k_max_layout_builds = 6;
 
 /// The number that stands in the file: three digits.
 double tidy(double value) { return std::stod(rounded(value, 3)); }
@@ -78,6 +79,7 @@ void put_lever(Mechanism& mechanism, double r1) {
 struct Candidate {
   DeclaredMechanism mechanism;
   std::string words;
+  bool is_spare = false;  ///< only if nothing else builds: the motor would need more torque than the joint
 };
 
 /// The candidates for one set of requirements, in order of preference.
@@ -128,7 +130,7 @@ class Candidates {
   /// One turn: the smallest pulley first.
   void add_drum(double rho) {
     double r1 = std::max({rho * span_ / turn_, bend_, 0.5 * joint_.tendon.diameter + 1.0});
-    for (; r1 < largest_; r1 *= 1.2) add_drum_with(rho, r1, "a drum on the joint");
+    for (; r1 < largest_; r1 *= 1.3) add_drum_with(rho, r1, "a drum on the joint");
     add_drum_with(rho, largest_, "a drum on the joint");
   }
 
@@ -145,6 +147,7 @@ class Candidates {
     Candidate candidate = with_guides(rho, words);
     candidate.mechanism.pulley.r1 = std::min(tidy(r1), std::floor(1e3 * largest_) / 1e3);
     put_drum(candidate.mechanism, rho, candidate.mechanism.pulley.r1);
+    candidate.is_spare = candidate.mechanism.pulley.r1 > rho;
     all_.push_back(std::move(candidate));
   }
 
@@ -192,8 +195,29 @@ double diameter_of(const solid::TriangleMesh& mesh) {
   return 2.0 * reach;
 }
 
-bool has_warnings(const formats::Product& product) {
-  return !product.file.warnings.empty() || !product.synthesis.warnings.empty() || !product.holding.warnings.empty();
+/// A copy with the radius of P1 rounded down to 0.01 mm.
+DeclaredMechanism with_tidy_radius(DeclaredMechanism mechanism) {
+  mechanism.pulley.r1 = std::floor(100.0 * mechanism.pulley.r1) / 100.0;
+  return mechanism;
+}
+
+/// Fewer warnings are better, then fewer omitted features.
+struct Rank {
+  std::size_t warnings = 0;
+  std::size_t notes = 0;  ///< of a pulley of one turn; several turns always have the same notes
+
+  auto operator<=>(const Rank&) const = default;
+};
+
+Rank rank_of(const formats::Product& product) {
+  return {product.file.warnings.size() + product.synthesis.warnings.size() + product.holding.warnings.size(),
+          product.helix ? 0 : product.pulley.layout.notes.size()};
+}
+
+/// The tendons' moment arm at home, mm.
+double arm_of(const ChosenLayout& layout) {
+  const Mechanism& mechanism = layout.file.mechanism;
+  return mechanism.joint.drum_radius > 0 ? mechanism.drum_pitch_radius() : layout.built.product.synthesis.home()->t1.m;
 }
 
 std::optional<std::string> first_reason(const BuildResult& built) {
@@ -230,30 +254,35 @@ std::optional<std::string> built_or_reason(const LayoutRequirements& needs, Chos
 LayoutSearch choose_layout(const LayoutRequirements& requirements, const CandidateFile& file_of,
                            const RunContext& context) {
   LayoutSearch search;
+  Rank best;
   int builds = 0;
-  bool was_built = false;
-  for (const Candidate& candidate : Candidates(requirements).all()) {
+  for (Candidate& candidate : Candidates(requirements).all()) {
+    if (search.chosen && (requirements.any || candidate.is_spare)) continue;
+    // A larger pulley of the same layout may have more features; another layout is not better.
+    if (search.chosen && best.warnings == 0 && (best.notes == 0 || candidate.words != search.chosen->words)) break;
     context.begin_step("trying " + candidate.words);
     ChosenLayout layout{file_of(candidate.mechanism), candidate.words, {}, 0, 0, 0};
-    std::optional<std::string> obstacle = quick_obstacle(layout.file.mechanism);
-    if (!obstacle && builds == k_max_layout_builds) break;
-    if (!obstacle) {
-      ++builds;
-      obstacle = built_or_reason(requirements, layout, context);
-      if (obstacle) {
-        was_built = true;
-        search.obstacle = *obstacle;
-        continue;
-      }
-      const bool is_clean = !has_warnings(layout.built.product);
-      const double arm = layout.file.mechanism.joint.drum_radius > 0 ? layout.file.mechanism.drum_pitch_radius()
-                                                                     : layout.built.product.synthesis.home()->t1.m;
-      layout.tension = torque_of(layout.file.mechanism) / arm;
-      if (is_clean || !search.chosen) search.chosen = std::move(layout);
-      if (is_clean) break;
-    } else if (!was_built) {
-      search.obstacle = *obstacle;  // of the last candidate: it has the most room
+    if (std::optional<std::string> obstacle = quick_obstacle(layout.file.mechanism)) {
+      if (builds == 0) search.obstacle = std::move(*obstacle);  // of the last candidate: it has the most room
+      continue;
     }
+    if (builds++ == k_max_layout_builds) break;
+    std::optional<std::string> obstacle = built_or_reason(requirements, layout, context);
+    if (obstacle && layout.diameter > requirements.room) {
+      // The flange covers the tie-offs, too: its overhang is known now.
+      candidate.mechanism.pulley.r1 -= 0.5 * (layout.diameter - requirements.room) + 0.02;
+      layout.file = file_of(with_tidy_radius(candidate.mechanism));
+      if (!quick_obstacle(layout.file.mechanism)) obstacle = built_or_reason(requirements, layout, context);
+    }
+    if (obstacle) {
+      search.obstacle = std::move(*obstacle);
+      continue;
+    }
+    const Rank rank = rank_of(layout.built.product);
+    if (search.chosen && !(rank < best)) continue;
+    best = rank;
+    layout.tension = torque_of(layout.file.mechanism) / arm_of(layout);
+    search.chosen = std::move(layout);
   }
   if (search.obstacle.empty()) search.obstacle = "the room is smaller than the tendon's groove";
   return search;

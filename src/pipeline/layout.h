@@ -19,6 +19,7 @@ struct LayoutRequirements {
   DeclaredMechanism joint;
   double room = 0;    ///< largest diameter of the pulley, mm
   double travel = 0;  ///< rotation of the motor, rad; 0: unlimited
+  bool any = false;   ///< the first layout that builds suffices
 };
 
 /// The file of a candidate: what a user would read back. Throws InputError.
@@ -40,8 +41,8 @@ struct LayoutSearch {
 };
 
 /// Tries candidates by a quick check, then by full dry builds, in order of preference: a lever where the range allows
-/// it, a drum with one turn of the pulley, a drum with several turns. A candidate whose build has no warning is
-/// preferred over an earlier one with warnings.
+/// it, a drum with one turn of the pulley, a drum with several turns. A candidate whose build has fewer warnings is
+/// preferred over an earlier one, and a larger pulley of the same layout if fewer features are omitted on it.
 LayoutSearch choose_layout(const LayoutRequirements& requirements, const CandidateFile& file_of,
                            const RunContext& context);
 
