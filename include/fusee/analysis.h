@@ -151,7 +151,8 @@ struct AnalysisResult : UnderLoad {
   bool exists = false;
   std::vector<profile::Condition>
       obstacles;  ///< failed conditions of a pulley; with `exists`, forces are known though no pulley can be made
-  std::vector<profile::Change> advice;  ///< searched only if the law does not exist
+  std::vector<profile::Change> advice;                 ///< searched only if the law does not exist
+  std::optional<profile::LayoutAdvice> layout_advice;  ///< as `advice`; set by the caller, who tries it by a build
 
   profile::SynthesisResult synthesis;  ///< the curves, if they can be drawn; its stroke has the same points as the rows
   std::vector<DrumHold> on_drum;       ///< tendons that rub on a drum

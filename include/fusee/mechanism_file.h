@@ -171,15 +171,15 @@ std::string explain_json(std::string_view key);
 /// JSON schema of the mechanism file, for editors.
 std::string mechanism_schema();
 
-/// Templates of `fusee new`: the files of profiles/, compiled in.
+/// Templates of `fusee new`: the files of profiles/, compiled in, in the order of profiles/catalogue/templates.toml.
 struct Template {
   std::string_view name;
   std::string_view text;
+  std::string group;        ///< "fingers"; templates of a group are neighbours
+  std::string description;  ///< one sentence
 };
 /// All templates.
 std::vector<Template> templates();
-/// The description at the template's top: its first lines, up to one that ends a sentence.
-std::string first_comment(const Template& known);
 /// The text of a template. Throws InputError with the nearest name.
 std::string_view find_template(std::string_view name);
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fusee/base.h"
@@ -85,20 +86,33 @@ struct FeasibilityOracle {
   /// Number of full builds that the evaluations so far still justify; fewer than usual for large parts. Empty: the
   /// usual number.
   std::function<int()> builds_left = {};
+  /// Keys whose numbers are searched first, over their whole range: those that the user has just typed.
+  std::vector<std::string> first = {};
+};
+
+/// Another layout for the joint: the keys to set, as they stand in a file.
+struct LayoutAdvice {
+  std::string text;           ///< "put a drum on the joint, which reaches any angle of the range"
+  std::string template_name;  ///< a template with this layout
+  std::vector<std::pair<std::string, std::string>> settings;  ///< "joint.drum_radius_mm", "12.5"
 };
 
 /// Changes that make a mechanism feasible: single changes, nearest first, or two combined changes.
 struct Advice {
   std::vector<Change> alone;
   std::vector<Change> together;
+  std::optional<LayoutAdvice> layout = {};
+  /// True if every single number was tried over its whole allowed range, and none suffices.
+  bool is_exhausted = true;
 
-  bool empty() const { return alone.empty() && together.empty(); }
+  bool empty() const { return alone.empty() && together.empty() && !layout; }
 };
 
 /// Searches each number of joint, guides, pulley and tendon that the law uses, and `more_keys` (for which 0 is not a
-/// number). All numbers move outwards together in growing steps within the bounds of the field table, until a few are
-/// feasible. Bisection then finds the border, rounded to three digits on the safe side. If no single number suffices,
-/// the most helpful ones are changed in pairs. `more_keys` are easier to change and move three times as far. `known`:
+/// number). All numbers move outwards together in growing steps, up to five times their magnitude, until a few are
+/// feasible. If none is, they are searched in smaller steps up to the bounds of the field table. Bisection then finds
+/// the border, rounded to three digits on the safe side. If no single number suffices, the most helpful ones are
+/// changed in pairs. `more_keys` are easier to change and move three times as far. `known`:
 /// number of changes that are known already and need not be found.
 Advice find_advice(const Mechanism& mechanism, const FeasibilityOracle& judge,
                    const std::vector<std::string>& more_keys = {}, std::size_t known = 0);

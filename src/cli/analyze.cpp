@@ -275,6 +275,7 @@ Reply run_analyze(const Arguments& arguments, Console& console, const RunContext
     reply.exit = Exit::infeasible;
     add_obstacles(file.path, result.obstacles, reply);
     add_advice(result.advice, reply);
+    add_layout_advice(result.layout_advice, reply);
     reply.fields["conditions"] = to_json(result.obstacles);
     reply.fields["advice"] = to_json(result.advice);
     return reply;

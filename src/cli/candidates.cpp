@@ -75,7 +75,7 @@ Candidates names_of_commands() {
 
 Candidates names_of_templates() {
   Candidates found;
-  for (const Template& known : templates()) found.words.push_back({std::string(known.name), first_comment(known)});
+  for (const Template& known : templates()) found.words.push_back({std::string(known.name), known.description});
   return found;
 }
 

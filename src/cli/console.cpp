@@ -94,6 +94,11 @@ std::optional<std::string> Console::ask(std::string_view question) {
   return line;
 }
 
+void Console::tell(std::string_view text) {
+  end_progress();
+  show(text);
+}
+
 void Console::end_progress() {
   if (progress_shown_) write_all(STDERR_FILENO, "\r\x1b[K");
   progress_shown_ = false;

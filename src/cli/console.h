@@ -33,6 +33,8 @@ class Console {
   /// Writes a question to stderr, also with --quiet, and reads a line from stdin; empty at the end of the input. Lines
   /// longer than any answer are cut.
   std::optional<std::string> ask(std::string_view question);
+  /// Writes text of a conversation to stderr, also with --quiet.
+  void tell(std::string_view text);
   /// Removes the progress line.
   void end_progress();
 

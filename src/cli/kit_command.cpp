@@ -37,8 +37,9 @@ void explain_no_pulley(const MechanismFile& file, const pipeline::KitOptions& op
   const std::vector<profile::Condition>& conditions =
       has_curves ? built.product.pulley.conditions : built.product.synthesis.conditions;
   add_obstacles(file.path, conditions, reply);
-  add_advice(built.advice.alone, reply);
+  add_advice(built.advice.alone, reply, built.advice.is_exhausted);
   add_advice_together(built.advice.together, reply);
+  add_layout_advice(built.advice.layout, reply);
   reply.exit = Exit::infeasible;
   reply.fields["conditions"] = to_json(conditions);
   reply.fields["advice"] = to_json(built.advice.alone);

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "base/text.h"
@@ -13,12 +15,15 @@ namespace {
 Reply list_templates() {
   Reply reply;
   reply.fields["templates"] = Json::array();
+  std::string group;
   for (const Template& known : templates()) {
-    const std::string about = first_comment(known);
-    reply.text += std::string(known.name) + "\n" + (about.empty() ? "" : wrapped(about, "    ", "    "));
-    reply.fields["templates"].push_back({{"name", known.name}, {"about", about}});
+    if (known.group != group) reply.text += (group.empty() ? "" : "\n") + known.group + "\n";
+    group = known.group;
+    reply.text += fmt::format("  {:<13} {}\n", known.name, known.description);
+    reply.fields["templates"].push_back({{"name", known.name}, {"group", known.group}, {"about", known.description}});
   }
-  reply.text += "\n'fusee new TEMPLATE > my.toml' writes one of them.\n";
+  reply.text +=
+      "\n'fusee new TEMPLATE > my.toml' writes one of them; 'fusee new --ask > my.toml' asks for your joint.\n";
   return reply;
 }
 
@@ -51,27 +56,46 @@ std::string with_settings(const std::string& text, const std::string& name, cons
   return write_mechanism(parse_mechanism(converted, name, ".", settings, &warnings, nullptr, files));
 }
 
-/// Writes the file of the answers, and reports if a pulley is feasible or which obstacles remain.
-Reply ask_questions(const Arguments& arguments, Console& console, FileAccess& files) {
+/// The file of the answers, or why no layout fits them and which other answers would do.
+Reply ask_questions(const Arguments& arguments, Console& console, const RunContext& context) {
   if (!arguments.positionals().empty()) throw UsageError("--ask takes no template: it asks for the joint");
-  if (files.is_bundled())
+  if (context.files->is_bundled())
     throw UsageError("--ask reads typed answers, which a bundle cannot record",
                      "use --bundle with the file that it writes");
-  const AskedMechanism asked = ask_for_mechanism(console);
+  const AskedMechanism asked = ask_for_mechanism(console, arguments.settings(), context);
   Reply reply;
-  reply.text = asked.text;
-  if (const auto settings = arguments.settings(); !settings.empty())
-    reply.text = with_settings(reply.text, "your answers", settings, reply.diagnostics, files);
-  for (const std::string& change : asked.changed)
-    reply.diagnostics.push_back(note(Severity::note, "changed to make a pulley feasible: " + change));
-  for (const profile::Condition& condition : asked.obstacles)
-    reply.diagnostics.push_back(note(Severity::warning, "no pulley yet: " + condition.message));
-  if (!asked.obstacles.empty())
-    add_advice(asked.advice, reply);
-  else
+  if (!asked.search.chosen) {
+    reply.exit = Exit::infeasible;
     reply.diagnostics.push_back(
-        note(Severity::note, "a pulley is feasible: save this file, then run 'fusee build' on it"));
+        note(Severity::error, "no layout fits these answers: " + asked.search.obstacle, "no file was written"));
+    reply.fields["other_answers"] = Json::array();
+    for (const OtherAnswer& other : asked.others) {
+      reply.diagnostics.push_back(
+          note(Severity::note, fmt::format("try {} in place of {} for question {} ({})", other.answer, other.given,
+                                           other.question, other.words)));
+      reply.fields["other_answers"].push_back(
+          {{"question", other.question}, {"subject", other.words}, {"answer", other.answer}, {"given", other.given}});
+    }
+    if (asked.others.empty())
+      reply.diagnostics.push_back(note(Severity::note, "no change of a single answer was found that helps"));
+    return reply;
+  }
+  const pipeline::ChosenLayout& layout = *asked.search.chosen;
+  const formats::Product& product = layout.built.product;
+  reply.text = asked.text;
+  reply.diagnostics = product.file.warnings;
+  for (const std::vector<std::string>* warnings : {&product.synthesis.warnings, &product.holding.warnings}) {
+    for (const std::string& warning : *warnings) reply.diagnostics.push_back(note(Severity::warning, warning));
+  }
+  reply.diagnostics.push_back(
+      note(Severity::note,
+           fmt::format("{}: built and checked ({} checks), {} mm wide, turns {} deg", layout.words,
+                       product.checks.size(), rounded(layout.diameter, 3), rounded(degrees(layout.travel), 3))));
+  reply.diagnostics.push_back(note(Severity::note, "save this file, then run 'fusee build' on it"));
   reply.fields["text"] = reply.text;
+  reply.fields["layout"] = layout.words;
+  reply.fields["pulley_diameter_mm"] = layout.diameter;
+  reply.fields["pulley_travel_deg"] = degrees(layout.travel);
   return reply;
 }
 
@@ -152,7 +176,7 @@ Reply template_or_list(const Arguments& arguments, FileAccess& files) {
 Reply run_new(const Arguments& arguments, Console& console, const RunContext& context) {
   const bool asks = arguments.has("--ask"), opens = arguments.has("--from");
   if (asks && opens) throw UsageError("--ask and --from exclude each other");
-  Reply reply = asks    ? ask_questions(arguments, console, *context.files)
+  Reply reply = asks    ? ask_questions(arguments, console, context)
                 : opens ? open_print(arguments, *context.files)
                         : template_or_list(arguments, *context.files);
   if (!arguments.has("--out")) return reply;
@@ -168,15 +192,16 @@ Command new_command() {
           "[TEMPLATE]",
           "a commented mechanism file, from a template or your answers",
           "Prints a mechanism file with an explanation of every number.\n"
-          "Without TEMPLATE it lists the templates. With --ask it asks six questions and\n"
-          "writes a file for which a pulley is feasible. With --from it prints the file\n"
-          "that fusee build kept in a 3MF: building it gives the same meshes.",
+          "Without TEMPLATE it lists the templates. With --ask it asks seven questions,\n"
+          "chooses the layout by full builds, draws the joint and writes its file.\n"
+          "With --from it prints the file that fusee build kept in a 3MF: building it\n"
+          "gives the same meshes.",
           {{"--ask", "", "ask for the joint's numbers, each with a default"},
            {"--from", "PRINT.3mf", "the mechanism file of a print that fusee made"},
            {"-o,--out", "FILE", "write FILE, and the table of its law beside it"}},
           {{"fusee new", "list the templates"},
            {"fusee new paper_optimum > arm.toml", "save one as arm.toml"},
-           {"fusee new --ask > arm.toml", "answer six questions; Enter takes the proposal"},
+           {"fusee new --ask > arm.toml", "answer seven questions; Enter takes the proposal"},
            {"fusee new --from pulley.3mf -o arm.toml", "the mechanism file of an earlier print"},
            {"fusee new paper_optimum --set pulley.r1_mm=15 > arm.toml", "the same with another r1"}},
           run_new};

@@ -3,51 +3,164 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "base/text.h"
+#include "cli/answers.h"
 #include "cli/arguments.h"
-#include "fusee/mechanism_file.h"
-#include "fusee/solid.h"
+#include "cli/interrupt.h"
+#include "cli/joint_picture.h"
 #include "mechanism/catalogue.h"
 #include "mechanism/field_text.h"
 
 namespace fusee::cli {
 namespace {
 
-constexpr int k_most_tries = 5;
+// An endless input of nonsense ends.
+constexpr int k_most_tries = 50;
 
 constexpr std::string_view k_joint_picture = R"(
-            C             C: where both tendons hold the link, R above O
-           /|\
-      1   / | R\   2      O: the joint's axis
-         /  O   \
-        /        \
-       B    E     D       B, D: guide pins, below O
-        \        /
-         \  .-. /
-          \( F )          F: the motor's shaft, with the pulley
-            '-'
+            C             C: the point of the link at which the load acts,
+            |             straight above O when the joint is at home
+            |
+            O             O: the joint's axis
+
+            G             G: the axis of the motor and its pulley, below O
 )";
 constexpr std::string_view k_range_picture = R"(
       - \   | 0  / +
-         \  |   /         theta, to the right positive; 0 is home
-          \ |  /
+         \  |   /         the joint's angle: positive to the right,
+          \ |  /          0 where C is straight above O
             O
 )";
-constexpr std::string_view k_tendon_picture = R"(
-      __    __
-     |  \__/  |           the tendon lies in grooves as deep as twice its
-     |   ()   |           diameter; 8 diameters are a usual least bend
+constexpr std::string_view k_room_picture = R"(
+          .---.
+         /     \          the pulley turns about G and must not reach
+        |   G   |         beyond this circle
+         \     /
+          '---'
 )";
 constexpr std::string_view k_load_picture = R"(
-            C --->        the force that the joint has to hold at C, across
-            |             the link; at a longer lever it is less
+            C --->        the largest force across the link at C, or the
+            |             torque about O, that the joint has to hold
             O
 )";
+
+/// The answers so far. A text that was read is a proposal when its question is asked again.
+struct Answers {
+  std::string name;
+  double length = 0;
+  AngleRange range;
+  double room = 0;
+  TypedLoad load;
+  TypedMotor motor;
+  TypedTendon tendon;
+};
+
+struct Question {
+  std::string_view subject;
+  std::string picture;
+  std::string words;
+  std::function<std::string(const Answers&)> proposal;
+  /// Stores an answer and explains how it was understood, or returns a refusal.
+  std::function<Answer<std::string>(Answers&, std::string_view)> take;
+};
+
+/// A length within the bounds of a key.
+Answer<double> length_for(std::string_view key, std::string_view text) {
+  Answer<double> answer = read_length(text);
+  const Field& field = *find_field(key);
+  const double* length = std::get_if<double>(&answer);
+  if (length != nullptr && (*length < field.least || *length > field.most))
+    return Refusal{
+        fmt::format("{} mm is not within {} to {} mm", rounded(*length), rounded(field.least), rounded(field.most))};
+  return answer;
+}
+
+std::string load_words(const TypedLoad& load) {
+  return load.torque != 0 ? fmt::format("{} Nmm about O", rounded(load.torque))
+                          : fmt::format("{} N at C", rounded(load.force));
+}
+
+std::string list_of_motors() {
+  std::string list = "\n";
+  const auto add = [&list](std::string_view name, std::string_view description) {
+    list += fmt::format("      {:<17} {}\n", name, description);
+  };
+  for (const ShaftType& shaft : shafts()) add(shaft.name, shaft.description);
+  for (const HornType& horn : horns()) add(horn.name, horn.description);
+  return list;
+}
+
+std::string list_of_tendons() {
+  std::string list = "\n";
+  for (const TendonType& tendon : tendon_types())
+    list += fmt::format("      {:<17} {}\n", tendon.name, tendon.description);
+  return list;
+}
+
+/// Stores what a reader found.
+template <class Value>
+Answer<std::string> stored(Answer<Value> read, Value& place, const std::function<std::string(const Value&)>& words) {
+  if (Refusal* refusal = std::get_if<Refusal>(&read)) return std::move(*refusal);
+  place = std::get<Value>(std::move(read));
+  return words(place);
+}
+
+const std::vector<Question>& questions() {
+  static const auto fixed_proposal = [](std::string text) {
+    return [text = std::move(text)](const Answers&) { return text; };
+  };
+  static const std::function<std::string(const double&)> in_mm = [](const double& length) {
+    return rounded(length) + " mm";
+  };
+  static const std::vector<Question> all{
+      {"name", "", "What is the joint called?", fixed_proposal("my joint"),
+       [](Answers& answers, std::string_view text) -> Answer<std::string> {
+         constexpr std::size_t longest = 200;
+         if (cleaned_line(text) != text) return Refusal{"a name is text of one line, without control characters"};
+         if (text.size() > longest) return Refusal{"a name has at most 200 bytes"};
+         return stored<std::string>(std::string(text), answers.name, [](const std::string& name) { return name; });
+       }},
+      {"length", std::string(k_joint_picture), "How far is C from O (45 mm, 1.8 in)?", fixed_proposal("60 mm"),
+       [](Answers& answers, std::string_view text) {
+         return stored(length_for("joint.length_mm", text), answers.length, in_mm);
+       }},
+      {"range", std::string(k_range_picture), "From which to which angle does it turn (0 80, -30..30, ±30)?",
+       fixed_proposal("-30 30"),
+       [](Answers& answers, std::string_view text) {
+         return stored<AngleRange>(read_range(text), answers.range, [](const AngleRange& range) {
+           return fmt::format("{} to {} deg", rounded(range.low), rounded(range.high));
+         });
+       }},
+      {"room", std::string(k_room_picture), "How wide may the pulley be (⌀30 mm)?",
+       [](const Answers& answers) { return rounded(std::round(std::clamp(0.7 * answers.length, 30.0, 80.0))) + " mm"; },
+       [](Answers& answers, std::string_view text) {
+         return stored(length_for("pulley.EF_mm", text), answers.room, in_mm);
+       }},
+      {"load", std::string(k_load_picture), "Which load (10 N, 0.5 kg, 2 lbf, 0.8 Nm)?", fixed_proposal("10 N"),
+       [](Answers& answers, std::string_view text) {
+         return stored<TypedLoad>(read_load(text), answers.load, load_words);
+       }},
+      {"motor", list_of_motors(), "The motor: a name of this list, or the diameter of its shaft (5 mm, 5 mm D)?",
+       fixed_proposal("5 mm"),
+       [](Answers& answers, std::string_view text) {
+         return stored<TypedMotor>(read_motor(text), answers.motor, [](const TypedMotor& motor) {
+           const std::string travel =
+               motor.travel > 0 ? fmt::format("; turns {} deg", rounded(degrees(motor.travel))) : "";
+           return motor.words + travel;
+         });
+       }},
+      {"tendon", list_of_tendons(), "The tendon: diameter, material or both (0.6 mm, Dyneema 0.6, steel 1.2)?",
+       fixed_proposal("1 mm"), [](Answers& answers, std::string_view text) {
+         return stored<TypedTendon>(read_tendon(text), answers.tendon,
+                                    [](const TypedTendon& tendon) { return tendon.words; });
+       }}};
+  return all;
+}
 
 /// Removes blanks at both ends.
 std::string_view trimmed(std::string_view text) {
@@ -56,177 +169,94 @@ std::string_view trimmed(std::string_view text) {
                                          : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-std::vector<std::string> words_in(std::string_view text) {
-  std::vector<std::string> words;
-  while (true) {
-    const std::size_t first = text.find_first_not_of(" \t,;[]");
-    if (first == std::string_view::npos) return words;
-    text.remove_prefix(first);
-    words.emplace_back(text.substr(0, text.find_first_of(" \t,;[]")));
-    text.remove_prefix(words.back().size());
-  }
-}
-
-std::optional<double> number_in(std::string_view word) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-struct Question {
-  std::string_view picture;
+/// "length: 45 mm, range: 0 to 80 deg".
+std::string answered_words(const std::vector<std::string>& understood) {
   std::string words;
-  std::string proposed;
-  /// Stores an answer, or returns what is wrong with it.
-  std::function<std::string(std::string_view)> take;
-};
+  for (std::size_t i = 0; i < understood.size(); ++i)
+    words += fmt::format("{}{}: {}", words.empty() ? "" : ", ", questions()[i].subject, understood[i]);
+  return words;
+}
 
-void put(Console& console, const Question& question, int number) {
-  std::string answer;
+/// Asks one question until its answer can be used; nullopt at the end of the input.
+std::optional<std::string> put(Console& console, std::size_t number, Answers& answers, const std::string& proposal) {
+  const Question& question = questions().at(number);
+  std::string picture = question.picture + (question.picture.empty() ? "" : "\n");
   for (int tries = 0; tries < k_most_tries; ++tries) {
-    const std::string picture = tries == 0 ? std::string(question.picture) + "\n" : "";
-    const auto line = console.ask(fmt::format("{}{}/6  {} [{}]: ", picture, number, question.words, question.proposed));
-    answer = trimmed(line.value_or(""));
-    const std::string wrong = question.take(answer.empty() ? question.proposed : answer);
-    if (wrong.empty()) return;
-    console.say({Severity::error, {}, wrong, {}});
-  }
-  throw InputError(Diagnostic{
-      Severity::error, {}, fmt::format("question {} was not answered in {} tries", number, k_most_tries), {}});
-}
-
-/// Accepts `count` numbers within the bounds of `key`.
-std::function<std::string(std::string_view)> numbers(const char* key, int count,
-                                                     std::function<void(const std::vector<double>&)> set) {
-  return [field = find_field(key), count, set = std::move(set)](std::string_view answer) -> std::string {
-    std::vector<double> values;
-    for (const std::string& word : words_in(answer)) {
-      const auto value = number_in(word);
-      if (!value) return fmt::format("'{}' is not a number", word);
-      if (*value < field->least || *value > field->most)
-        return fmt::format("{} {} is not within {} to {}", rounded(*value), field->unit, rounded(field->least),
-                           rounded(field->most));
-      values.push_back(*value);
+    const auto line = console.ask(
+        fmt::format("{}{}/{}  {} [{}]: ", picture, number + 1, questions().size(), question.words, proposal));
+    if (is_interrupted()) throw Stopped();
+    if (!line) return std::nullopt;
+    picture.clear();
+    const std::string_view answer = trimmed(*line);
+    const Answer<std::string> taken = question.take(answers, answer.empty() ? proposal : answer);
+    if (const std::string* understood = std::get_if<std::string>(&taken)) {
+      if (*understood != answer) console.tell("      → " + *understood + "\n");
+      return *understood;
     }
-    if (static_cast<int>(values.size()) != count)
-      return count == 1 ? "give one number" : "give two numbers, the lower one first";
-    if (count == 2 && !(values[0] < values[1])) return "the lower end comes first, and must be below the upper end";
-    if (count == 2 && (values[0] > 0 || values[1] < 0)) return "home, at 0, must lie within the range";
-    set(values);
-    return {};
-  };
-}
-
-/// Values of the answers. A shaft has a catalogue name, or a diameter if it is another.
-struct Answers {
-  std::string name = "my joint";
-  double R = 60, low = -30, high = 30, d = 1, force = 10;
-  std::string shaft;
-  double bore = 0;
-};
-
-std::string take_shaft(Answers& answers, std::string_view answer) {
-  if (find_shaft(answer) != nullptr) {
-    answers.shaft = answer;
-    return {};
+    console.say({Severity::error, {}, std::get<Refusal>(taken).reason, {}});
   }
-  const auto diameter = number_in(answer);
-  const Field& field = *find_field("body.bore_diameter_mm");
-  if (!diameter || !(*diameter > 0) || *diameter > field.most)
-    return fmt::format("'{}' is neither a name in the list nor a diameter in mm", answer);
-  answers.shaft.clear();
-  answers.bore = *diameter;
-  return {};
+  throw InputError(Diagnostic{Severity::error,
+                              {},
+                              fmt::format("question {} ({}) has no usable answer in {} tries: no file was written",
+                                          number + 1, question.subject, k_most_tries),
+                              {}});
 }
 
-std::string list_of_shafts() {
-  std::string list;
-  for (const ShaftType& shaft : shafts()) list += fmt::format("\n      {:<17} {}", shaft.name, shaft.description);
-  return list + "\n";
-}
+// The file ------------------------------------------------------------------------------------------------------------
 
-Answers asked(Console& console) {
-  Answers answers;
-  const auto first = [](double& number) {
-    return [&number](const std::vector<double>& values) { number = values[0]; };
-  };
-  put(console,
-      {"", "What is the joint called?", answers.name,
-       [&](std::string_view answer) -> std::string {
-         if (cleaned_line(answer) != answer) return "a name is text of one line, without control characters";
-         answers.name = answer;
-         return {};
-       }},
-      1);
-  put(console, {k_joint_picture, "R: how far is C from O, mm?", "60", numbers("joint.length_mm", 1, first(answers.R))},
-      2);
-  put(console,
-      {k_range_picture, "The lowest and the highest angle, deg?", "-30 30",
-       numbers("joint.range_deg", 2,
-               [&answers](const std::vector<double>& values) {
-                 answers.low = values[0];
-                 answers.high = values[1];
-               })},
-      3);
-  put(console,
-      {k_tendon_picture, "How thick is the tendon, mm?", "1", numbers("tendon.diameter_mm", 1, first(answers.d))}, 4);
-  put(console, {k_load_picture, "Which force at C, N?", "10", numbers("load.tip_force_N", 1, first(answers.force))}, 5);
-  const std::string listed = list_of_shafts();
-  put(console,
-      {listed, "The motor's shaft: one of these names, or the diameter of a round shaft, mm?", "5",
-       [&answers](std::string_view answer) { return take_shaft(answers, answer); }},
-      6);
-  return answers;
-}
-
-/// The paper's optimum scaled by R, with a pulley that turns less than once. The tendon is of the catalogue if it has
-/// that diameter.
-DeclaredMechanism mechanism_of(const Answers& answers) {
-  const double R = answers.R, span = answers.high - answers.low;
-  // α is about θ times the tendon's arm, some 0.6 R, over r1; 280° leave room for the knots.
-  const double r1 = std::max(0.18 * R, 0.6 * R * span / 280.0);
-  std::string text = fmt::format("schema = 1\nname = {}\n[joint]\nlength_mm = {}\nrange_deg = [{}, {}]\n",
-                                 toml_string(answers.name), shortest(R), shortest(answers.low), shortest(answers.high));
-  text += fmt::format("[guides]\nEB_mm = {0}\nED_mm = {0}\nOE_mm = {1}\nradius_mm = {2}\n", rounded(0.5 * R, 3),
-                      rounded(-0.4 * R, 3), rounded(std::clamp(0.03 * R, 1.0, 5.0), 2));
-  text += fmt::format("[pulley]\nEF_mm = {}\nr1_mm = {}\nlaw = \"compensate\"\n", rounded(1.2 * R, 3), rounded(r1, 3));
-  text += fmt::format("[tendon]\ndiameter_mm = {}\n", shortest(answers.d));
-  for (const TendonType& known : tendon_types()) {
-    if (known.diameter != answers.d) continue;
-    text += fmt::format("modulus_MPa = {}\nbend_ratio = {}\n", shortest(known.modulus), shortest(known.bend_ratio));
-    break;
+DeclaredMechanism joint_of(const Answers& answers) {
+  DeclaredMechanism mechanism = default_mechanism();
+  mechanism.name = answers.name;
+  mechanism.joint.R = answers.length;
+  mechanism.joint.theta_min = radians(answers.range.low);
+  mechanism.joint.theta_max = radians(answers.range.high);
+  mechanism.load.tip_force = answers.load.force;
+  mechanism.load.torque = answers.load.torque;
+  mechanism.tendon.diameter = answers.tendon.diameter;
+  mechanism.tendon.modulus = answers.tendon.modulus;
+  mechanism.tendon.bend_ratio = answers.tendon.bend_ratio;
+  Body& body = mechanism.body;
+  if (!answers.motor.shaft.empty()) {
+    body.shaft = answers.motor.shaft;
+  } else if (!answers.motor.horn.empty()) {
+    body.bore = Bore::horn;
+    body.horn = answers.motor.horn;
+  } else {
+    body.bore = answers.motor.flat ? Bore::d : Bore::round;
+    body.bore_diameter = answers.motor.bore;
   }
-  text += fmt::format("[load]\ntip_force_N = {}\n[body]\n", shortest(answers.force));
-  text += answers.shaft.empty() ? fmt::format("bore_diameter_mm = {}\n", shortest(answers.bore))
-                                : fmt::format("shaft = \"{}\"\n", answers.shaft);
-  return parse_mechanism(text, "your answers");
+  return mechanism;
 }
 
-/// The value as text; rounded, because angles are converted to radians and back.
 std::string value_text(const Field& field, const DeclaredMechanism& mechanism) {
-  constexpr int k_digits = 12;
-  if (field.kind == FieldKind::number) return rounded(field.get(mechanism, 0), k_digits);
-  if (field.kind == FieldKind::range)
-    return fmt::format("[{}, {}]", rounded(field.get(mechanism, 0), k_digits),
-                       rounded(field.get(mechanism, 1), k_digits));
+  const auto number = [&](int end) { return number_text(field, mechanism, end); };
+  if (field.kind == FieldKind::number) return number(0);
+  if (field.kind == FieldKind::range || field.kind == FieldKind::point)
+    return fmt::format("[{}, {}]", number(0), number(1));
   const std::string words = field.get_text(mechanism);
   return field.kind == FieldKind::boolean ? words : toml_string(words);
 }
 
-constexpr std::string_view k_keys =
-    "name joint.length_mm joint.range_deg guides.EB_mm guides.ED_mm guides.OE_mm guides.radius_mm pulley.EF_mm "
-    "pulley.r1_mm "
-    "pulley.law tendon.diameter_mm tendon.modulus_MPa tendon.bend_ratio load.tip_force_N";
+/// The keys of answers and layout; all others have their defaults.
+std::vector<std::string> keys_of(const DeclaredMechanism& mechanism) {
+  std::string keys =
+      "name joint.length_mm joint.range_deg guides.EB_mm guides.ED_mm guides.OE_mm guides.radius_mm pulley.EF_mm "
+      "pulley.r1_mm pulley.law tendon.diameter_mm tendon.modulus_MPa tendon.bend_ratio ";
+  if (mechanism.joint.drum_radius > 0) keys += "joint.drum_radius_mm joint.attachment1_mm joint.attachment2_mm ";
+  if (mechanism.guides.kind == GuideKind::idler)
+    keys += "guides.kind guides.bearing_radius_mm guides.bearing_friction ";
+  keys += mechanism.load.torque != 0 ? "load.torque_Nmm " : "load.tip_force_N ";
+  if (find_shaft(mechanism.body.shaft) != nullptr)
+    keys += "body.shaft";
+  else
+    keys += mechanism.body.bore == Bore::horn ? "body.bore body.horn" : "body.bore body.bore_diameter_mm";
+  return split(keys, ' ');
+}
 
-/// The keys of answers, of their consequences and of changes, in the order of a file; all others have their defaults.
-std::string file_of(const DeclaredMechanism& mechanism, const std::vector<std::string>& changed) {
-  std::vector<std::string> keys = split(k_keys, ' ');
-  keys.emplace_back(mechanism.body.shaft.empty() || mechanism.body.shaft == "none" ? "body.bore_diameter_mm"
-                                                                                   : "body.shaft");
-  keys.insert(keys.end(), changed.begin(), changed.end());
-  std::string text =
-      "# Made by 'fusee new --ask'. All other keys have their defaults: 'fusee explain' lists them.\nschema = 1\n";
+std::string file_of(const DeclaredMechanism& mechanism, const std::string& about) {
+  const std::vector<std::string> keys = keys_of(mechanism);
+  std::string text = "# Made by 'fusee new --ask'. All other keys have their defaults: 'fusee explain' lists them.\n" +
+                     (about.empty() ? "" : wrapped(about, "# ", "# ")) + "schema = 1\n";
   std::string_view table;
   for (const Field& field : fields()) {
     if (std::find(keys.begin(), keys.end(), field.name()) == keys.end()) continue;
@@ -237,41 +267,134 @@ std::string file_of(const DeclaredMechanism& mechanism, const std::vector<std::s
   return text;
 }
 
-bool was_asked(const profile::Change& change) {
-  return change.key.starts_with("joint.") || change.key == "tendon.diameter_mm" ||
-         change.key == "body.bore_diameter_mm";
-}
+// The layout ----------------------------------------------------------------------------------------------------------
 
-void turn(DeclaredMechanism& mechanism, const profile::Change& change) {
-  DeclaredMechanism changed = mechanism;
-  const Field& field = *find_field(change.key);
-  if (change.to_word.empty())
-    field.set(changed, 0, change.to);
-  else
-    field.set_text(changed, change.to_word);
-  mechanism = changed;
+/// Finds layouts for answers.
+class Layouts {
+ public:
+  Layouts(const std::vector<Setting>& settings, const RunContext& context) : settings_(settings), context_(context) {}
+
+  pipeline::LayoutSearch search(const Answers& answers, const RunContext& context, bool any = false) const {
+    const auto file = [this](const DeclaredMechanism& mechanism) {
+      MechanismFile read;
+      read.path = "your answers";
+      read.mechanism = parse_mechanism(file_of(mechanism, ""), read.path, ".", settings_, &read.warnings, &read.places,
+                                       *context_.files);
+      return read;
+    };
+    return pipeline::choose_layout({joint_of(answers), answers.room, answers.motor.travel, any}, file, context);
+  }
+
+  /// Changes of single answers with which a layout exists.
+  std::vector<OtherAnswer> others(const Answers& answers) const {
+    std::vector<OtherAnswer> found;
+    const auto add = [&](int question, std::string to, std::string from) {
+      found.push_back({question, std::string(questions()[static_cast<std::size_t>(question - 1)].subject),
+                       std::move(to), std::move(from)});
+    };
+    if (const auto room = nearest(answers, &Answers::room, {1.1, 1.25, 1.5, 2, 3, 5, 8}))
+      add(4, rounded(*room) + " mm", rounded(answers.room) + " mm");
+    for (const double share : {0.75, 0.5, 0.3, 0.15}) {
+      Answers other = answers;
+      other.tendon.diameter = std::stod(rounded(share * answers.tendon.diameter, 2));
+      if (!exists(other)) continue;
+      add(7, rounded(other.tendon.diameter) + " mm", rounded(answers.tendon.diameter) + " mm");
+      break;
+    }
+    for (const char* motor : {"5 mm", "3 mm", "2 mm", "1 mm"}) {
+      Answers other = answers;
+      other.motor = std::get<TypedMotor>(read_motor(motor));
+      if (other.motor.bore >= answers.motor.bore && answers.motor.bore > 0) continue;
+      if (!exists(other)) continue;
+      add(6, motor, answers.motor.words);
+      break;
+    }
+    return found;
+  }
+
+ private:
+  bool exists(const Answers& answers) const {
+    return search(answers, context_.without_progress(), true).chosen.has_value();
+  }
+
+  /// The first feasible value, then halved towards the infeasible one; in whole mm, or tenths below 10 mm.
+  std::optional<double> nearest(const Answers& answers, double Answers::*number,
+                                const std::vector<double>& factors) const {
+    const auto written = [](double value) {
+      const double step = value < 10 ? 0.1 : 1.0;
+      return std::stod(rounded(std::ceil(value / step - 1e-9) * step));
+    };
+    const auto works = [&](double value) {
+      Answers other = answers;
+      other.*number = value;
+      return exists(other);
+    };
+    double bad = answers.*number;
+    for (const double factor : factors) {
+      double good = written(factor * answers.*number);
+      if (!works(good)) {
+        bad = good;
+        continue;
+      }
+      for (int halves = 0; halves < 3; ++halves) {
+        const double middle = written(0.5 * (bad + good));
+        if (!(middle < good)) break;
+        (works(middle) ? good : bad) = middle;
+      }
+      return good;
+    }
+    return std::nullopt;
+  }
+
+  const std::vector<Setting>& settings_;
+  const RunContext& context_;
+};
+
+/// "A drum on the joint, tendons over pins. The pulley is 26 mm wide (room 30 mm) and turns 140 deg …".
+std::string about(const pipeline::ChosenLayout& layout, const Answers& answers) {
+  std::string words = layout.words;
+  words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
+  return fmt::format(
+      "{}. The pulley is {} mm wide (room {} mm) and turns {} deg over the range; the load pulls a "
+      "tendon with {} N. Motor: {}. Tendon: {}.",
+      words, rounded(layout.diameter, 3), rounded(answers.room), rounded(degrees(layout.travel), 3),
+      rounded(layout.tension, 3), answers.motor.words, answers.tendon.words);
 }
 
 }  // namespace
 
-AskedMechanism ask_for_mechanism(Console& console) {
-  AskedMechanism asked_for{mechanism_of(asked(console)), {}, {}, {}, {}};
-  std::vector<std::string> changed_keys;
-  // Numbers without a question may be changed freely.
-  constexpr int k_most_changes = 4;
-  for (int changes = 0;; ++changes) {
-    asked_for.obstacles = solid::obstacles(asked_for.mechanism);
-    if (asked_for.obstacles.empty()) break;
-    asked_for.advice = solid::body_advice(asked_for.mechanism).alone;
-    const auto ours = std::find_if_not(asked_for.advice.begin(), asked_for.advice.end(), was_asked);
-    if (ours == asked_for.advice.end() || changes == k_most_changes) break;
-    turn(asked_for.mechanism, *ours);
-    asked_for.changed.push_back(ours->text);
-    changed_keys.push_back(ours->key);
-    asked_for.advice.clear();
+AskedMechanism ask_for_mechanism(Console& console, const std::vector<Setting>& settings, const RunContext& context) {
+  Answers answers;
+  std::vector<std::string> understood;
+  for (std::size_t i = 0; i < questions().size(); ++i) {
+    const auto answer = put(console, i, answers, questions()[i].proposal(answers));
+    if (!answer) {
+      throw InputError(Diagnostic{Severity::error,
+                                  {},
+                                  fmt::format("the input ended at question {} of {} ({}): no file was written", i + 1,
+                                              questions().size(), questions()[i].subject),
+                                  understood.empty() ? "type an answer, or Enter for the proposal"
+                                                     : "answered: " + answered_words(understood)});
+    }
+    understood.push_back(*answer);
   }
-  asked_for.text = file_of(asked_for.mechanism, changed_keys);
-  return asked_for;
+  const Layouts layouts(settings, context);
+  while (true) {
+    AskedMechanism asked{layouts.search(answers, context), {}, {}};
+    if (asked.search.chosen) {
+      const pipeline::ChosenLayout& layout = *asked.search.chosen;
+      asked.text = settings.empty() ? file_of(layout.file.mechanism, about(layout, answers))
+                                    : write_mechanism(layout.file.mechanism);
+      console.tell("\n" + joint_picture(layout.built.product) + "\n");
+      return asked;
+    }
+    asked.others = layouts.others(answers);
+    if (asked.others.empty()) return asked;
+    console.say({Severity::error, {}, "no layout fits these answers: " + asked.search.obstacle, {}});
+    const OtherAnswer& other = asked.others.front();
+    const auto number = static_cast<std::size_t>(other.question - 1);
+    if (!put(console, number, answers, other.answer)) return asked;
+  }
 }
 
 }  // namespace fusee::cli

@@ -1,26 +1,34 @@
 /// \file
-/// `fusee new --ask`: six questions, each with a picture and a default, and the mechanism that the answers make.
+/// `fusee new --ask`: seven questions, and the file of a joint whose pulley was built once.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "cli/console.h"
-#include "fusee/mechanism.h"
-#include "fusee/profile.h"
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
+#include "pipeline/layout.h"
 
 namespace fusee::cli {
 
-struct AskedMechanism {
-  DeclaredMechanism mechanism;                ///< answers, and proportions of the paper's optimum for all other numbers
-  std::vector<std::string> changed;           ///< numbers without a question that had to change: "r1 ≤ 9.3 mm"
-  std::vector<profile::Condition> obstacles;  ///< remaining obstacles to a pulley
-  std::vector<profile::Change> advice;        ///< changes of the answers that would remove them
-  std::string text;                           ///< the file: answers and consequences, each with its meaning
+/// Another answer with which a layout exists: it was tried.
+struct OtherAnswer {
+  int question = 0;    ///< 1 … 7
+  std::string words;   ///< "room for the pulley"
+  std::string answer;  ///< "24.5 mm"
+  std::string given;   ///< "12 mm"
 };
 
-/// Asks on stderr and reads lines from stdin. An empty line or the end of the input takes the proposal. Throws
-/// InputError after several invalid answers.
-AskedMechanism ask_for_mechanism(Console& console);
+struct AskedMechanism {
+  pipeline::LayoutSearch search;
+  std::string text;                 ///< the file; "" without a layout
+  std::vector<OtherAnswer> others;  ///< without a layout
+};
+
+/// Asks on stderr and reads lines from stdin. An empty line takes the proposal; an answer that cannot be used is asked
+/// again with the reason. Answers without a layout are asked again, too, until the input ends. `settings` overrule the
+/// answers. Throws InputError where the input ends before the last answer, and Stopped.
+AskedMechanism ask_for_mechanism(Console& console, const std::vector<Setting>& settings, const RunContext& context);
 
 }  // namespace fusee::cli

@@ -105,12 +105,30 @@ std::string setting_of(const profile::Change& change) {
 
 }  // namespace
 
-void add_advice(const std::vector<profile::Change>& advice, Reply& reply) {
+void add_advice(const std::vector<profile::Change>& advice, Reply& reply, bool is_exhausted) {
   for (const profile::Change& change : advice)
     reply.diagnostics.push_back(note(Severity::note, "try " + setting_of(change)));
   const auto is_number = [](const profile::Change& change) { return change.to_word.empty(); };
   if (std::none_of(advice.begin(), advice.end(), is_number))
-    reply.diagnostics.push_back(note(Severity::note, "no change of a single number was found that makes it feasible"));
+    reply.diagnostics.push_back(
+        note(Severity::note, is_exhausted ? "no change of a single number makes it feasible"
+                                          : "no change of a single number was found that makes it feasible"));
+}
+
+void add_layout_advice(const std::optional<profile::LayoutAdvice>& advice, Reply& reply) {
+  if (!advice) return;
+  std::string values, words;
+  Json settings = Json::array();
+  for (const auto& [key, value] : advice->settings) {
+    values += (values.empty() ? "" : ", ") + key + " = " + value;
+    words += " --set '" + key + "=" + value + "'";
+    settings.push_back({{"key", key}, {"value", value}});
+  }
+  reply.diagnostics.push_back(note(
+      Severity::note, "or " + advice->text + ": " + values + " ('fusee new " + advice->template_name + "' shows one)",
+      "for a trial:" + words));
+  reply.fields["advice_layout"] = {
+      {"text", advice->text}, {"template", advice->template_name}, {"settings", std::move(settings)}};
 }
 
 void add_advice_together(const std::vector<profile::Change>& advice, Reply& reply) {

@@ -44,7 +44,10 @@ Json to_json(const std::vector<profile::Change>& advice);
 
 /// Adds an error for each failed condition, and a note for each change that would help.
 void add_obstacles(const std::string& file, const std::vector<profile::Condition>& conditions, Reply& reply);
-void add_advice(const std::vector<profile::Change>& advice, Reply& reply);
+/// `is_exhausted`: every number was searched over its whole range.
+void add_advice(const std::vector<profile::Change>& advice, Reply& reply, bool is_exhausted = true);
+/// Adds a note and the field "advice_layout" for another layout; nothing if there is none.
+void add_layout_advice(const std::optional<profile::LayoutAdvice>& advice, Reply& reply);
 /// Adds a note for changes that only help together; nothing if there are none.
 void add_advice_together(const std::vector<profile::Change>& advice, Reply& reply);
 

@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <type_traits>
 
 #include "fusee/base.h"
 #include "fusee/mechanism_file.h"
@@ -113,6 +114,11 @@ MotorModel make(const toml::table& item, MotorModel model) {
   return model;
 }
 
+TemplateType make(const toml::table& item, TemplateType type) {
+  type.group = text(item, "group");
+  return type;
+}
+
 /// All [[key]] tables of one file of the catalogue.
 template <class Item>
 std::vector<Item> load(std::string_view file_name, const char* key) {
@@ -127,7 +133,7 @@ std::vector<Item> load(std::string_view file_name, const char* key) {
       Item item;
       item.name = text(table, "name");
       item.description = text(table, "description");
-      item.source = text(table, "source");
+      if constexpr (!std::is_same_v<Item, TemplateType>) item.source = text(table, "source");
       items.push_back(make(table, std::move(item)));
     }
   }
@@ -180,6 +186,11 @@ const std::vector<MotorType>& motor_types() {
 
 const std::vector<MotorModel>& motor_models() {
   static const std::vector<MotorModel> all = load<MotorModel>("motors", "model");
+  return all;
+}
+
+const std::vector<TemplateType>& template_types() {
+  static const std::vector<TemplateType> all = load<TemplateType>("templates", "template");
   return all;
 }
 

@@ -106,6 +106,13 @@ struct MotorModel {
   bool holds = false;             ///< the torque can be held continuously, at that speed
 };
 
+/// The entry of a mechanism file of profiles/ in the list of templates.
+struct TemplateType {
+  std::string name;
+  std::string description;
+  std::string group;
+};
+
 const std::vector<HornType>& horns();
 const std::vector<ShaftType>& shafts();
 const std::vector<TendonType>& tendon_types();
@@ -114,6 +121,7 @@ const std::vector<BearingType>& bearing_types();  ///< the largest first
 const std::vector<BoardType>& board_types();
 const std::vector<MotorType>& motor_types();
 const std::vector<MotorModel>& motor_models();
+const std::vector<TemplateType>& template_types();  ///< in the order of the list
 
 /// Finds an entry by name; null when there is none.
 const HornType* find_horn(std::string_view name);

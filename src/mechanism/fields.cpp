@@ -214,8 +214,8 @@ Field range_field() {
   Field field = base_field(
       {"joint.range_deg", "theta", "", "the joint's lowest and highest angle; home (0) lies within"}, FieldKind::range);
   field.unit = "deg";
-  field.least = -175;
-  field.most = 175;
+  field.least = -180;
+  field.most = 180;
   field.get = [](const DeclaredMechanism& m, int end) {
     return degrees_as_read(end == 0 ? m.joint.theta_min : m.joint.theta_max);
   };

@@ -1,4 +1,5 @@
 #include "fusee/mechanism_file.h"
+#include "mechanism/catalogue.h"
 #include "mechanism/embedded.h"
 #include "mechanism/field_text.h"
 
@@ -6,18 +7,9 @@ namespace fusee {
 
 std::vector<Template> templates() {
   std::vector<Template> all;
-  for (const EmbeddedFile& file : embedded_templates()) all.push_back({file.name, file.text});
+  for (const TemplateType& type : template_types())
+    all.push_back({type.name, find_template(type.name), type.group, type.description});
   return all;
-}
-
-std::string first_comment(const Template& known) {
-  std::string comment;
-  for (std::string_view text = known.text; text.starts_with("# ") && !comment.ends_with('.');) {
-    const std::string_view line = text.substr(2, text.find('\n') - 2);
-    comment += (comment.empty() ? "" : " ") + std::string(line);
-    text.remove_prefix(std::min(line.size() + 3, text.size()));
-  }
-  return comment;
 }
 
 std::string_view find_template(std::string_view name) {

@@ -4,6 +4,7 @@
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
 #include "pipeline/design.h"
+#include "pipeline/layout.h"
 #include "pipeline/motor_advice.h"
 #include "pipeline/several_turns.h"
 
@@ -38,6 +39,7 @@ analysis::AnalysisResult analyze(const MechanismFile& file, const analysis::Anal
   context.begin_step("moving the joint through its range");
   analysis::AnalysisResult result =
       analysis::analyse(joint::identified_joint(file.mechanism).mechanism, options, context);
+  if (!result.exists) result.layout_advice = drum_advice(file, {}, context);
   result.warnings = analysis::likely_input_errors(file);
   // A tendon that breaks is an error rather than a warning.
   if (const auto overloaded = analysis::overloaded_tendon(file); overloaded && !result.breaks_at)

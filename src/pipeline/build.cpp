@@ -15,6 +15,7 @@
 #include "pipeline/axle_room.h"
 #include "pipeline/design.h"
 #include "pipeline/law_table_copy.h"
+#include "pipeline/layout.h"
 #include "pipeline/motor_advice.h"
 #include "pipeline/omissions.h"
 #include "pipeline/several_turns.h"
@@ -432,6 +433,15 @@ bool motor_suffices(const MechanismFile& file) {
   return analysis::motor_obstacles(joint::identified_joint(file.mechanism).mechanism).empty();
 }
 
+/// The keys of --set.
+std::vector<std::string> typed_keys(const MechanismFile& file) {
+  std::vector<std::string> keys;
+  for (const auto& [key, place] : file.places) {
+    if (place.file.starts_with("--set")) keys.push_back(key);
+  }
+  return keys;
+}
+
 profile::Advice advice_for(const formats::Product& product, const BuildOptions& options, const RunContext& context) {
   const MechanismFile& file = product.file;
   const bool with_motor = file.mechanism.motor.enforce;
@@ -450,7 +460,8 @@ profile::Advice advice_for(const formats::Product& product, const BuildOptions& 
                                                ++begun;
                                                return made(changed);
                                              },
-                                         .builds_left = [&] { return check.max_builds() - begun; }};
+                                         .builds_left = [&] { return check.max_builds() - begun; },
+                                         .first = typed_keys(file)};
   return solid::body_advice(file.mechanism, judge, product.pulley.layout.parts);
 }
 
@@ -582,6 +593,7 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options, const 
     if (!options.advice) return result;
     context.begin_step("looking for what would make it possible");
     result.advice = advice_for(result.product, options, context.without_progress());
+    result.advice.layout = drum_advice(file, options, context.without_progress());
     return result;
   }
   if (file.mechanism.motor.enforce) {

@@ -163,10 +163,12 @@ struct SearchDirection {
   bool ends_before(double step, double before) const { return at(step) == at(before); }
 };
 
-// Steps begin at 2 % of the number and grow. Five times its magnitude would be another joint.
+// Steps begin at 2 % of the number and grow. Five times its magnitude would be another joint: further values are
+// tried only if no near one suffices, or for a number that was just typed, in smaller steps up to its bounds.
 constexpr double k_first_step = 0.02;
 constexpr double k_step_ratio = 2.4;
 constexpr double k_last_step = 4.0;
+constexpr double k_sweep_ratio = 1.3;
 // Bisection ends at this fraction of the number's magnitude: three digits.
 constexpr double k_border = 5e-4;
 // Sufficient number of changes, with the fast test only and with full builds.
@@ -175,6 +177,10 @@ constexpr std::size_t k_sufficient_builds = 2;
 // Upper bounds on full builds and fast tests.
 constexpr int k_max_builds = 4;
 constexpr int k_max_evaluations = 400;
+// Most values of a search over whole ranges fail at the first condition.
+constexpr int k_max_sweep_evaluations = 2400;
+// Reserve for pairs.
+constexpr int k_pair_evaluations = 150;
 // Number of the most helpful changes that are combined in pairs.
 constexpr std::size_t k_helpful = 4;
 
@@ -194,38 +200,24 @@ class AdviceSearch {
     records_.resize(directions_.size());
   }
 
-  /// Advances all variables step by step, so that the nearest changes are found first. A variable with a change is
-  /// finished.
+  /// First the numbers that were just typed, over their whole range. Then all numbers within a few times their
+  /// magnitude, so that the nearest changes are found first. If none suffices, all over their whole range.
   std::vector<Change> alone() {
     std::vector<Change> found;
-    std::vector<const DesignVariable*> done;
-    for (double step = k_first_step; step < k_last_step && found.size() < sufficient_ && has_evaluations_left();
-         step *= k_step_ratio) {
-      const std::vector<std::size_t> due = due_at(step, done);
-      std::vector<Mechanism> there;
-      for (const std::size_t t : due) there.push_back(changed_mechanism({directions_[t]}, {directions_[t].at(step)}));
-      const std::vector<std::vector<Condition>> left = evaluate(there);
-      std::vector<Candidate> here;
-      for (std::size_t i = 0; i < due.size(); ++i) {
-        SearchRecord& record = records_[due[i]];
-        const double before = std::exchange(record.step, step);
-        const SearchDirection& search = directions_[due[i]];
-        if (!left[i].empty()) {
-          record_effect(record, left[i]);
-        } else if (std::count(done.begin(), done.end(), search.variable) == 0) {
-          // Each confirmation is a full build, so that a variable is confirmed only once.
-          done.push_back(search.variable);
-          here.push_back(Candidate{{search}, before, step, step, 0, {}});
-        }
-      }
-      sort_by_border(here, sufficient_ - found.size());
-      for (const Candidate& proven : built(here, sufficient_ - found.size())) found.push_back(proven.changes().front());
-    }
+    search(found, {k_sweep_ratio, HUGE_VAL, true});
+    search(found, {k_step_ratio, k_last_step, false});
+    if (!found.empty()) return found;
+    max_evaluations_ = judge_.is_expensive ? k_max_evaluations - k_pair_evaluations : k_max_sweep_evaluations;
+    search(found, {k_sweep_ratio, HUGE_VAL, false});
     return found;
   }
 
+  /// True if no number suffices, at any step up to its bounds.
+  bool is_exhausted() const { return is_exhausted_; }
+
   /// Changes two of the most helpful variables by equal steps, when alone() found nothing.
   std::vector<Change> together() {
+    max_evaluations_ = evaluations_ + k_pair_evaluations;
     std::vector<std::size_t> helpful(directions_.size());
     std::iota(helpful.begin(), helpful.end(), std::size_t{0});
     std::stable_sort(helpful.begin(), helpful.end(),
@@ -275,7 +267,60 @@ class AdviceSearch {
     int skips = 0;       ///< steps skipped before the last evaluation
   };
 
-  bool has_evaluations_left() const { return evaluations_ < k_max_evaluations; }
+  /// Growing steps of a search.
+  struct Steps {
+    double ratio;        ///< of a step to the one before
+    double end;          ///< steps stay below it; infinite: to the bounds of all numbers
+    bool is_first_only;  ///< only the numbers of FeasibilityOracle::first
+  };
+
+  bool is_searched(const SearchDirection& search, const Steps& steps) const {
+    return !steps.is_first_only || std::any_of(judge_.first.begin(), judge_.first.end(), [&](const std::string& key) {
+      return search.variable->key == key || search.variable->key.starts_with(key + "[");
+    });
+  }
+
+  /// Advances all variables step by step. A variable with a change is finished.
+  void search(std::vector<Change>& found, const Steps& steps) {
+    for (SearchRecord& record : records_) record.step = 0;
+    bool is_at_bounds = false;
+    double step = k_first_step;
+    for (; step < steps.end && !is_at_bounds && found.size() < sufficient_ && has_evaluations_left();
+         step *= steps.ratio) {
+      is_at_bounds = true;
+      for (std::size_t t = 0; t < directions_.size(); ++t)
+        is_at_bounds = is_at_bounds && (!is_searched(directions_[t], steps) || is_finished(t, step));
+      const std::vector<std::size_t> due = due_at(step, steps);
+      std::vector<Mechanism> there;
+      for (const std::size_t t : due) there.push_back(changed_mechanism({directions_[t]}, {directions_[t].at(step)}));
+      const std::vector<std::vector<Condition>> left = evaluate(there);
+      std::vector<Candidate> here;
+      for (std::size_t i = 0; i < due.size(); ++i) {
+        SearchRecord& record = records_[due[i]];
+        const double before = std::exchange(record.step, step);
+        const SearchDirection& search = directions_[due[i]];
+        if (!left[i].empty()) {
+          record_effect(record, left[i]);
+        } else if (!is_done(search)) {
+          // Each confirmation is a full build, so that a variable is confirmed only once.
+          done_.push_back(search.variable);
+          here.push_back(Candidate{{search}, before, step, step, 0, {}});
+        }
+      }
+      sort_by_border(here, sufficient_ - found.size());
+      for (const Candidate& proven : built(here, sufficient_ - found.size())) found.push_back(proven.changes().front());
+    }
+    is_exhausted_ = std::isinf(steps.end) && is_at_bounds && done_.empty();
+  }
+
+  bool is_done(const SearchDirection& search) const {
+    return std::count(done_.begin(), done_.end(), search.variable) != 0;
+  }
+  bool is_finished(std::size_t t, double step) const {
+    return is_done(directions_[t]) || directions_[t].ends_before(step, records_[t].step);
+  }
+
+  bool has_evaluations_left() const { return evaluations_ < max_evaluations_; }
 
   /// Pairs of these changes with different variables, limited by the evaluations left.
   std::vector<std::vector<SearchDirection>> pairs_of(const std::vector<std::size_t>& directions) const {
@@ -286,7 +331,7 @@ class AdviceSearch {
         if (one.variable != other.variable) pairs.push_back({one, other});
       }
     }
-    pairs.resize(std::min(pairs.size(), static_cast<std::size_t>(std::max(0, k_max_evaluations - evaluations_))));
+    pairs.resize(std::min(pairs.size(), static_cast<std::size_t>(std::max(0, max_evaluations_ - evaluations_))));
     return pairs;
   }
   /// Evaluations are independent. If full builds are required, two run at a time.
@@ -311,19 +356,17 @@ class AdviceSearch {
   }
 
   /// The changes to evaluate at `step`.
-  std::vector<std::size_t> due_at(double step, const std::vector<const DesignVariable*>& done) {
+  std::vector<std::size_t> due_at(double step, const Steps& steps) {
     std::vector<std::size_t> due;
     for (std::size_t t = 0; t < directions_.size(); ++t) {
-      if (std::count(done.begin(), done.end(), directions_[t].variable) > 0 ||
-          directions_[t].ends_before(step, records_[t].step))
-        continue;
+      if (!is_searched(directions_[t], steps) || is_finished(t, step)) continue;
       if (records_[t].skips_left > 0) {
         --records_[t].skips_left;
       } else {
         due.push_back(t);
       }
     }
-    due.resize(std::min(due.size(), static_cast<std::size_t>(k_max_evaluations - evaluations_)));
+    due.resize(std::min(due.size(), static_cast<std::size_t>(max_evaluations_ - evaluations_)));
     return due;
   }
 
@@ -452,7 +495,10 @@ class AdviceSearch {
   std::vector<SearchDirection> directions_;
   std::vector<SearchRecord> records_;  ///< one per direction
   std::vector<Condition> first_;
+  std::vector<const DesignVariable*> done_;  ///< with a change that was found or failed to build
   std::size_t sufficient_;
+  int max_evaluations_ = k_max_evaluations;
+  bool is_exhausted_ = false;
   int evaluations_ = 0;
   int builds_ = 0;
 };
@@ -472,7 +518,9 @@ Advice find_advice(const Mechanism& mechanism, const FeasibilityOracle& judge,
   const std::size_t sufficient = judge.made ? k_sufficient_builds : k_sufficient;
   if (known >= sufficient) return {};
   AdviceSearch adviser(mechanism, judge, more_keys, sufficient - known);
-  Advice advice{adviser.alone(), {}};
+  Advice advice;
+  advice.alone = adviser.alone();
+  advice.is_exhausted = adviser.is_exhausted();
   if (advice.alone.empty()) advice.together = adviser.together();
   return advice;
 }

@@ -88,6 +88,7 @@ class BodyAdviser {
       keys.emplace_back("print.overhang_deg");
     const profile::Advice numbers = profile::find_advice(mechanism_, judge, keys, advice.alone.size());
     advice.alone.insert(advice.alone.end(), numbers.alone.begin(), numbers.alone.end());
+    advice.is_exhausted = numbers.is_exhausted;
     for (const std::string& key : keys) {
       if (advice.alone.empty() && key.starts_with("body.")) add_automatic(advice.alone, key);
     }

@@ -1,67 +1,179 @@
-"""`fusee new --ask`: answers become a file with a feasible pulley; invalid answers are asked again, a limited number of
-times."""
+"""`fusee new --ask`: answers become a file that builds; invalid answers are asked again; an input that ends leaves no file."""
 
 import os
 import pty
+import random
+import re
 import select
 import signal
 import subprocess
 import time
+import tomllib
 import unittest
 
 import harness
 
+QUESTIONS = 7
+
+
+def answers(name="joint", length="45 mm", span="0 80", room="30 mm", load="10 N", motor="n20-d3", tendon="0.6"):
+    return "\n".join((name, length, span, room, load, motor, tendon)) + "\n"
+
 
 class Questions(harness.Scratch):
     def ask(self, typed, code=0, words="new --ask"):
-        done = self.fusee(words, input=typed)
+        done = self.fusee(words, input=typed.encode() if isinstance(typed, str) else typed)
         self.assertEqual(done.returncode, code, done.stderr.decode(errors="replace"))
         return done.stdout.decode(), done.stderr.decode(errors="replace")
 
-    def builds(self, text):
+    def understood(self, *lines):
+        """How answers up to one question were understood: the input ends at the next question."""
+        out, err = self.ask("\n".join(lines) + "\n", 3)
+        self.assertEqual(out, "")
+        return re.search(r"answered: (.*)", err)[1], err
+
+    def builds(self, text, room=None):
+        """The build's document; the pulley is at most `room` mm wide."""
         (self.folder / "asked.toml").write_text(text)
-        self.expect("build asked.toml --dry-run", 0)
+        document = self.expect_json("build asked.toml --force", 0)
+        self.assertTrue(all(check["ok"] for check in document["checks"]))
+        if room:
+            size = self.expect("check out/asked/pulley.stl", 0).stdout.decode()
+            width = max(float(number) for number in re.search(r"size\s+([\d.]+) x ([\d.]+)", size).groups())
+            self.assertLessEqual(width, room + 0.01)
+        return document
 
     def test_proposals_build(self):
-        text, asked = self.ask(b"\n" * 6)
+        text, asked = self.ask("\n" * QUESTIONS)
         self.assertRegex(text, r"(?m)^length_mm = 60$")
         self.assertRegex(text, r"(?m)^range_deg = \[-30, 30\]")
-        self.assertEqual([f"{n}/6 " in asked for n in range(1, 7)], [True] * 6)
-        self.assertIn("a pulley is feasible", asked)
-        self.assertEqual(text, self.ask(b"")[0])  # the end of the input acts like Enter
-        self.builds(text)
+        self.assertEqual([f"{n}/{QUESTIONS} " in asked for n in range(1, QUESTIONS + 1)], [True] * QUESTIONS)
+        self.assertIn("a lever", asked)
+        self.builds(text, 42)
 
     def test_file_has_answers(self):
-        text, asked = self.ask(b'a "left" finger\n32\n-15, 45\n0.56\n12.5\nn20-d3\n')
+        text, _ = self.ask(answers('a "left" finger', "32", "-15, 45", "30", "12.5", "n20-d3", "0.56"))
         for line in ('name = "a \\"left\\" finger"', "length_mm = 32", "range_deg = [-15, 45]", "diameter_mm = 0.56",
                      "tip_force_N = 12.5", 'shaft = "n20-d3"'):
             self.assertIn("\n" + line + "\n", text)
-        # A number without a question had to change, which is reported.
-        self.assertRegex(asked, r"changed to make a pulley feasible: \S+ [≥≤] ")
-        self.builds(text)
+        self.builds(text, 30)
+
+    def test_wide_ranges_get_a_drum(self):
+        for span, length in (("0 80", "45"), ("±60", "250"), ("-180 180", "60"), ("-150 0", "100")):
+            text, asked = self.ask(answers(length=length, span=span, room="60", motor="nema17-d5", tendon="1 mm"))
+            self.assertIn("a drum on the joint", asked)
+            self.assertIn("drum_radius_mm", text)
+            self.builds(text, 60)
+
+    def test_heavy_load_in_small_room_gets_several_turns(self):
+        text, asked = self.ask(answers(length="250", span="±60", room="40", load="50 N", motor="nema17-d5", tendon="1"))
+        self.assertIn("several turns", asked)
+        self.assertIn('kind = "idler"', text)
+        self.builds(text, 40)
+
+    def test_servo_turns_no_further_than_it_can(self):
+        text, _ = self.ask(answers(length="110", span="-40 30", room="60", load="20 N", motor="MG996R horn", tendon="1"))
+        alpha = self.builds(text, 60)["alpha_deg"]
+        self.assertLessEqual(alpha[1] - alpha[0], 180)
+
+    def test_lengths(self):
+        for typed, length in (("45 mm", "45 mm"), ("4.5 cm", "45 mm"), ("4,5 cm", "45 mm"), ("1.8 in", "45.72 mm"), ('1.8"', "45.72 mm"),
+                              ('1 3/4"', "44.45 mm"), ("0.5 m", "500 mm"), ("2 ft 3 in", "685.8 mm")):
+            self.assertIn(f"length: {length}", self.understood("a", typed)[0], typed)
+
+    def test_ranges(self):
+        for typed in ("±30", "+-30", "+/-30", "-30..30", "-30 to 30", "[-30, 30]", "−30° … 30°", "-30 30 deg"):
+            self.assertIn("range: -30 to 30 deg", self.understood("a", "45", typed)[0], typed)
+        for typed in ("0..80", "0 80", "0-80", "0 to 80", "0,80"):
+            self.assertIn("range: 0 to 80 deg", self.understood("a", "45", typed)[0], typed)
+        self.assertIn("range: -15.5 to 30.5 deg", self.understood("a", "45", "-15,5 30,5")[0])
+
+    def test_loads(self):
+        for typed, load in (("10 N", "10 N at C"), ("0,5 kg", "4.903 N at C"), ("500 g", "4.903 N at C"), ("2 lbf", "8.896 N at C"),
+                            ("0.8 Nm", "800 Nmm about O"), ("5 kg cm", "490.3 Nmm about O")):
+            self.assertIn(f"load: {load}", self.understood("a", "45", "0 80", "30", typed)[0], typed)
+
+    def test_names_of_motors_and_tendons(self):
+        begun = ("a", "45", "0 80", "30", "10 N")
+        for typed, motor in (("N20", "N20 gear motor"), ("MG996R horn", "turns 180 deg"), ("dynamixel XL330", "horn of Dynamixel XL330"),
+                             ("5 mm D", "a D shaft of 5 mm"), ("1/4 in", "a round shaft of 6.35 mm")):
+            self.assertIn(motor, self.understood(*begun, typed)[0], typed)
+        for typed, modulus in (("Dyneema 0.6", 40000), ("0.6 mm Spectra", 40000), ("Vectran 0.6", 25000), ("nylon 0.6 mm", 2000),
+                               ("braided steel wire 0.6", 57300)):
+            text, _ = self.ask(answers(room="60", tendon=typed))
+            tendon = tomllib.loads(text)["tendon"]
+            self.assertEqual((tendon["diameter_mm"], tendon["modulus_MPa"]), (0.6, modulus))
 
     def test_invalid_answers_are_repeated(self):
-        text, asked = self.ask(b"arm\nsixty\n-3\n60 70\n60\n30 -30\n10 30\n-20 20\n\n\n\n")
-        for words in ("'sixty' is not a number", "-3 mm is not within", "give one number", "the lower end comes first", "home, at 0"):
+        typed = ["arm", "sixty", "-3", "60 70", "60", "30 -30", "10 30", "30", "-20 20", "30 apples", "40", "3 bananas", "10", "MG996R", "foo",
+                 "5 mm", "Dyneema", "1"]
+        text, asked = self.ask("\n".join(typed) + "\n")
+        for words in ('"sixty" is not a length', '"-3" is not a length', '"60 70" is not a length', "the lower end comes first: -30 30?",
+                      "home, at 0", "give both ends", '"30 apples" is not a length', '"bananas" is not a unit',
+                      "disc-25T-M3, spline-25T-mg996r. Which one?", '"foo" is neither', "give its diameter too"):
             self.assertIn(words, asked)
         self.assertIn("range_deg = [-20, 20]", text)
+        self.assertIn("length_mm = 60", text)
+
+    def test_input_that_ends_leaves_no_file(self):
+        for count in range(QUESTIONS):
+            out, err = self.ask("".join(answers().splitlines(keepends=True)[:count]), 3)
+            self.assertEqual(out, "")
+            self.assertIn(f"the input ended at question {count + 1} of {QUESTIONS}", err)
+        self.builds(self.ask(answers().rstrip("\n"))[0])  # the last line needs no line break
 
     def test_gives_up_after_invalid_answers(self):
-        for typed in (b"nonsense\n" * 1000, bytes(100_000), bytes(range(256)) * 40, b"9" * 100_000):
+        for typed in (b"a\n" + b"nonsense\n" * 1000, bytes(1_000_000), b"a\n" + b"9" * 1_000_000):
             out, err = self.ask(typed, code=3)
             self.assertEqual(out, "")
-            self.assertIn("was not answered in 5 tries", err)
+            self.assertIn("no usable answer in 50 tries", err)
 
-    def test_infeasible_answers_are_reported(self):
-        text, asked = self.ask(b"big\n40\n-20 90\n\n\n\n")
-        self.assertIn("range_deg = [-20, 90]", text)
-        self.assertRegex(asked, r"no pulley yet: .*\n(.*\n)*.*try joint\.range_deg\[1\] = ")
+    def test_impossible_answers_name_an_answer_that_works(self):
+        out, err = self.ask(answers(room="8 mm", motor="nema17-d5"), 4)
+        self.assertEqual(out, "")
+        other = re.search(r"try ([\d.]+ mm) in place of 8 mm for question 4", err)
+        self.assertTrue(other, err)
+        self.builds(self.ask(answers(room=other[1], motor="nema17-d5"))[0])
+        # It may be typed when the question is asked again.
+        text, _ = self.ask(answers(room="8 mm", motor="nema17-d5") + "\n")
+        self.builds(text, float(other[1].split()[0]))
+
+    def test_picture_has_pins_on_their_side(self):
+        for span, above in (("-30 30", True), ("0 80", False)):
+            text, asked = self.ask(answers(length="60", span=span, room="42", motor="5 mm", tendon="1"))
+            picture = asked.split(f"{QUESTIONS}/{QUESTIONS}")[1].splitlines()
+            row = {letter: next(i for i, line in enumerate(picture) if re.search(rf"(?<!\w){letter}(?!\w)", line[:44])) for letter in "BDOG"}
+            self.assertEqual(row["B"], row["D"])
+            self.assertEqual(row["B"] < row["O"], above)
+            self.assertLess(row["O"], row["G"])
+            self.assertEqual(tomllib.loads(text)["guides"]["OE_mm"] < 0, above)
+            self.assertNotIn("F:", asked)
 
     def test_rejects_other_arguments(self):
-        self.assertIn("takes no template", self.ask(b"", 2, "new forearm --ask")[1])
-        self.assertIn("which a bundle cannot record", self.ask(b"", 2, "new --ask --bundle b.zip")[1])
-        self.assertIn("min_wall_mm = 2.5", self.ask(b"", 0, "new --ask --set body.min_wall_mm=2.5")[0])
-        self.assertIn("length_mm = 60\n", self.expect_json("new --ask", 0)["text"])
+        self.assertIn("takes no template", self.ask("", 2, "new forearm --ask")[1])
+        self.assertIn("which a bundle cannot record", self.ask("", 2, "new --ask --bundle b.zip")[1])
+
+    def test_settings_overrule_answers(self):
+        text, _ = self.ask(answers(), 0, "new --ask --set body.min_wall_mm=1.5")
+        self.assertIn("min_wall_mm = 1.5", text)
+        self.builds(text)
+
+    def test_document(self):
+        done = self.fusee("new --ask --json", input=answers().encode())
+        document = harness.json.loads(done.stdout)
+        self.assertEqual((done.returncode, document["ok"]), (0, True))
+        self.assertIn("length_mm = 45\n", document["text"])
+        self.assertLessEqual(document["pulley_diameter_mm"], 30)
+
+    def test_random_answers_build(self):
+        generator = random.Random(43)
+        for _ in range(6):
+            low, high = -generator.choice((0, 15, 30, 90, 180)), generator.choice((20, 45, 90, 180))
+            typed = answers(length=str(generator.choice((12, 30, 80, 250, 1000))), span=f"{low}..{high}",
+                            room=str(generator.choice((34, 50, 90))), load=f"{generator.choice((1, 10, 30))} N",
+                            motor=generator.choice(("n20-d3", "nema17-d5", "XL330", "4 mm")), tendon=generator.choice(("0.3", "0.56", "1 mm")))
+            with self.subTest(typed=typed):
+                self.builds(self.ask(typed)[0])
 
     def test_signal_ends_question(self):
         ours, theirs = pty.openpty()
@@ -75,6 +187,17 @@ class Questions(harness.Scratch):
         os.close(theirs)
         self.assertEqual((process.returncode, out), (130, b""))
         self.assertLess(time.monotonic() - begun, 10)
+
+
+class Templates(harness.Scratch):
+    def test_list_has_whole_sentences_in_groups(self):
+        lines = self.expect("new", 0).stdout.decode().splitlines()
+        for template in self.expect_json("new", 0)["templates"]:
+            line = next(line for line in lines if line.startswith(f"  {template['name']} "))
+            self.assertTrue(line.endswith("."), line)
+            self.assertLessEqual(len(line), 80)
+            group = [line for line in lines[:lines.index(line)] if line and not line.startswith(" ")][-1]
+            self.assertEqual(group, template["group"])
 
 
 if __name__ == "__main__":

@@ -74,8 +74,13 @@ TEST(Advice, LimitsEffort) {
   const FeasibilityOracle hopeless{[&](const Mechanism&) { return ++looks, fails_by(1.0); },
                                    [&](const Mechanism&) { return ++builds_left, true; }};
   EXPECT_TRUE(find_advice(testing::forearm(), hopeless).empty());
-  EXPECT_LT(looks, 420);
+  EXPECT_LT(looks, 2600);
   EXPECT_EQ(builds_left, 0);
+  looks = 0;
+  FeasibilityOracle expensive = hopeless;
+  expensive.is_expensive = true;
+  EXPECT_FALSE(find_advice(testing::forearm(), expensive).is_exhausted);
+  EXPECT_LT(looks, 420);
   const FeasibilityOracle unmakeable{[](const Mechanism& m) { return fails_by(m.pulley.r1 - 12 + m.pulley.EF - 80); },
                                      [&](const Mechanism&) { return ++builds_left, false; }};
   EXPECT_TRUE(find_advice(testing::forearm(), unmakeable).empty());
@@ -140,6 +145,41 @@ TEST(Advice, RespectsBuildsLeft) {
   made = 0;
   EXPECT_EQ(find_advice(testing::forearm(), judge).alone.size(), 1U);
   EXPECT_EQ(made, 1);
+}
+
+// 5 mm is a slip of 50 mm: nine times its magnitude away, and in a narrow window.
+TEST(Advice, SearchesWholeRangeOfEachNumber) {
+  Mechanism mechanism = testing::forearm();
+  mechanism.guides.EB = 5.0;
+  const FeasibilityOracle judge{[](const Mechanism& m) { return fails_by(std::abs(m.guides.EB - 50.0) - 9.0); },
+                                [](const Mechanism&) { return true; }};
+  const Advice advice = find_advice(mechanism, judge);
+  ASSERT_EQ(advice.alone.size(), 1U);
+  EXPECT_EQ(advice.alone.front().text, "EB ≥ 41 mm");
+}
+
+TEST(Advice, IsExhaustedOnlyAtBoundsOfAllNumbers) {
+  double widest = 0;
+  const FeasibilityOracle hopeless{[&widest](const Mechanism& m) {
+    widest = std::max(widest, m.guides.EB);
+    return fails_by(1.0);
+  }};
+  EXPECT_TRUE(find_advice(testing::forearm(), hopeless).is_exhausted);
+  EXPECT_EQ(widest, 10000.0);
+  const FeasibilityOracle unmakeable{[](const Mechanism& m) { return fails_by(m.pulley.r1 - 12); },
+                                     [](const Mechanism&) { return false; }};
+  EXPECT_FALSE(find_advice(testing::forearm(), unmakeable).is_exhausted);
+}
+
+TEST(Advice, PutsTypedNumberFirst) {
+  FeasibilityOracle judge{[](const Mechanism& m) { return fails_by(std::min(m.pulley.r1 - 15, 800 - m.guides.EB)); },
+                          [](const Mechanism&) { return true; }};
+  EXPECT_EQ(find_advice(testing::forearm(), judge).alone.front().key, "pulley.r1_mm");
+  judge.first = {"guides.EB_mm"};
+  const Advice advice = find_advice(testing::forearm(), judge);
+  ASSERT_EQ(advice.alone.size(), 2U);
+  EXPECT_EQ(advice.alone[0].text, "EB ≥ 800 mm");
+  EXPECT_EQ(advice.alone[1].key, "pulley.r1_mm");
 }
 
 TEST(Advice, KeepsRangeWithinTable) {

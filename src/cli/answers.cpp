@@ -1,0 +1,487 @@
+#include "cli/answers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/text.h"
+#include "fusee/mechanism_file.h"
+#include "mechanism/catalogue.h"
+#include "mechanism/field_text.h"
+
+namespace fusee::cli {
+namespace {
+
+constexpr double k_gravity = 9.80665;
+
+// Text ----------------------------------------------------------------------------------------------------------------
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || static_cast<unsigned char>(c) >= 0x80; }
+
+/// Lower case, with ASCII in place of typographic signs, diameter signs and brackets removed.
+std::string simplified(std::string_view text) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 24> signs{
+      {{"−", "-"},    {"–", "-"},    {"—", "-"},    {"±", "+-"}, {"°", " deg "},  {"″", "\""},
+       {"”", "\""},   {"“", "\""},   {"′", "'"},    {"’", "'"},  {"…", ".."},     {"⌀", " "},
+       {"Ø", " "},    {"ø", " "},    {"∅", " "},    {"·", " "},  {"\u00a0", " "}, {"\u202f", " "},
+       {"½", " 1/2"}, {"¼", " 1/4"}, {"¾", " 3/4"}, {"[", " "},  {"]", " "},      {"\t", " "}}};
+  std::string simple;
+  while (!text.empty()) {
+    const auto sign =
+        std::find_if(signs.begin(), signs.end(), [text](const auto& known) { return text.starts_with(known.first); });
+    if (sign != signs.end()) {
+      simple += sign->second;
+      text.remove_prefix(sign->first.size());
+    } else {
+      simple += static_cast<char>(std::tolower(static_cast<unsigned char>(text.front())));
+      text.remove_prefix(1);
+    }
+  }
+  return simple;
+}
+
+void skip_blanks(std::string_view& text) { text.remove_prefix(std::min(text.find_first_not_of(' '), text.size())); }
+
+bool skip(std::string_view& text, std::string_view word) {
+  if (!text.starts_with(word)) return false;
+  text.remove_prefix(word.size());
+  return true;
+}
+
+/// The letters and marks of a unit at the front, "" for none.
+std::string take_word(std::string_view& text) {
+  skip_blanks(text);
+  std::string word;
+  while (!text.empty() && (is_letter(text.front()) || text.front() == '"' || text.front() == '\'')) {
+    word += text.front();
+    text.remove_prefix(1);
+  }
+  return word;
+}
+
+// Numbers -------------------------------------------------------------------------------------------------------------
+
+/// Digits with a decimal point, or with a decimal comma where `comma` allows it.
+std::optional<double> take_decimal(std::string_view& text, bool comma) {
+  std::string digits;
+  std::size_t end = 0;
+  const auto take_digits = [&] {
+    while (end < text.size() && is_digit(text[end])) digits += text[end++];
+  };
+  take_digits();
+  const bool point = end < text.size() && (text[end] == '.' || (comma && text[end] == ','));
+  if (point && end + 1 < text.size() && is_digit(text[end + 1])) {
+    digits += '.';
+    ++end;
+    take_digits();
+  } else if (point && text[end] == '.' && !text.substr(end).starts_with("..") && !digits.empty()) {
+    ++end;  // "45."
+  }
+  double value = 0;
+  const auto [last, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (digits.empty() || error != std::errc() || last != digits.data() + digits.size()) return std::nullopt;
+  text.remove_prefix(end);
+  return value;
+}
+
+/// A decimal number, a fraction or both: "1.8", "3/4", "1 3/4".
+std::optional<double> take_number(std::string_view& text) {
+  skip_blanks(text);
+  std::string_view rest = text;
+  std::optional<double> value = take_decimal(rest, true);
+  if (!value) return std::nullopt;
+  const auto over = [](std::string_view& from) -> std::optional<double> {
+    if (from.size() < 2 || from.front() != '/' || !is_digit(from[1])) return std::nullopt;
+    from.remove_prefix(1);
+    return take_decimal(from, false);
+  };
+  if (const auto below = over(rest); below && *below > 0) {
+    value = *value / *below;
+  } else {
+    std::string_view further = rest;
+    if (skip(further, " ") || skip(further, "-")) {
+      const std::optional<double> above = take_decimal(further, false);
+      const std::optional<double> part = above ? over(further) : std::nullopt;
+      if (part && *part > 0) {
+        value = *value + *above / *part;
+        rest = further;
+      }
+    }
+  }
+  text = rest;
+  return value;
+}
+
+/// With a sign; plus and minus may stand apart from the digits.
+std::optional<double> take_signed(std::string_view& text, bool comma = true) {
+  skip_blanks(text);
+  std::string_view rest = text;
+  const bool minus = skip(rest, "-");
+  if (!minus) skip(rest, "+");
+  skip_blanks(rest);
+  const auto value = take_decimal(rest, comma);
+  if (!value) return std::nullopt;
+  text = rest;
+  return minus ? -*value : *value;
+}
+
+Refusal not_read(std::string_view typed, std::string_view what, std::string_view examples) {
+  return {fmt::format("{} is not {}: type it as {}", in_quotes(typed), what, examples)};
+}
+
+// Lengths -------------------------------------------------------------------------------------------------------------
+
+constexpr std::string_view k_lengths = "45, 45 mm, 4.5 cm, 1.8 in or 1 3/4\"";
+
+/// mm per unit; empty for an unknown one.
+std::optional<double> unit_of_length(std::string_view word) {
+  static constexpr std::array<std::pair<std::string_view, double>, 24> units{{{"", 1},
+                                                                              {"mm", 1},
+                                                                              {"millimetre", 1},
+                                                                              {"millimetres", 1},
+                                                                              {"millimeter", 1},
+                                                                              {"millimeters", 1},
+                                                                              {"cm", 10},
+                                                                              {"centimetre", 10},
+                                                                              {"centimetres", 10},
+                                                                              {"centimeter", 10},
+                                                                              {"centimeters", 10},
+                                                                              {"m", 1000},
+                                                                              {"metre", 1000},
+                                                                              {"meter", 1000},
+                                                                              {"meters", 1000},
+                                                                              {"in", 25.4},
+                                                                              {"inch", 25.4},
+                                                                              {"inches", 25.4},
+                                                                              {"\"", 25.4},
+                                                                              {"''", 25.4},
+                                                                              {"ft", 304.8},
+                                                                              {"foot", 304.8},
+                                                                              {"feet", 304.8},
+                                                                              {"'", 304.8}}};
+  for (const auto& [name, size] : units)
+    if (name == word) return size;
+  return std::nullopt;
+}
+
+/// One or several numbers with units, such as "2 ft 3 in".
+std::optional<double> take_length(std::string_view& text) {
+  std::optional<double> sum;
+  while (true) {
+    std::string_view rest = text;
+    const auto number = take_number(rest);
+    if (!number) return sum;
+    const auto unit = unit_of_length(take_word(rest));
+    if (!unit) return sum;
+    skip(rest, ".");
+    sum = sum.value_or(0) + *number * *unit;
+    text = rest;
+    if (*unit != 304.8) return sum;
+  }
+}
+
+/// Without the last digits of a conversion: 1 3/4 in is 44.45 mm.
+double in_micrometres(double length) {
+  const double written = std::round(1e6 * length) / 1e6;
+  return written > 0 ? written : length;
+}
+
+// Words of the catalogue ----------------------------------------------------------------------------------------------
+
+/// Words between blanks, commas and slashes.
+std::vector<std::string> split_words(std::string_view text) {
+  std::vector<std::string> words;
+  while (true) {
+    const std::size_t first = text.find_first_not_of(" ,;/()");
+    if (first == std::string_view::npos) return words;
+    text.remove_prefix(first);
+    words.emplace_back(text.substr(0, text.find_first_of(" ,;/()")));
+    text.remove_prefix(words.back().size());
+  }
+}
+
+/// Words for a kind of entry, beside its description.
+std::string_view kind_of(const ShaftType&) { return "motor shaft"; }
+std::string_view kind_of(const HornType& type) { return type.horn.spline_teeth > 0 ? "spline" : "servo horn"; }
+std::string_view kind_of(const TendonType&) { return ""; }
+
+/// The entries whose name or description has all words; the entry of that name alone if there is one.
+template <class Type>
+std::vector<const Type*> matching(const std::vector<Type>& types, const std::vector<std::string>& words) {
+  std::vector<const Type*> found;
+  for (const Type& type : types) {
+    const std::string text = simplified(fmt::format("{} {} {}", type.name, type.description, kind_of(type)));
+    std::string joined = text;
+    std::erase_if(joined, [](char c) { return c == ' ' || c == '-'; });
+    if (words.size() == 1 && words.front() == simplified(type.name)) return {&type};
+    const auto has = [&](const std::string& word) {
+      return text.find(word) != std::string::npos || joined.find(word) != std::string::npos;
+    };
+    if (!words.empty() && std::all_of(words.begin(), words.end(), has)) found.push_back(&type);
+  }
+  return found;
+}
+
+template <class Type>
+void add_names(std::string& list, const std::vector<const Type*>& types) {
+  for (const Type* type : types) list += (list.empty() ? "" : ", ") + type->name;
+}
+
+/// The rotation of a motor in the catalogue that has this horn, rad; 0: unlimited.
+double travel_with(std::string_view horn) {
+  constexpr double servo = radians(180.0);
+  for (const MotorType& motor : motor_types()) {
+    if (motor.name != "standard servo") continue;
+    if (std::find(motor.fits.begin(), motor.fits.end(), horn) != motor.fits.end()) return servo;
+  }
+  return 0;
+}
+
+}  // namespace
+
+Answer<double> read_length(std::string_view typed) {
+  const std::string simple = simplified(typed);
+  std::string_view text = simple;
+  skip_blanks(text);
+  for (const std::string_view word : {"diameter", "dia.", "dia", "about", "ca.", "~", "="})
+    if (skip(text, word)) skip_blanks(text);
+  const auto length = take_length(text);
+  skip_blanks(text);
+  if (!length || !text.empty()) return not_read(typed, "a length", k_lengths);
+  if (!(*length > 0)) return Refusal{"the length must be greater than 0"};
+  return in_micrometres(*length);
+}
+
+Answer<AngleRange> read_range(std::string_view typed) {
+  constexpr std::string_view k_examples = "-30 30, -30..30, 0 to 80 or ±30";
+  std::string simple = simplified(typed);
+  double unit = 1;
+  // Units and words that only surround the numbers.
+  for (const std::string_view word : {"degrees", "degree", "deg", "radians", "rad", "from", "between"}) {
+    for (std::size_t at = 0; (at = simple.find(word)) != std::string::npos;) {
+      if (word.starts_with("rad")) unit = degrees(1.0);
+      simple.replace(at, word.size(), " ");
+    }
+  }
+  std::string_view text = simple;
+  skip_blanks(text);
+  AngleRange range;
+  bool symmetric = false;
+  for (const std::string_view sign : {"+-", "+/-", "-/+", "-+", "+ -"})
+    if (!symmetric) symmetric = skip(text, sign);
+  if (symmetric) {
+    const auto end = take_signed(text);
+    skip_blanks(text);
+    if (!end || !text.empty()) return not_read(typed, "a range", k_examples);
+    range = {-*end * unit, *end * unit};
+  } else {
+    // A comma is decimal only where something else separates the ends.
+    const auto blank = std::find_if(simple.begin(), simple.end(), is_digit);
+    const std::string_view between(std::string_view(simple).substr(static_cast<std::size_t>(blank - simple.begin())));
+    const std::string_view ends = between.substr(0, between.find_last_of("0123456789") + 1);
+    const bool comma = ends.find_first_of(" ;") != std::string_view::npos ||
+                       ends.find("..") != std::string_view::npos || ends.find("to") != std::string_view::npos;
+    const auto low = take_signed(text, comma);
+    if (!low) return not_read(typed, "a range", k_examples);
+    const bool apart = text.starts_with(' ');
+    skip_blanks(text);
+    // "0-80" and "0 - 80" have a dash, "0 -80" a sign.
+    const bool is_sign = apart && text.size() > 1 && text.front() == '-' && text[1] != ' ';
+    bool separated = apart;
+    for (const std::string_view sign : {"...", "..", "to", "and", "until", "till", "bis", ",", ";", ":", "/"})
+      if (skip(text, sign)) separated = true;
+    if (!is_sign && text.starts_with('-') && !separated)
+      separated = skip(text, "-");
+    else if (!is_sign && text.starts_with("- "))
+      skip(text, "-");
+    const auto high = take_signed(text, comma);
+    skip_blanks(text);
+    if (!high && text.empty()) return Refusal{"give both ends of the range, such as 0 80 or ±30"};
+    if (!high || !separated || !text.empty()) return not_read(typed, "a range", k_examples);
+    range = {*low * unit, *high * unit};
+  }
+  const Field& field = *find_field("joint.range_deg");
+  if (!(range.low < range.high))
+    return Refusal{fmt::format("the lower end comes first: {} {}?", rounded(range.high), rounded(range.low))};
+  if (range.low > 0 || range.high < 0)
+    return Refusal{"home, at 0, must lie within the range: measure the angles from a home that does"};
+  if (range.low < field.least || range.high > field.most)
+    return Refusal{fmt::format("a joint turns within {} to {} deg", rounded(field.least), rounded(field.most))};
+  return range;
+}
+
+Answer<TypedLoad> read_load(std::string_view typed) {
+  constexpr std::string_view k_examples = "10 N, 0.5 kg, 500 g, 2 lbf, or 0.8 Nm for a torque about the joint";
+  struct Unit {
+    std::string_view name;
+    double newton, newton_mm;
+  };
+  constexpr double pound = 0.45359237 * k_gravity;
+  static constexpr std::array<Unit, 23> units{{{"", 1, 0},
+                                               {"n", 1, 0},
+                                               {"newton", 1, 0},
+                                               {"newtons", 1, 0},
+                                               {"kn", 1000, 0},
+                                               {"g", 0.001 * k_gravity, 0},
+                                               {"gf", 0.001 * k_gravity, 0},
+                                               {"gram", 0.001 * k_gravity, 0},
+                                               {"grams", 0.001 * k_gravity, 0},
+                                               {"kg", k_gravity, 0},
+                                               {"kgf", k_gravity, 0},
+                                               {"lb", pound, 0},
+                                               {"lbs", pound, 0},
+                                               {"lbf", pound, 0},
+                                               {"oz", pound / 16, 0},
+                                               {"ozf", pound / 16, 0},
+                                               {"nm", 0, 1000},
+                                               {"nmm", 0, 1},
+                                               {"ncm", 0, 10},
+                                               {"kgcm", 0, 10 * k_gravity},
+                                               {"ozin", 0, pound / 16 * 25.4},
+                                               {"lbin", 0, pound * 25.4},
+                                               {"inlb", 0, pound * 25.4}}};
+  const std::string simple = simplified(typed);
+  std::string_view text = simple;
+  const auto number = take_signed(text);
+  if (!number) return not_read(typed, "a load", k_examples);
+  std::string unit;
+  for (const char c : text) {
+    if (c != ' ' && c != '*' && c != '-' && c != '.') unit += c;
+  }
+  for (const Unit& known : units) {
+    if (known.name != unit) continue;
+    const TypedLoad load{known.newton > 0 ? *number * known.newton : 0,
+                         known.newton_mm > 0 ? *number * known.newton_mm : 0};
+    for (const auto& [key, value] : {std::pair{"load.tip_force_N", load.force}, {"load.torque_Nmm", load.torque}}) {
+      const Field& field = *find_field(key);
+      if (value < field.least || value > field.most)
+        return Refusal{fmt::format("{} {} is not within {} to {}", rounded(value), field.unit, rounded(field.least),
+                                   rounded(field.most))};
+    }
+    return load;
+  }
+  return Refusal{fmt::format("{} is not a unit of force or torque: type it as {}", in_quotes(unit), k_examples)};
+}
+
+Answer<TypedMotor> read_motor(std::string_view typed) {
+  const std::string simple = simplified(typed);
+  std::string_view text = simple;
+  if (const auto diameter = take_length(text); diameter) {
+    const std::vector<std::string> rest = split_words(text);
+    const bool flat = std::any_of(rest.begin(), rest.end(), [](const std::string& word) {
+      return word == "d" || word == "d-shaft" || word == "flat";
+    });
+    const bool only = std::all_of(rest.begin(), rest.end(), [](const std::string& word) {
+      return word == "d" || word == "d-shaft" || word == "shaft" || word == "round" || word == "flat";
+    });
+    if (only) {
+      const Field& field = *find_field("body.bore_diameter_mm");
+      if (!(*diameter > 0) || *diameter > field.most)
+        return Refusal{
+            fmt::format("a shaft of {} mm is not within 0 to {} mm", rounded(*diameter), rounded(field.most))};
+      return TypedMotor{{},   {}, in_micrometres(*diameter),
+                        flat, 0,  fmt::format("a {} shaft of {} mm", flat ? "D" : "round", rounded(*diameter))};
+    }
+  }
+  const std::vector<std::string> words = split_words(simple);
+  const std::vector<const ShaftType*> of_shafts = matching(shafts(), words);
+  const std::vector<const HornType*> of_horns = matching(horns(), words);
+  if (of_shafts.size() == 1 && (of_horns.empty() || simplified(of_shafts.front()->name) == simple))
+    return TypedMotor{of_shafts.front()->name, {}, 0, false, 0, of_shafts.front()->description};
+  if (of_horns.size() == 1 && of_shafts.empty())
+    return TypedMotor{
+        {}, of_horns.front()->name, 0, false, travel_with(of_horns.front()->name), of_horns.front()->description};
+  std::string names;
+  add_names(names, of_shafts);
+  add_names(names, of_horns);
+  if (!names.empty()) return Refusal{fmt::format("{} fits several entries: {}. Which one?", in_quotes(typed), names)};
+  return Refusal{fmt::format("{} is neither a name in the list nor the diameter of a shaft, such as 5 mm or 5 mm D",
+                             in_quotes(typed))};
+}
+
+namespace {
+
+double times(double one, double other) { return std::max(one / other, other / one); }
+
+/// Removes the first length from an answer and returns it. A number that is part of a name ("7x7", "100 lb") is none.
+std::optional<double> extract_diameter(std::string& answer) {
+  for (std::size_t at = 0; at < answer.size(); ++at) {
+    const bool begins = is_digit(answer[at]) && (at == 0 || answer[at - 1] == ' ');
+    if (!begins) continue;
+    std::string_view rest = std::string_view(answer).substr(at);
+    const std::size_t before = rest.size();
+    const auto length = take_length(rest);
+    const std::size_t taken = before - rest.size();
+    const bool ends = rest.empty() || rest.front() == ' ' || rest.front() == ',';
+    if (!length || !ends) {
+      at = std::min(answer.find(' ', at), answer.size() - 1);
+      continue;
+    }
+    std::string_view next = rest;
+    const std::string word = take_word(next);
+    if (word == "lb" || word == "lbs" || word == "strands" || word == "strand") continue;
+    answer.replace(at, taken, " ");
+    return in_micrometres(*length);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Answer<TypedTendon> read_tendon(std::string_view typed) {
+  std::string simple = simplified(typed);
+  std::vector<const TendonType*> types;
+  std::optional<double> diameter;
+  for (const TendonType& type : tendon_types())
+    if (split_words(simple) == std::vector{simplified(type.name)}) types = {&type};
+  std::vector<std::string> words;
+  if (types.empty()) {
+    diameter = extract_diameter(simple);
+    words = split_words(simple);
+    std::erase_if(words, [](const std::string& word) {
+      return word == "line" || word == "rope" || word == "cord" || word == "cable" || word == "string" ||
+             word == "thread" || word == "of" || word == "a" || word == "mm";
+    });
+    types = matching(tendon_types(), words);
+  }
+  if (simple.starts_with('-')) return Refusal{"a diameter must be greater than 0"};
+  if (types.empty() && !words.empty()) {
+    std::string names;
+    for (const TendonType& type : tendon_types()) names += (names.empty() ? "" : ", ") + type.name;
+    return Refusal{
+        fmt::format("{} is not a tendon of the catalogue ({}): give its diameter alone, or a material such as "
+                    "Dyneema, steel, Vectran, Kevlar or nylon",
+                    in_quotes(typed), names)};
+  }
+  if (!diameter && types.size() != 1) {
+    std::string names;
+    add_names(names, types);
+    return Refusal{types.empty() ? fmt::format("{} is not a tendon: type it as 0.6 mm, Dyneema 0.6 or steel 1.2 mm",
+                                               in_quotes(typed))
+                                 : fmt::format("give its diameter too, such as {} {}: the catalogue has {}", typed,
+                                               rounded(types.front()->diameter), names)};
+  }
+  const double d = diameter.value_or(types.empty() ? 0 : types.front()->diameter);
+  const Field& field = *find_field("tendon.diameter_mm");
+  if (!(d >= field.least) || d > field.most)
+    return Refusal{fmt::format("a tendon of {} mm is not within {} to {} mm", rounded(d), rounded(field.least),
+                               rounded(field.most))};
+  if (types.empty()) types = matching(tendon_types(), {"hmpe"});  // a diameter alone: the most usual material
+  const TendonType& nearest = **std::min_element(types.begin(), types.end(), [d](const auto* one, const auto* other) {
+    return times(one->diameter, d) < times(other->diameter, d);
+  });
+  const bool is_entry = std::abs(nearest.diameter - d) < 0.005;
+  return TypedTendon{
+      d, nearest.modulus, nearest.bend_ratio,
+      fmt::format("{} mm, {}{}: {}", rounded(d), is_entry ? "" : "of the kind of ", nearest.name, nearest.description)};
+}
+
+}  // namespace fusee::cli

@@ -1,0 +1,375 @@
+#include "pipeline/layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <compare>
+
+#include "base/text.h"
+#include "fusee/analysis.h"
+#include "fusee/profile.h"
+#include "fusee/solid.h"
+#include "fusee/transmission.h"
+#include "pipeline/design.h"
+#include "pipeline/several_turns.h"
+
+namespace fusee::pipeline {
+namespace {
+
+// Beyond this angle a lever point between two pins meets a dead centre or a pin for nearly all proportions.
+constexpr double k_lever_reach = radians(40.0);
+// Rotation that leaves room for both knots on a pulley of one turn.
+constexpr double k_one_turn = radians(280.0);
+// Arc of a tendon that stays on the drum at the end of the range.
+constexpr double k_least_wrap = radians(8.0);
+// A guide thicker than a rod of 12 mm, or with a tension that wears a sliding tendon, is an idler on ball bearings.
+// They are of type 623: 10 mm outside, balls on half a pitch circle of 3.3 mm.
+constexpr double k_thickest_pin = 6.0;
+constexpr double k_tension_on_pin = 100.0;
+constexpr double k_least_idler = 8.0;
+constexpr double k_least_length_with_idlers = 60.0;
+// Full builds of candidates for one search.
+constexpr int k_max_layout_builds = 6;
+
+/// The number that stands in the file: three digits.
+double tidy(double value) { return std::stod(rounded(value, 3)); }
+
+/// The torque of the declared load about the joint, at most. N·mm
+double torque_of(const Mechanism& mechanism) {
+  constexpr double gravity = 9.80665;
+  const Load& load = mechanism.load;
+  return std::abs(load.tip_force) * mechanism.joint.R + std::abs(load.torque) + load.mass * gravity * load.lever;
+}
+
+/// Moves the pitch radius of a drum, its guides and both ends to places at which the tendons stay on the drum over the
+/// whole range. `reach`: largest pitch radius of the pulley. mm
+void put_drum(Mechanism& mechanism, double rho, double reach) {
+  const double d = mechanism.tendon.diameter, guide = mechanism.guide_pitch_radius();
+  Joint& joint = mechanism.joint;
+  joint.drum_radius = tidy(rho - 0.5 * d);
+  rho = mechanism.drum_pitch_radius();
+  Guides& guides = mechanism.guides;
+  guides.OE = tidy(rho + guide + 2.0 * std::max(mechanism.guides.radius, d));
+  // Outside both the drum and the pulley, so that each tendon bends round its guide.
+  guides.EB = guides.ED = tidy(std::max(std::max(rho, reach) - guide + 0.18 * guides.OE, 0.5 * guide));
+  const double flange = reach - 0.5 * d + mechanism.groove_depth();
+  mechanism.pulley.EF = tidy(guides.radius + flange + std::max(3.0, 0.4 * flange));
+  const Vec2 pin(guides.ED, -guides.OE);
+  const double normal = std::atan2(pin.y(), pin.x()) + std::acos((rho - guide) / pin.norm());
+  // Between the drum's surface and the circle of the centre lines: taken onto that circle.
+  const double end = rho - 0.25 * d;
+  const auto written = [end](double angle) {
+    return Attachment{std::stod(fixed(end * std::cos(angle), 3)), std::stod(fixed(end * std::sin(angle), 3))};
+  };
+  joint.attachment1 = written(k_pi - normal - k_least_wrap + joint.theta_min);
+  joint.attachment2 = written(normal + k_least_wrap + joint.theta_max);
+}
+
+/// The proportions of the paper's optimum at this link length.
+void put_lever(Mechanism& mechanism, double r1) {
+  const double R = mechanism.joint.R;
+  mechanism.guides.EB = mechanism.guides.ED = tidy(0.5 * R);
+  mechanism.guides.OE = tidy(-0.4 * R);
+  mechanism.pulley.EF = tidy(1.2 * R);
+  mechanism.pulley.r1 = tidy(r1);
+}
+
+struct Candidate {
+  DeclaredMechanism mechanism;
+  std::string words;
+  bool is_spare = false;  ///< only if nothing else builds: the motor would need more torque than the joint
+};
+
+/// The candidates for one set of requirements, in order of preference.
+class Candidates {
+ public:
+  explicit Candidates(const LayoutRequirements& requirements) : needs_(requirements), joint_(requirements.joint) {
+    const double d = joint_.tendon.diameter;
+    span_ = joint_.joint.theta_max - joint_.joint.theta_min;
+    bend_ = 0.5 * joint_.tendon.bend_ratio * d;
+    largest_ = 0.5 * needs_.room - joint_.groove_depth() + 0.5 * d;
+    turn_ = needs_.travel > 0 ? std::min(k_one_turn, 0.95 * needs_.travel) : k_one_turn;
+    const auto strength = analysis::likely_strength(joint_.tendon);
+    // Twice the load, since knots and friction are known to a factor only.
+    strong_ = strength ? 2.0 * torque_of(joint_) / strength->at_knot : 0;
+    joint_.pulley.law = Law::compensate;
+    joint_.joint.drum_radius = 0;
+    joint_.joint.attachment1 = joint_.joint.attachment2 = std::nullopt;
+  }
+
+  std::vector<Candidate> all() {
+    if (!(largest_ > 0)) return {};
+    const double least = std::max({bend_, strong_, 1.5 + joint_.tendon.diameter});
+    const double usual = std::max(0.15 * joint_.joint.R, least);
+    const double fitting = largest_ * turn_ / span_;
+    add_lever();
+    if (usual <= fitting) add_drum(usual);
+    if (fitting >= least) add_drum(std::min(usual, fitting));
+    if (needs_.travel == 0) add_turns(usual);
+    // Beyond a limit of bends or strength: the build warns.
+    add_drum(std::min(fitting, usual));
+    return std::move(all_);
+  }
+
+ private:
+  void add_lever() {
+    const Joint& joint = joint_.joint;
+    if (-joint.theta_min > k_lever_reach || joint.theta_max > k_lever_reach) return;
+    // α is about θ times the tendon's arm, some 0.6 R, over r1.
+    const double r1 = std::max({0.18 * joint.R, 0.6 * joint.R * span_ / turn_, bend_});
+    for (const double larger : {1.0, 1.25, 1.5}) {
+      if (larger * r1 > largest_) return;
+      Candidate candidate = with_guides(0.6 * joint.R, "a lever");
+      put_lever(candidate.mechanism, larger * r1);
+      all_.push_back(std::move(candidate));
+    }
+  }
+
+  /// One turn: the smallest pulley first.
+  void add_drum(double rho) {
+    double r1 = std::max({rho * span_ / turn_, bend_, 0.5 * joint_.tendon.diameter + 1.0});
+    for (; r1 < largest_; r1 *= 1.3) add_drum_with(rho, r1, "a drum on the joint");
+    add_drum_with(rho, largest_, "a drum on the joint");
+  }
+
+  /// A small pulley that turns more than once.
+  void add_turns(double rho) {
+    for (const double share : {0.6, 0.75, 0.9, 1.0}) {
+      if (share * largest_ < bend_) continue;
+      add_drum_with(rho, share * largest_, "a drum on the joint, several turns of the pulley");
+    }
+  }
+
+  void add_drum_with(double rho, double r1, const char* words) {
+    if (!(rho > 0.6 * joint_.tendon.diameter)) return;
+    Candidate candidate = with_guides(rho, words);
+    candidate.mechanism.pulley.r1 = std::min(tidy(r1), std::floor(1e3 * largest_) / 1e3);
+    put_drum(candidate.mechanism, rho, candidate.mechanism.pulley.r1);
+    candidate.is_spare = candidate.mechanism.pulley.r1 > rho;
+    all_.push_back(std::move(candidate));
+  }
+
+  /// Pins, or idlers where a pin would be too thick or would wear the tendon.
+  Candidate with_guides(double arm, const std::string& layout) const {
+    Candidate candidate{joint_, layout};
+    Guides& guides = candidate.mechanism.guides;
+    const double thick = bend_ - 0.5 * joint_.tendon.diameter;
+    guides.radius = std::max(thick, std::clamp(0.03 * joint_.joint.R, 1.0, 5.0));
+    const bool wears = torque_of(joint_) / arm > k_tension_on_pin && joint_.joint.R >= k_least_length_with_idlers;
+    guides.kind = guides.radius > k_thickest_pin || wears ? GuideKind::idler : GuideKind::pin;
+    if (guides.kind == GuideKind::idler) {
+      guides.radius = std::max(guides.radius, k_least_idler);
+      guides.bearing_radius = 3.3;
+      guides.bearing_friction = 0.003;
+    }
+    guides.radius = tidy(guides.radius);
+    candidate.words += guides.kind == GuideKind::idler ? ", tendons over idlers" : ", tendons over pins";
+    return candidate;
+  }
+
+  const LayoutRequirements& needs_;
+  DeclaredMechanism joint_;
+  double span_ = 0, bend_ = 0, largest_ = 0, turn_ = 0;
+  double strong_ = 0;  ///< least moment arm at which the knots hold twice the load, mm
+  std::vector<Candidate> all_;
+};
+
+/// Why a pulley is infeasible by a quick check without a mesh; empty if nothing was found.
+std::optional<std::string> quick_obstacle(const DeclaredMechanism& declared) {
+  const Curves curves = curves_of(declared);
+  const Mechanism& mechanism = curves.joint.mechanism;
+  if (!curves.obstacles.empty()) {
+    const bool turns = std::all_of(curves.obstacles.begin(), curves.obstacles.end(), profile::is_of_one_turn);
+    if (!turns || profile::kept_to_one_turn(mechanism)) return curves.obstacles.front().message;
+    return obstacle_to_several_turns(mechanism);
+  }
+  const std::vector<profile::Condition> of_body = solid::body_obstacles(mechanism, curves.synthesis);
+  return of_body.empty() ? std::nullopt : std::optional(of_body.front().message);
+}
+
+double diameter_of(const solid::TriangleMesh& mesh) {
+  double reach = 0;
+  for (const Vec3& vertex : mesh.vertices) reach = std::max(reach, std::hypot(vertex.x(), vertex.y()));
+  return 2.0 * reach;
+}
+
+/// A copy with the radius of P1 rounded down to 0.01 mm.
+DeclaredMechanism with_tidy_radius(DeclaredMechanism mechanism) {
+  mechanism.pulley.r1 = std::floor(100.0 * mechanism.pulley.r1) / 100.0;
+  return mechanism;
+}
+
+/// Fewer warnings are better, then fewer omitted features.
+struct Rank {
+  std::size_t warnings = 0;
+  std::size_t notes = 0;  ///< of a pulley of one turn; several turns always have the same notes
+
+  auto operator<=>(const Rank&) const = default;
+};
+
+Rank rank_of(const formats::Product& product) {
+  return {product.file.warnings.size() + product.synthesis.warnings.size() + product.holding.warnings.size(),
+          product.helix ? 0 : product.pulley.layout.notes.size()};
+}
+
+/// The tendons' moment arm at home, mm.
+double arm_of(const ChosenLayout& layout) {
+  const Mechanism& mechanism = layout.file.mechanism;
+  return mechanism.joint.drum_radius > 0 ? mechanism.drum_pitch_radius() : layout.built.product.synthesis.home()->t1.m;
+}
+
+std::optional<std::string> first_reason(const BuildResult& built) {
+  const formats::Product& product = built.product;
+  const auto& conditions = product.synthesis.made() ? product.pulley.conditions : product.synthesis.conditions;
+  for (const profile::Condition& condition : conditions)
+    if (!condition.ok) return condition.message;
+  for (const Check& check : product.checks)
+    if (!check.ok) return "the check " + check.name + " of the part fails";
+  return std::nullopt;
+}
+
+/// The dry build of a candidate, or why it does not meet the requirements.
+std::optional<std::string> built_or_reason(const LayoutRequirements& needs, ChosenLayout& layout,
+                                           const RunContext& context) {
+  BuildOptions options;
+  options.dry_run = options.force = true;
+  options.advice = false;
+  options.folder = temporary_folder() / "fusee-layout";
+  layout.built = build(layout.file, options, context.without_progress());
+  if (layout.built.status != BuildStatus::done) return first_reason(layout.built).value_or("no pulley can be made");
+  const formats::Product& product = layout.built.product;
+  layout.diameter = diameter_of(product.pulley.mesh);
+  layout.travel = product.synthesis.stroke.back().alpha - product.synthesis.stroke.front().alpha;
+  if (layout.diameter > needs.room + 1e-6) return fmt::format("the pulley is {} mm wide", rounded(layout.diameter, 3));
+  if (needs.travel > 0 && layout.travel > needs.travel + 1e-9)
+    return fmt::format("the pulley would turn {}°, the motor turns {}°", rounded(degrees(layout.travel), 3),
+                       rounded(degrees(needs.travel), 3));
+  return std::nullopt;
+}
+
+}  // namespace
+
+LayoutSearch choose_layout(const LayoutRequirements& requirements, const CandidateFile& file_of,
+                           const RunContext& context) {
+  LayoutSearch search;
+  Rank best;
+  int builds = 0;
+  for (Candidate& candidate : Candidates(requirements).all()) {
+    if (search.chosen && (requirements.any || candidate.is_spare)) continue;
+    // A larger pulley of the same layout may have more features; another layout is not better.
+    if (search.chosen && best.warnings == 0 && (best.notes == 0 || candidate.words != search.chosen->words)) break;
+    context.begin_step("trying " + candidate.words);
+    ChosenLayout layout{file_of(candidate.mechanism), candidate.words, {}, 0, 0, 0};
+    if (std::optional<std::string> obstacle = quick_obstacle(layout.file.mechanism)) {
+      if (builds == 0) search.obstacle = std::move(*obstacle);  // of the last candidate: it has the most room
+      continue;
+    }
+    if (builds++ == k_max_layout_builds) break;
+    std::optional<std::string> obstacle = built_or_reason(requirements, layout, context);
+    if (obstacle && layout.diameter > requirements.room) {
+      // The flange covers the tie-offs, too: its overhang is known now.
+      candidate.mechanism.pulley.r1 -= 0.5 * (layout.diameter - requirements.room) + 0.02;
+      layout.file = file_of(with_tidy_radius(candidate.mechanism));
+      if (!quick_obstacle(layout.file.mechanism)) obstacle = built_or_reason(requirements, layout, context);
+    }
+    if (obstacle) {
+      search.obstacle = std::move(*obstacle);
+      continue;
+    }
+    const Rank rank = rank_of(layout.built.product);
+    if (search.chosen && !(rank < best)) continue;
+    best = rank;
+    layout.tension = torque_of(layout.file.mechanism) / arm_of(layout);
+    search.chosen = std::move(layout);
+  }
+  if (search.obstacle.empty()) search.obstacle = "the room is smaller than the tendon's groove";
+  return search;
+}
+
+namespace {
+
+/// A lever whose curves exist if the range is a tenth.
+bool is_range_the_obstacle(const Mechanism& mechanism) {
+  if (mechanism.transmission || !mechanism.joint.is_plain() || mechanism.sheath.is_there()) return false;
+  if (!profile::obstacle_but_one_turn(mechanism)) return false;
+  Mechanism narrow = mechanism;
+  narrow.joint.theta_min *= 0.1;
+  narrow.joint.theta_max *= 0.1;
+  return !profile::obstacle_but_one_turn(narrow);
+}
+
+std::vector<std::pair<std::string, std::string>> settings_of(const DeclaredMechanism& changed,
+                                                             const DeclaredMechanism& before) {
+  std::vector<std::pair<std::string, std::string>> settings;
+  for (const char* key : {"joint.drum_radius_mm", "joint.attachment1_mm", "joint.attachment2_mm", "guides.EB_mm",
+                          "guides.ED_mm", "guides.OE_mm", "pulley.EF_mm", "pulley.r1_mm"}) {
+    const Field& field = *find_field(key);
+    if (!is_used(field, changed)) continue;
+    const auto text = [&field](const DeclaredMechanism& mechanism) -> std::string {
+      if (field.is_set != nullptr && !field.is_set(mechanism)) return {};
+      return field.kind == FieldKind::point
+                 ? "[" + number_text(field, mechanism, 0) + ", " + number_text(field, mechanism, 1) + "]"
+                 : number_text(field, mechanism, 0);
+    };
+    if (text(changed) != text(before)) settings.emplace_back(key, text(changed));
+  }
+  return settings;
+}
+
+/// α per θ of a law that prescribes it.
+double mean_ratio(const Mechanism& mechanism) {
+  if (mechanism.pulley.law == Law::linear) return std::abs(mechanism.pulley.ratio);
+  const std::vector<LawRow>& rows = mechanism.pulley.rows;
+  if (rows.empty() || !(rows.back().theta > rows.front().theta)) return 0;
+  return (rows.back().alpha - rows.front().alpha) / (rows.back().theta - rows.front().theta);
+}
+
+/// Drums for the pulley of the file, then for larger and smaller ones.
+std::vector<DeclaredMechanism> drums_for(const DeclaredMechanism& declared) {
+  const double span = declared.joint.theta_max - declared.joint.theta_min;
+  const bool has_r1 = declared.pulley.law == Law::compensate;
+  const double ratio = has_r1 ? 0 : mean_ratio(declared);
+  std::vector<DeclaredMechanism> all;
+  if (!has_r1 && !(ratio > 0)) return all;
+  const double usual = 0.15 * declared.joint.R, bend = 0.5 * declared.tendon.bend_ratio * declared.tendon.diameter;
+  for (const double larger : {1.0, 1.4, 2.0, 0.7}) {
+    DeclaredMechanism changed = declared;
+    double reach = 0, rho = 0;
+    if (has_r1) {
+      changed.pulley.r1 = larger == 1.0 ? declared.pulley.r1 : tidy(larger * declared.pulley.r1);
+      reach = changed.pulley.r1;
+      rho = std::min(std::max(usual, bend), reach * k_one_turn / span);
+    } else {
+      rho = std::max(usual, bend) * larger;
+      reach = rho / ratio;
+    }
+    put_drum(changed, rho, reach);
+    all.push_back(std::move(changed));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::optional<profile::LayoutAdvice> drum_advice(const MechanismFile& file, const BuildOptions& options,
+                                                 const RunContext& context) {
+  if (!is_range_the_obstacle(joint::identified_joint(file.mechanism).mechanism)) return std::nullopt;
+  BuildOptions dry = options;
+  dry.dry_run = dry.force = true;
+  dry.advice = dry.step = false;
+  dry.folder = temporary_folder() / "fusee-layout";
+  for (const DeclaredMechanism& changed : drums_for(file.mechanism)) {
+    context.throw_if_stopped();
+    if (quick_obstacle(changed)) continue;
+    MechanismFile with_drum = file;
+    with_drum.mechanism = changed;
+    if (build(with_drum, dry, context.without_progress()).status != BuildStatus::done) continue;
+    return profile::LayoutAdvice{"put a drum on the joint, on which both tendons stay over the whole range",
+                                 "finger_mcp", settings_of(changed, file.mechanism)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace fusee::pipeline

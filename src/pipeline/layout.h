@@ -1,0 +1,54 @@
+/// \file
+/// Internal: the layout of a joint (lever or drum, pins or idlers, one turn or several), chosen by full builds.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/pipeline.h"
+
+namespace fusee::pipeline {
+
+/// Requirements that a layout must meet.
+struct LayoutRequirements {
+  /// Link length, range, load, tendon and bore. The layout replaces drum, attachments, guides, pulley place and r1.
+  DeclaredMechanism joint;
+  double room = 0;    ///< largest diameter of the pulley, mm
+  double travel = 0;  ///< rotation of the motor, rad; 0: unlimited
+  bool any = false;   ///< the first layout that builds suffices
+};
+
+/// The file of a candidate: what a user would read back. Throws InputError.
+using CandidateFile = std::function<MechanismFile(const DeclaredMechanism&)>;
+
+/// A layout whose full build passes every check, in the room and within the motor's travel.
+struct ChosenLayout {
+  MechanismFile file;
+  std::string words;    ///< "a drum on the joint, tendons over pins"
+  BuildResult built;    ///< of a dry run
+  double diameter = 0;  ///< of the pulley, mm
+  double travel = 0;    ///< of the pulley, rad
+  double tension = 0;   ///< that the declared load puts on a tendon, N, without pretension
+};
+
+struct LayoutSearch {
+  std::optional<ChosenLayout> chosen;
+  std::string obstacle;  ///< without a choice: why the candidate that came nearest fails
+};
+
+/// Tries candidates by a quick check, then by full dry builds, in order of preference: a lever where the range allows
+/// it, a drum with one turn of the pulley, a drum with several turns. A candidate whose build has fewer warnings is
+/// preferred over an earlier one, and a larger pulley of the same layout if fewer features are omitted on it.
+LayoutSearch choose_layout(const LayoutRequirements& requirements, const CandidateFile& file_of,
+                           const RunContext& context);
+
+/// A drum for a file whose lever point cannot cover the range: the changed keys, with which a full build passes every
+/// check. Empty if the range is not the obstacle or no drum was found.
+std::optional<profile::LayoutAdvice> drum_advice(const MechanismFile& file, const BuildOptions& options,
+                                                 const RunContext& context);
+
+}  // namespace fusee::pipeline
