@@ -99,7 +99,7 @@ bool names_output(const std::string& manifest, const std::string& name, const st
 std::string model_manifest_json(const ModelProduct& product, const std::vector<OutputFile>& outputs) {
   Json json = {{"schema", 1}, {"tool", std::string(k_tool)}};
   json["status"] = all_ok(product.checks) ? "done" : "check_failed";
-  json["input"] = input_of(product);
+  json["input"] = input_json(product.file);
   json["name"] = product.mechanism.name;
   json["simulators_follow"] = word(product.curves.physical.source);
   json["table_follows"] = word(product.curves.sensed.source);

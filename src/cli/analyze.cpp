@@ -217,7 +217,7 @@ void add_findings(const analysis::AnalysisResult& result, const std::string& fil
   }
 }
 
-analysis::AnalysisOptions options_from(const Arguments& arguments) {
+analysis::AnalysisOptions analysis_options_from(const Arguments& arguments) {
   analysis::AnalysisOptions options;
   options.steps = static_cast<int>(arguments.number("--steps", options.steps, 2, 2000, "(steps)"));
   options.dimension_tolerance = arguments.number("--tolerance-mm", options.dimension_tolerance, 0.0, 10.0, "mm");
@@ -264,7 +264,7 @@ void write_result(const Arguments& arguments, const MechanismFile& mechanism, co
 
 Reply run_analyze(const Arguments& arguments, Console& console, const RunContext& context) {
   refuse_unknown_ending(arguments);
-  const analysis::AnalysisOptions options = options_from(arguments);
+  const analysis::AnalysisOptions options = analysis_options_from(arguments);
   const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings(), *context.files);
   Reply reply;
   reply.diagnostics = file.warnings;

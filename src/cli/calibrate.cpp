@@ -50,7 +50,7 @@ void add_notes(const pipeline::CalibrateResult& result, bool verbose, Reply& rep
              "corrected.toml includes the values of --set and has every key; comments of the file are omitted"));
 }
 
-pipeline::CalibrateOptions options_from(const Arguments& arguments) {
+pipeline::CalibrateOptions calibrate_options_from(const Arguments& arguments) {
   pipeline::CalibrateOptions options;
   options.columns = columns_from(arguments);
   options.hold_out = paths(arguments.texts("--hold-out"));
@@ -63,7 +63,7 @@ pipeline::CalibrateOptions options_from(const Arguments& arguments) {
 
 Reply run_calibrate(const Arguments& arguments, Console& console, const RunContext& context) {
   const std::filesystem::path spec = arguments.positionals().front();
-  const pipeline::CalibrateOptions options = options_from(arguments);
+  const pipeline::CalibrateOptions options = calibrate_options_from(arguments);
   const std::vector<std::filesystem::path> runs = runs_from(arguments);
   const MechanismFile file = read_mechanism(spec, arguments.settings(), *context.files);
   const pipeline::CalibrateResult result = pipeline::calibrate(file, runs, options, context);

@@ -14,6 +14,15 @@
 namespace fusee::measurement {
 namespace {
 
+/// An error whose file is set later.
+Diagnostic refusal(std::string message, std::string hint) {
+  Diagnostic problem;
+  problem.severity = Severity::error;
+  problem.message = std::move(message);
+  problem.hint = std::move(hint);
+  return problem;
+}
+
 constexpr std::size_t k_most_topics = 10000;
 constexpr std::size_t k_longest_topic = 1000;
 /// 256 MB of points.
@@ -193,9 +202,9 @@ std::vector<BagLog::Chosen> BagLog::choose(LoggedRows& rows) const {
     const std::string& role = column.role;
     const Series& series = series_.at(column.name);
     if (member_of(role) == nullptr)
-      problems.push_back({Severity::error, {}, "a bag has no column of the role " + role, "give it in a CSV file"});
+      problems.push_back(refusal("a bag has no column of the role " + role, "give it in a CSV file"));
     else if (series.points.empty())
-      problems.push_back({Severity::error, {}, shown(column.name) + " has no numbers", "choose another for " + role});
+      problems.push_back(refusal(shown(column.name) + " has no numbers", "choose another for " + role));
     else
       chosen.push_back({std::move(column), &series.points});
   }

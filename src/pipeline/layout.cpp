@@ -40,7 +40,7 @@ double tidy(double value) { return std::stod(rounded(value, 3)); }
 double torque_of(const Mechanism& mechanism) {
   constexpr double gravity = 9.80665;
   const Load& load = mechanism.load;
-  return std::abs(load.tip_force) * mechanism.joint.R + std::abs(load.torque) + load.mass * gravity * load.lever;
+  return std::abs(load.tip_force) * mechanism.joint.R + std::abs(load.torque) + load.mass_kg * gravity * load.lever;
 }
 
 /// Moves the pitch radius of a drum, its guides and both ends to places at which the tendons stay on the drum over the
