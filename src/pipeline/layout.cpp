@@ -30,6 +30,10 @@ constexpr double k_thickest_pin = 6.0;
 constexpr double k_tension_on_pin = 100.0;
 constexpr double k_least_idler = 8.0;
 constexpr double k_least_length_with_idlers = 60.0;
+// Pitch radius of the largest drum over the link length: beyond it the build warns that the tendon breaks.
+constexpr double k_widest_drum = 0.5;
+// Links up to this length get a lever, mm: the proportions of a longer one exceed the bounds of the keys.
+constexpr double k_longest_lever = 5000.0;
 // Full builds of candidates for one search.
 constexpr int k_max_layout_builds = 6;
 
@@ -93,7 +97,7 @@ class Candidates {
     turn_ = needs_.travel > 0 ? std::min(k_one_turn, 0.95 * needs_.travel) : k_one_turn;
     const auto strength = analysis::likely_strength(joint_.tendon);
     // Twice the load, since knots and friction are known to a factor only.
-    strong_ = strength ? 2.0 * torque_of(joint_) / strength->at_knot : 0;
+    strong_ = strength ? std::min(2.0 * torque_of(joint_) / strength->at_knot, k_widest_drum * joint_.joint.R) : 0;
     joint_.pulley.law = Law::compensate;
     joint_.joint.drum_radius = 0;
     joint_.joint.attachment1 = joint_.joint.attachment2 = std::nullopt;
@@ -116,7 +120,7 @@ class Candidates {
  private:
   void add_lever() {
     const Joint& joint = joint_.joint;
-    if (-joint.theta_min > k_lever_reach || joint.theta_max > k_lever_reach) return;
+    if (-joint.theta_min > k_lever_reach || joint.theta_max > k_lever_reach || joint.R > k_longest_lever) return;
     // α is about θ times the tendon's arm, some 0.6 R, over r1.
     const double r1 = std::max({0.18 * joint.R, 0.6 * joint.R * span_ / turn_, bend_});
     for (const double larger : {1.0, 1.25, 1.5}) {
@@ -268,9 +272,10 @@ LayoutSearch choose_layout(const LayoutRequirements& requirements, const Candida
     }
     if (builds++ == k_max_layout_builds) break;
     std::optional<std::string> obstacle = built_or_reason(requirements, layout, context);
-    if (obstacle && layout.diameter > requirements.room) {
+    const double excess = 0.5 * (layout.diameter - requirements.room) + 0.02;
+    if (obstacle && layout.diameter > requirements.room && excess < 0.3 * candidate.mechanism.pulley.r1) {
       // The flange covers the tie-offs, too: its overhang is known now.
-      candidate.mechanism.pulley.r1 -= 0.5 * (layout.diameter - requirements.room) + 0.02;
+      candidate.mechanism.pulley.r1 -= excess;
       layout.file = file_of(with_tidy_radius(candidate.mechanism));
       if (!quick_obstacle(layout.file.mechanism)) obstacle = built_or_reason(requirements, layout, context);
     }
@@ -290,10 +295,11 @@ LayoutSearch choose_layout(const LayoutRequirements& requirements, const Candida
 
 namespace {
 
-/// A lever whose curves exist if the range is a tenth.
+/// A lever whose tendon loses its moment arm or its pin within the range, but not within a tenth of it.
 bool is_range_the_obstacle(const Mechanism& mechanism) {
   if (mechanism.transmission || !mechanism.joint.is_plain() || mechanism.sheath.is_there()) return false;
-  if (!profile::obstacle_but_one_turn(mechanism)) return false;
+  const std::optional<profile::Condition> obstacle = profile::obstacle_but_one_turn(mechanism);
+  if (!obstacle || !(obstacle->name == "moment_arms" || obstacle->name.starts_with("tendon_on_pin"))) return false;
   Mechanism narrow = mechanism;
   narrow.joint.theta_min *= 0.1;
   narrow.joint.theta_max *= 0.1;

@@ -1,11 +1,13 @@
 """`fusee new --ask`: answers become a file that builds; invalid answers are asked again; an input that ends leaves no file."""
 
+import math
 import os
 import pty
 import random
 import re
 import select
 import signal
+import struct
 import subprocess
 import time
 import tomllib
@@ -38,9 +40,10 @@ class Questions(harness.Scratch):
         document = self.expect_json("build asked.toml --force", 0)
         self.assertTrue(all(check["ok"] for check in document["checks"]))
         if room:
-            size = self.expect("check out/asked/pulley.stl", 0).stdout.decode()
-            width = max(float(number) for number in re.search(r"size\s+([\d.]+) x ([\d.]+)", size).groups())
-            self.assertLessEqual(width, room + 0.01)
+            mesh = (self.folder / "out/asked/pulley.stl").read_bytes()[84:]
+            facets = struct.iter_unpack("<12x9fxx", mesh)
+            reach = max(math.hypot(*facet[i:i + 2]) for facet in facets for i in (0, 3, 6))
+            self.assertLessEqual(2 * reach, room + 0.001)
         return document
 
     def test_proposals_build(self):
