@@ -168,6 +168,7 @@ TEST(Lengths, ConvertMessages) {
   EXPECT_EQ(inch("joint.length_mm = 3500 in is out of range"), "joint.length_mm = 3500 in is out of range");
   EXPECT_EQ(inch("P1 at 9.8e-05 mm, tendon 2 mm"), "P1 at 3.86e-06 in, tendon 0.0787 in");
   EXPECT_EQ(inch("a text has its unit: \"45 mm\""), "a text has its unit: \"45 mm\"");
+  EXPECT_EQ(inch("−0.194 … −0.189 mm (offset_mm = -0.1917)"), "−0.007638 … −0.007441 in (offset_mm = -0.1917)");
   EXPECT_EQ(inch("1.5 N at 3 deg"), "1.5 N at 3 deg");
   EXPECT_EQ(inch("<dd>14.7 … 17.4\u00a0mm, 3\u00a0cm³"), "<dd>0.5787 … 0.685\u00a0in, 3\u00a0cm³");
   EXPECT_EQ(lengths_in(LengthUnit::mm, "at 3 mm"), "at 3 mm");
