@@ -56,6 +56,8 @@ std::string_view gap_before_mm(std::string_view rest) {
 
 /// True for what stands between two lengths of one list.
 bool is_list_separator(std::string_view between) {
+  constexpr std::string_view k_minus = "\xE2\x88\x92";  // of the second number
+  if (between.ends_with(k_minus)) between.remove_suffix(k_minus.size());
   constexpr std::array<std::string_view, 8> k_separators{" to ",  " \xC3\x97 ", " x ", " by ",
                                                          " and ", " or ",       ", ",  " \xE2\x80\xA6 "};  // × …
   return std::find(k_separators.begin(), k_separators.end(), between) != k_separators.end();
@@ -74,8 +76,9 @@ bool is_value_of_key(std::string_view before, std::string_view rest) {
   for (const std::string_view relation : {" = ", " \xE2\x89\xA4 ", " \xE2\x89\xA5 ", " <= ", " >= "}) {
     if (!before.ends_with(relation)) continue;
     before.remove_suffix(relation.size());
-    const std::size_t key = before.find_last_of(" \"");
-    return is_length(before.substr(key == std::string_view::npos ? 0 : key + 1));
+    const std::size_t blank = before.find_last_of(" (\"");
+    const std::string_view key = before.substr(blank == std::string_view::npos ? 0 : blank + 1);
+    return is_length(key) && key.find('.') != std::string_view::npos;  // parameters of effects have no table
   }
   return false;
 }

@@ -76,7 +76,11 @@ std::string syntax_hint(std::string_view text, std::size_t line) {
   value.remove_prefix(std::min(value.find_first_not_of(" \t"), value.size()));
   const std::size_t digits = value.find_first_not_of("+-0123456789");
   const bool comma = digits != std::string_view::npos && digits > 0 && value[digits] == ',';
-  if (comma) return "a number has a decimal point: " + as_shown(value.substr(0, digits)) + ".5, not a comma";
+  if (comma) {
+    std::string number(value.substr(0, value.find_first_of(" \t\r#")));
+    number[digits] = '.';
+    return "a number has a decimal point: " + as_shown(number);
+  }
   const bool word = !value.empty() && std::isalpha(static_cast<unsigned char>(value.front())) != 0;
   if (word) return "a text stands in quotes: " + in_quotes(value.substr(0, value.find_first_of(" \t\r#")));
   return "strings stand in quotes, lists in [ ], one key = value a line";

@@ -72,7 +72,7 @@ TEST(Lengths, AreTheKeysInMm) {
         << field.name();
 }
 
-TEST(Lengths, OfInchFileAreThoseInMm) {
+TEST(Lengths, EqualThoseOfFileInMm) {
   DeclaredMechanism inch = parse_mechanism(k_inch_file, "f.toml");
   const DeclaredMechanism mm = parse_mechanism(
       "schema = 1\n[joint]\nlength_mm = \"8.89 cm\"\nrange_deg = [-30, 30]\n[guides]\nEB_mm = 44.45\nED_mm = 44.45\n"
@@ -83,7 +83,7 @@ TEST(Lengths, OfInchFileAreThoseInMm) {
   EXPECT_EQ(inch, mm);
 }
 
-TEST(Lengths, OfSettingsAreInTheFilesUnit) {
+TEST(Lengths, ReadSettingsInTheFilesUnit) {
   const std::vector<Setting> settings{
       {"pulley.r1_mm", "0.6"},       {"guides.EB_mm", "1 3/4 in"},       {"guides.ED_mm", "2\""},
       {"pulley.EF_mm", "\"70 mm\""}, {"joint.attachment1_mm[0]", "0.5"}, {"joint.attachment2_mm", "[\"1 cm\", 3]"}};
@@ -98,7 +98,7 @@ TEST(Lengths, OfSettingsAreInTheFilesUnit) {
   EXPECT_EQ(parse_mechanism(k_good_file, "f.toml", ".", {{"pulley.r1_mm", "0.6 in"}}).pulley.r1, 15.24);
 }
 
-TEST(Lengths, OfListsAreInTheFilesUnit) {
+TEST(Lengths, ReadListsInTheFilesUnit) {
   const std::string text =
       k_inch_file +
       "[prior]\nEB_mm = [1.75, \"0.02 mm\"]\nguide_give_mm_per_N = [0.01, 0.001]\n[optimize]\n"
@@ -114,7 +114,7 @@ TEST(Lengths, OfListsAreInTheFilesUnit) {
   EXPECT_DOUBLE_EQ(limit.right.value(m), 0.5 * 88.9 + 25.4);
 }
 
-TEST(Lengths, OfTiesKeepTheirMeaning) {
+TEST(Lengths, KeepMeaningOfTies) {
   const DeclaredMechanism m = parse_mechanism(k_inch_file, "f.toml");
   const auto right = [&](const char* text) { return parse_relation(text, LengthUnit::inch).relation.right.value(m); };
   EXPECT_DOUBLE_EQ(right("guides.EB_mm = 2 * joint.range_deg[1]"), 60 * 25.4);
@@ -142,7 +142,7 @@ TEST(Lengths, ReportErrorsInTheFilesUnit) {
       HasSubstr("horn.spline_depth_mm = 0.5 in exceeds the width of the teeth, 0.01256 in"));
 }
 
-TEST(Lengths, OfEditsStayInTheFilesUnit) {
+TEST(Lengths, WriteEditsInTheFilesUnit) {
   const std::string edited = edit_values(k_inch_file, {{"pulley.r1_mm", 15.24},
                                                        {"guides.radius_mm", 2.54},
                                                        {"body.min_wall_mm", 1.2},
@@ -153,7 +153,7 @@ TEST(Lengths, OfEditsStayInTheFilesUnit) {
   EXPECT_THAT(edited, HasSubstr("attachment1_mm = [1, 3.5]\n"));
 }
 
-TEST(Lengths, OfMessagesAreConverted) {
+TEST(Lengths, ConvertMessages) {
   const auto inch = [](const char* text) { return lengths_in(LengthUnit::inch, text); };
   EXPECT_EQ(inch("at least 0.5 mm clearance is required"), "at least 0.0197 in clearance is required");
   EXPECT_EQ(inch("20.9 × 20.9 × 17.2 mm, 3 mm², 5 mm/N, 2 mm per N, M3"),
@@ -168,6 +168,7 @@ TEST(Lengths, OfMessagesAreConverted) {
   EXPECT_EQ(inch("joint.length_mm = 3500 in is out of range"), "joint.length_mm = 3500 in is out of range");
   EXPECT_EQ(inch("P1 at 9.8e-05 mm, tendon 2 mm"), "P1 at 3.86e-06 in, tendon 0.0787 in");
   EXPECT_EQ(inch("a text has its unit: \"45 mm\""), "a text has its unit: \"45 mm\"");
+  EXPECT_EQ(inch("−0.194 … −0.189 mm (offset_mm = -0.1917)"), "−0.007638 … −0.007441 in (offset_mm = -0.1917)");
   EXPECT_EQ(inch("1.5 N at 3 deg"), "1.5 N at 3 deg");
   EXPECT_EQ(inch("<dd>14.7 … 17.4\u00a0mm, 3\u00a0cm³"), "<dd>0.5787 … 0.685\u00a0in, 3\u00a0cm³");
   EXPECT_EQ(lengths_in(LengthUnit::mm, "at 3 mm"), "at 3 mm");

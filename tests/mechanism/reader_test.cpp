@@ -325,6 +325,12 @@ TEST(Reader, SettingsAddAndReplace) {
             70);
 }
 
+TEST(Reader, AdvisesOnWrongSyntax) {
+  EXPECT_THAT(only_error(with("length_mm = 100", "length_mm = 17,0 # R")), HasSubstr("decimal point: 17.0"));
+  EXPECT_THAT(only_error(with("name = \"test\"", "name = forearm")), HasSubstr("in quotes: \"forearm\""));
+  EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[30, -30]")), HasSubstr("stands first: [-30, 30]"));
+}
+
 TEST(Reader, ErrorsNameSettings) {
   const auto text_of = [](const Setting& setting) {
     const std::vector<Diagnostic> errors = errors_of(k_good_file, {setting});

@@ -139,6 +139,20 @@ TEST(PlotFigure, NamesUnitsLimitsAndMarks) {
   }
 }
 
+TEST(PlotFigure, HasNarrowLayout) {
+  Plot plot = sample_plot();
+  plot.title = "Radius of curvature of the pitch curves (thin: closing arc)";
+  const Figure figure = plot_figure(plot);
+  ASSERT_EQ(figure.narrow.size(), 1u);
+  const auto document = parsed(figure.narrow.front());
+  EXPECT_GE(document.select_nodes("//text[@class='heading']").size(), 2u) << "a long title takes two lines";
+  for (const PlotSeries& series : plot.series) {
+    const auto values = read_back(document, series.name);
+    ASSERT_EQ(values.size(), series.points.size());
+    for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(values[i].y(), series.points[i].y(), 2e-3);
+  }
+}
+
 TEST(PlotFigure, InvalidNumberBreaksTheLineOnly) {
   Plot plot = sample_plot();
   plot.series[0].points = {{-90, 16}, {-45, 16}, {0, k_nan}, {45, k_inf}, {60, 15}, {92.3, 15}};

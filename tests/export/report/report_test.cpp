@@ -7,6 +7,7 @@
 #include <limits>
 #include <pugixml.hpp>
 
+#include "export/report/html.h"
 #include "export/report/mesh_code.h"
 #include "export/report/tables.h"
 #include "support/mechanisms.h"
@@ -130,6 +131,13 @@ TEST(Report, HasBoundedSize) {
   EXPECT_LT(with - without, 10u * 24'000u) << "bytes a triangle";
 }
 
+TEST(Html, CellsCarryTheTitleOfTheirColumn) {
+  EXPECT_EQ(with_labelled_cells("<p><td></p><table><thead><tr><th></th><th class=\"number\">a &amp; b</th></tr></thead>"
+                                "<tbody><tr><td>x</td><td class=\"number\">1</td></tr></tbody></table>"),
+            "<p><td></p><table><thead><tr><th></th><th class=\"number\">a &amp; b</th></tr></thead>"
+            "<tbody><tr><td>x</td><td data-label=\"a &amp; b\" class=\"number\">1</td></tr></tbody></table>");
+}
+
 TEST(Report, IsDeterministic) { EXPECT_EQ(report_html(sample()), report_html(sample())); }
 
 TEST(Report, ListsEveryCheckAndCondition) {
@@ -227,7 +235,8 @@ TEST(Report, ShowsForcesOnlyUnderLoad) {
   Mechanism mechanism = forearm();
   EXPECT_TRUE(parsed(report_html(sample(mechanism))).select_nodes("//section[@id='forces']").empty());
   mechanism.load.tip_force = 20;
-  EXPECT_EQ(parsed(report_html(sample(mechanism))).select_nodes("//section[@id='forces']//svg").size(), 2u);
+  EXPECT_EQ(parsed(report_html(sample(mechanism))).select_nodes("//section[@id='forces']//svg").size(), 4u)
+      << "two plots, each in a wide and a narrow layout";
 }
 
 TEST(Report, EscapesUserText) {
