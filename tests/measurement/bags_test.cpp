@@ -165,7 +165,7 @@ void expect_corpus_rows(const LoggedRows& rows, std::size_t count, const std::st
   }
 }
 
-TEST(Bags, OfEveryWriterHaveTheSameRows) {
+TEST(Bags, HaveSameRowsFromEveryWriter) {
   for (const char* const name : {"good_two_topics.mcap", "good_zstd.mcap", "good_lz4.mcap", "good_one_topic.mcap",
                                  "good_no_summary.mcap", "good_two_topics.db3"})
     expect_corpus_rows(rows_of(corpus_file(name)), 64, name);
@@ -402,7 +402,7 @@ TEST(BagColumns, AreChosenWhereTheNamesAreObvious) {
 }
 
 // A weight beside the motor is no joint, a potentiometer is.
-TEST(BagColumns, OfTwoKindsNeedBothWords) {
+TEST(BagColumns, NeedBothWordsForTwoKinds) {
   for (const char* const name : {"/weight", "/joint_deg"}) {
     Mcap mcap;
     const int motor = mcap.topic("/motor"), other = mcap.topic(name, "std_msgs/msg/Float32");
@@ -419,7 +419,7 @@ TEST(BagColumns, OfTwoKindsNeedBothWords) {
   }
 }
 
-TEST(BagColumns, ThatAreNotObviousAreListed) {
+TEST(BagColumns, AreListedIfNotObvious) {
   const std::string bytes = one_topic(1, {"a", "b", "c"}).finished();
   EXPECT_THAT(error_of(bytes),
               HasSubstr("/joint_states/a/position, /joint_states/b/position, /joint_states/c/position"));
@@ -494,7 +494,7 @@ TEST(PlotJuggler, TableHasTheRowsOfItsBag) {
 }
 
 // Numbers with other times have empty cells, as in a bag of two topics.
-TEST(PlotJuggler, TableWithEmptyCellsIsJoinedAsItsBag) {
+TEST(PlotJuggler, EmptyCellsAreJoinedAsInBag) {
   Mcap mcap;
   const int motor = mcap.topic("/motor"), joint = mcap.topic("/joint");
   std::string table = "__time,/joint/j/position,/motor/m/position\n";
