@@ -172,6 +172,28 @@ TEST(Bags, HaveSameRowsFromEveryWriter) {
   expect_corpus_rows(rows_of(corpus_file("good_packed_messages.db3")), 16, "packed messages");
 }
 
+// Everything after reading depends on these alone, so that results have the same bytes.
+TEST(Bags, GiveSameMeasurementAsTable) {
+  const std::filesystem::path data = std::filesystem::path(FUSEE_SOURCE_DIR) / "tests/data/bags";
+  Measurement plain;
+  const measurement::Run expected = parse_run(read_file(data / "plain.csv", 1 << 20), "run", {}, plain);
+  for (const std::filesystem::path& path :
+       {k_corpus / "good_two_topics.mcap", k_corpus / "good_zstd.mcap", k_corpus / "good_lz4.mcap",
+        k_corpus / "good_one_topic.mcap", k_corpus / "good_two_topics.db3", data / "plotjuggler.csv"}) {
+    Measurement other;
+    const measurement::Run run = parse_run(read_file(path, 1 << 20), "run", {}, other);
+    EXPECT_EQ(other.notes, plain.notes) << path;
+    EXPECT_EQ(other.not_testable, plain.not_testable) << path;
+    ASSERT_EQ(run.samples.size(), expected.samples.size()) << path;
+    for (std::size_t i = 0; i < run.samples.size(); ++i) {
+      EXPECT_EQ(run.samples[i].time, expected.samples[i].time) << path << " row " << i;
+      EXPECT_EQ(run.samples[i].alpha, expected.samples[i].alpha) << path << " row " << i;
+      EXPECT_EQ(run.samples[i].theta, expected.samples[i].theta) << path << " row " << i;
+    }
+    EXPECT_EQ(run.strokes.size(), expected.strokes.size()) << path;
+  }
+}
+
 TEST(Bags, SayTopicsUnitsAndClock) {
   const LoggedRows rows = rows_of(corpus_file("good_zstd.mcap"));
   EXPECT_THAT(rows.sources,
