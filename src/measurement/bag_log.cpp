@@ -14,15 +14,6 @@
 namespace fusee::measurement {
 namespace {
 
-/// An error whose file is set later.
-Diagnostic refusal(std::string message, std::string hint) {
-  Diagnostic problem;
-  problem.severity = Severity::error;
-  problem.message = std::move(message);
-  problem.hint = std::move(hint);
-  return problem;
-}
-
 constexpr std::size_t k_most_topics = 10000;
 constexpr std::size_t k_longest_topic = 1000;
 /// 256 MB of points.
@@ -197,18 +188,21 @@ std::vector<BagLog::Chosen> BagLog::choose(LoggedRows& rows) const {
   options.columns.erase("time");
   Header header = find_columns(names, options);
   std::vector<Diagnostic> problems = header.problems;
+  for (Diagnostic& problem : problems) problem.place.file = name_;
+  const auto add_problem = [&](const std::string& message, const std::string& hint) {
+    problems.push_back(InputError(name_, message, hint).diagnostics().front());
+  };
   std::vector<Chosen> chosen;
   for (Column& column : header.columns) {
     const std::string& role = column.role;
     const Series& series = series_.at(column.name);
     if (member_of(role) == nullptr)
-      problems.push_back(refusal("a bag has no column of the role " + role, "give it in a CSV file"));
+      add_problem("a bag has no column of the role " + role, "give it in a CSV file");
     else if (series.points.empty())
-      problems.push_back(refusal(shown(column.name) + " has no numbers", "choose another for " + role));
+      add_problem(shown(column.name) + " has no numbers", "choose another for " + role);
     else
       chosen.push_back({std::move(column), &series.points});
   }
-  for (Diagnostic& problem : problems) problem.place.file = name_;
   if (!problems.empty()) throw InputError(problems);
   rows.notes = std::move(header.notes);
   return chosen;

@@ -197,7 +197,7 @@ class ColumnFinder {
             : "the nearest is " + shown(nearest) + ": --column " + role + "=" + argument(nearest) + " takes it" + unit);
   }
 
-  /// Of a ROS log: topics and joints to choose from.
+  /// Lists the topics and joints of a ROS log.
   void missing_ros(const std::string& role, const std::vector<std::size_t>& angles) {
     constexpr std::size_t k_longest_list = 600;
     const auto given = options_.columns.find(role);

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: formats of logs, told apart by their first bytes, not by their names.
+/// Internal: formats of logs. The first bytes of a file decide, not its name.
 #pragma once
 
 #include <cstddef>

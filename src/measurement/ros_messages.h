@@ -29,7 +29,7 @@ const MessageType* find_message_type(std::string_view name);
 using TakeNumber = std::function<void(std::string_view name, double value)>;
 
 /// Decodes one message. Returns the stamp of its header in ns, 0 without one; nothing for a malformed message, of which
-/// no number is taken. A joint without a name is called by its index.
+/// no number is taken. An unnamed joint is called by its index.
 std::optional<std::int64_t> decode_message(const MessageType& type, std::string_view bytes, const TakeNumber& take);
 
 }  // namespace fusee::measurement

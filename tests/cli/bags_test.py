@@ -112,7 +112,7 @@ class Bags(harness.Scratch):
         self.expect("simulate arm.toml copied/run.db3 -o again.csv", 0)
         copied.chmod(0o755)
 
-    def test_unfinished_recordings_are_read_as_far_as_they_go(self):
+    def test_unfinished_recordings_are_read(self):
         whole = bags.mcap(two_topics(), chunk=50)
         (self.folder / "run.mcap").write_bytes(whole[: len(whole) * 2 // 3])
         self.expect("calibrate joint.toml run.mcap --no-audit", 0, err="the recording is unfinished: .* whole messages before its end are read")

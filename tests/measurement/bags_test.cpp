@@ -165,11 +165,33 @@ void expect_corpus_rows(const LoggedRows& rows, std::size_t count, const std::st
   }
 }
 
-TEST(Bags, OfEveryWriterHaveTheSameRows) {
+TEST(Bags, HaveSameRowsFromEveryWriter) {
   for (const char* const name : {"good_two_topics.mcap", "good_zstd.mcap", "good_lz4.mcap", "good_one_topic.mcap",
                                  "good_no_summary.mcap", "good_two_topics.db3"})
     expect_corpus_rows(rows_of(corpus_file(name)), 64, name);
   expect_corpus_rows(rows_of(corpus_file("good_packed_messages.db3")), 16, "packed messages");
+}
+
+// Everything after reading depends on these alone, so that results have the same bytes.
+TEST(Bags, GiveSameMeasurementAsTable) {
+  const std::filesystem::path data = std::filesystem::path(FUSEE_SOURCE_DIR) / "tests/data/bags";
+  Measurement plain;
+  const measurement::Run expected = parse_run(read_file(data / "plain.csv", 1 << 20), "run", {}, plain);
+  for (const std::filesystem::path& path :
+       {k_corpus / "good_two_topics.mcap", k_corpus / "good_zstd.mcap", k_corpus / "good_lz4.mcap",
+        k_corpus / "good_one_topic.mcap", k_corpus / "good_two_topics.db3", data / "plotjuggler.csv"}) {
+    Measurement other;
+    const measurement::Run run = parse_run(read_file(path, 1 << 20), "run", {}, other);
+    EXPECT_EQ(other.notes, plain.notes) << path;
+    EXPECT_EQ(other.not_testable, plain.not_testable) << path;
+    ASSERT_EQ(run.samples.size(), expected.samples.size()) << path;
+    for (std::size_t i = 0; i < run.samples.size(); ++i) {
+      EXPECT_EQ(run.samples[i].time, expected.samples[i].time) << path << " row " << i;
+      EXPECT_EQ(run.samples[i].alpha, expected.samples[i].alpha) << path << " row " << i;
+      EXPECT_EQ(run.samples[i].theta, expected.samples[i].theta) << path << " row " << i;
+    }
+    EXPECT_EQ(run.strokes.size(), expected.strokes.size()) << path;
+  }
 }
 
 TEST(Bags, SayTopicsUnitsAndClock) {
@@ -402,7 +424,7 @@ TEST(BagColumns, AreChosenWhereTheNamesAreObvious) {
 }
 
 // A weight beside the motor is no joint, a potentiometer is.
-TEST(BagColumns, OfTwoKindsNeedBothWords) {
+TEST(BagColumns, NeedBothWordsForTwoKinds) {
   for (const char* const name : {"/weight", "/joint_deg"}) {
     Mcap mcap;
     const int motor = mcap.topic("/motor"), other = mcap.topic(name, "std_msgs/msg/Float32");
@@ -419,7 +441,7 @@ TEST(BagColumns, OfTwoKindsNeedBothWords) {
   }
 }
 
-TEST(BagColumns, ThatAreNotObviousAreListed) {
+TEST(BagColumns, AreListedIfNotObvious) {
   const std::string bytes = one_topic(1, {"a", "b", "c"}).finished();
   EXPECT_THAT(error_of(bytes),
               HasSubstr("/joint_states/a/position, /joint_states/b/position, /joint_states/c/position"));
@@ -494,7 +516,7 @@ TEST(PlotJuggler, TableHasTheRowsOfItsBag) {
 }
 
 // Numbers with other times have empty cells, as in a bag of two topics.
-TEST(PlotJuggler, TableWithEmptyCellsIsJoinedAsItsBag) {
+TEST(PlotJuggler, EmptyCellsAreJoinedAsInBag) {
   Mcap mcap;
   const int motor = mcap.topic("/motor"), joint = mcap.topic("/joint");
   std::string table = "__time,/joint/j/position,/motor/m/position\n";
