@@ -132,13 +132,13 @@ LoggedRows rows_of(const std::string& bytes, const MeasurementOptions& options =
   return read_rows(std::string_view(bytes), "run.mcap", options);
 }
 
-MeasurementOptions named(const std::map<std::string, std::string>& columns) {
+MeasurementOptions with_columns(const std::map<std::string, std::string>& columns) {
   MeasurementOptions options;
   options.columns = columns;
   return options;
 }
 
-std::string error_of(const std::string& bytes, const MeasurementOptions& options = {}) {
+std::string error_in(const std::string& bytes, const MeasurementOptions& options = {}) {
   try {
     rows_of(bytes, options);
   } catch (const InputError& error) {
@@ -364,7 +364,7 @@ TEST(Joining, HoldsLoadsThatAreSetByHand) {
     if (t % 3000 == 0) mcap.add(load, t * k_ms, number_message(static_cast<double>(t) / 300));
     mcap.add(state, t * k_ms, joint_state(0, {"motor", "joint"}, {0.001 * static_cast<double>(t), 0.0}));
   }
-  const LoggedRows rows = rows_of(mcap.finished(), named({{"load", "/load/data"}}));
+  const LoggedRows rows = rows_of(mcap.finished(), with_columns({{"load", "/load/data"}}));
   ASSERT_EQ(rows.samples.size(), 90u);
   for (const Sample& sample : rows.samples) EXPECT_EQ(sample.load, 10 * std::floor(sample.time / 3));
 }
@@ -393,9 +393,9 @@ TEST(BagClock, IsTheHeadersIfTheyHaveStamps) {
   const LoggedRows without = rows_of(one_topic(0).finished());
   EXPECT_EQ(without.samples[1].time, 0.021);
   EXPECT_THAT(without.sources, Contains(HasSubstr("time is that of the recorder, as")));
-  EXPECT_EQ(rows_of(one_topic(7000 * k_ms).finished(), named({{"time", "log_time"}})).samples[1].time, 0.021);
-  EXPECT_THAT(error_of(one_topic(0).finished(), named({{"time", "header_stamp"}})), HasSubstr("has no stamps"));
-  EXPECT_THAT(error_of(one_topic(0).finished(), named({{"time", "stamp"}})), HasSubstr("there is no time \"stamp\""));
+  EXPECT_EQ(rows_of(one_topic(7000 * k_ms).finished(), with_columns({{"time", "log_time"}})).samples[1].time, 0.021);
+  EXPECT_THAT(error_in(one_topic(0).finished(), with_columns({{"time", "header_stamp"}})), HasSubstr("has no stamps"));
+  EXPECT_THAT(error_in(one_topic(0).finished(), with_columns({{"time", "stamp"}})), HasSubstr("there is no time \"stamp\""));
 }
 
 TEST(BagClock, IsTheRecordersForStampsOfTwoClocks) {
@@ -432,7 +432,7 @@ TEST(BagColumns, NeedBothWordsForTwoKinds) {
       mcap.add(motor, t * k_ms, joint_state(0, {"m"}, {0.1 * static_cast<double>(t)}));
       mcap.add(other, t * k_ms, Cdr().add(static_cast<float>(t)).message());
     }
-    const std::string error = error_of(mcap.finished());
+    const std::string error = error_in(mcap.finished());
     if (name == std::string("/weight")) {
       EXPECT_THAT(error, HasSubstr("not obvious which joint is theta"));
     } else {
@@ -443,21 +443,21 @@ TEST(BagColumns, NeedBothWordsForTwoKinds) {
 
 TEST(BagColumns, AreListedIfNotObvious) {
   const std::string bytes = one_topic(1, {"a", "b", "c"}).finished();
-  EXPECT_THAT(error_of(bytes),
+  EXPECT_THAT(error_in(bytes),
               HasSubstr("/joint_states/a/position, /joint_states/b/position, /joint_states/c/position"));
-  EXPECT_THAT(error_of(bytes), HasSubstr("--column alpha=NAME"));
+  EXPECT_THAT(error_in(bytes), HasSubstr("--column alpha=NAME"));
   for (const std::map<std::string, std::string>& columns :
        {std::map<std::string, std::string>{{"alpha", "/joint_states/c/position"}, {"theta", "/joint_states/b"}},
         {{"alpha", "c"}, {"theta", "b/position"}}}) {
-    const LoggedRows rows = rows_of(bytes, named(columns));
+    const LoggedRows rows = rows_of(bytes, with_columns(columns));
     EXPECT_NEAR(rows.samples[9].alpha, 0.3, 1e-12);
     EXPECT_NEAR(rows.samples[9].theta, 0.45, 1e-12);
   }
-  EXPECT_THAT(error_of(bytes, named({{"alpha", "joint_states"}})), HasSubstr("no topic or joint"));
+  EXPECT_THAT(error_in(bytes, with_columns({{"alpha", "joint_states"}})), HasSubstr("no topic or joint"));
 }
 
 TEST(BagColumns, HaveTheUnitsOfRos) {
-  const LoggedRows rows = rows_of(one_topic(1).finished(), named({{"load", "/joint_states/joint/effort"}}));
+  const LoggedRows rows = rows_of(one_topic(1).finished(), with_columns({{"load", "/joint_states/joint/effort"}}));
   EXPECT_EQ(rows.load_unit, "Nm");
   EXPECT_EQ(rows.samples[3].load, 1.0);
   MeasurementOptions degrees;
@@ -478,7 +478,7 @@ TEST(BagColumns, MayBeNumbersAndWrenches) {
     for (const double value : {0.0, 12.5, 0.0, 0.0, 0.0, 0.0}) wrench.add(value);
     mcap.add(force, t * 10 * k_ms, wrench.message());
   }
-  const LoggedRows rows = rows_of(mcap.finished(), named({{"load", "/ft/wrench/force/y"}}));
+  const LoggedRows rows = rows_of(mcap.finished(), with_columns({{"load", "/ft/wrench/force/y"}}));
   ASSERT_EQ(rows.samples.size(), 50u);
   EXPECT_NEAR(rows.samples[20].alpha, radians(20), 1e-12);
   EXPECT_NEAR(rows.samples[20].theta, radians(10), 1e-12);
@@ -490,11 +490,11 @@ TEST(Bags, WithoutAnglesNameTheirTopics) {
   Mcap mcap;
   mcap.add(mcap.topic("/camera", "sensor_msgs/msg/Image"), 0, "x");
   mcap.topic("/joint_states", "sensor_msgs/msg/JointState", "ros1");
-  EXPECT_THAT(error_of(mcap.finished()), HasSubstr("\"/camera\" (sensor_msgs/msg/Image), \"/joint_states\" "
+  EXPECT_THAT(error_in(mcap.finished()), HasSubstr("\"/camera\" (sensor_msgs/msg/Image), \"/joint_states\" "
                                                    "(sensor_msgs/msg/JointState, encoded as \"ros1\", not cdr)"));
-  EXPECT_THAT(error_of(Mcap().finished()), HasSubstr("has no topics"));
-  EXPECT_THAT(error_of("#ROSBAG V2.0\n and so on"), HasSubstr("ROS 1"));
-  EXPECT_THAT(error_of(std::string("SQLite format 3\0", 16) + "no more"), HasSubstr("first page"));
+  EXPECT_THAT(error_in(Mcap().finished()), HasSubstr("has no topics"));
+  EXPECT_THAT(error_in("#ROSBAG V2.0\n and so on"), HasSubstr("ROS 1"));
+  EXPECT_THAT(error_in(std::string("SQLite format 3\0", 16) + "no more"), HasSubstr("first page"));
 }
 
 TEST(Bags, OmitMalformedMessages) {

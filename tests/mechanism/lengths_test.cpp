@@ -106,7 +106,7 @@ TEST(Lengths, ReadListsInTheFilesUnit) {
       "constraints = [\"guides.ED_mm <= 0.5 * joint.length_mm + 1\"]\n";
   const DeclaredMechanism m = parse_mechanism(text, "f.toml");
   EXPECT_THAT(m.prior.EB, ElementsAre(44.45, 0.02));
-  EXPECT_THAT(m.prior.guide_give, ElementsAre(0.01, 0.001));
+  EXPECT_THAT(m.prior.guide_compliance, ElementsAre(0.01, 0.001));
   EXPECT_THAT(m.optimize.lower, ElementsAre(25.4, 20));
   EXPECT_THAT(m.optimize.upper, ElementsAre(50, 40));
   EXPECT_EQ(parse_mechanism(write_mechanism(m), "written"), m);
