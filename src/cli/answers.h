@@ -38,7 +38,7 @@ Answer<TypedLoad> read_load(std::string_view text);
 struct TypedMotor {
   std::string shaft;  ///< a name of the catalogue, or empty
   std::string horn;   ///< the same
-  double bore = 0;    ///< diameter of a shaft without a name, mm
+  double bore = 0;    ///< diameter of any other shaft, mm
   bool flat = false;  ///< that shaft is a D shaft
   double travel = 0;  ///< rotation of a hobby servo, rad; 0: unlimited
   std::string words;  ///< for the summary

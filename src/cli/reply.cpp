@@ -117,16 +117,14 @@ void add_advice(const std::vector<profile::Change>& advice, Reply& reply, bool i
 
 void add_layout_advice(const std::optional<profile::LayoutAdvice>& advice, Reply& reply) {
   if (!advice) return;
-  std::string values, words;
+  std::string lines;
   Json settings = Json::array();
   for (const auto& [key, value] : advice->settings) {
-    values += (values.empty() ? "" : ", ") + key + " = " + value;
-    words += " --set '" + key + "=" + value + "'";
+    lines += (lines.empty() ? "" : "\n        ") + key + " = " + value;
     settings.push_back({{"key", key}, {"value", value}});
   }
-  reply.diagnostics.push_back(note(
-      Severity::note, "or " + advice->text + ": " + values + " ('fusee new " + advice->template_name + "' shows one)",
-      "for a trial:" + words));
+  reply.diagnostics.push_back(
+      note(Severity::note, "or " + advice->text + " ('fusee new " + advice->template_name + "' shows one)", lines));
   reply.fields["advice_layout"] = {
       {"text", advice->text}, {"template", advice->template_name}, {"settings", std::move(settings)}};
 }

@@ -36,6 +36,7 @@ constexpr double k_widest_drum = 0.5;
 constexpr double k_longest_lever = 5000.0;
 // Full builds of candidates for one search.
 constexpr int k_max_layout_builds = 6;
+constexpr int k_max_trial_builds = 3;  // where any layout suffices
 
 /// The number that stands in the file: three digits.
 double tidy(double value) { return std::stod(rounded(value, 3)); }
@@ -270,7 +271,7 @@ LayoutSearch choose_layout(const LayoutRequirements& requirements, const Candida
       if (builds == 0) search.obstacle = std::move(*obstacle);  // of the last candidate: it has the most room
       continue;
     }
-    if (builds++ == k_max_layout_builds) break;
+    if (builds++ == (requirements.any ? k_max_trial_builds : k_max_layout_builds)) break;
     std::optional<std::string> obstacle = built_or_reason(requirements, layout, context);
     const double excess = 0.5 * (layout.diameter - requirements.room) + 0.02;
     if (obstacle && layout.diameter > requirements.room && excess < 0.3 * candidate.mechanism.pulley.r1) {

@@ -203,5 +203,29 @@ class Templates(harness.Scratch):
             self.assertEqual(group, template["group"])
 
 
+class Refusals(harness.Scratch):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "forearm.toml").write_bytes(self.fusee("new forearm").stdout)
+
+    def test_wide_range_names_a_drum_that_builds(self):
+        for verb in ("build forearm.toml --dry-run", "analyze forearm.toml"):
+            words = [*verb.split(), "--set", "joint.range_deg=[-60, 60]"]
+            layout = self.expect_json(words, 4)["advice_layout"]
+            self.assertEqual(layout["template"], "finger_mcp")
+            self.assertIn("put a drum on the joint", self.fusee(words).stderr.decode())
+            settings = [word for one in layout["settings"] for word in ("--set", f"{one['key']}={one['value']}")]
+            self.expect_json(["build", "forearm.toml", "--dry-run", "--set", "joint.range_deg=[-60, 60]", *settings], 0)
+
+    def test_other_obstacles_name_no_drum(self):
+        self.assertNotIn("advice_layout", self.expect_json("build forearm.toml --dry-run --set pulley.r1_mm=25", 4))
+
+    def test_typed_number_comes_first_however_far_it_is_off(self):
+        for key, typed in (("guides.EB_mm", 5), ("guides.ED_mm", 5), ("joint.length_mm", 10)):
+            advice = self.expect_json(f"build forearm.toml --dry-run --set {key}={typed}", 4)["advice"]
+            self.assertEqual(advice[0]["key"], key)
+            self.expect_json(f"build forearm.toml --dry-run --set {key}={advice[0]['to']}", 0)
+
+
 if __name__ == "__main__":
     harness.main()
