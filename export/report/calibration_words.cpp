@@ -135,7 +135,7 @@ std::string infeasible_words(const correction::Correction& correction) {
 std::string assembly_angle_words(const correction::Correction& correction) {
   return "tie its tendons with the unloaded joint at home and the motor at " +
          rounded(degrees(correction.assembly_angle), 4) +
-         " deg: under its mean load the joint then follows its law; assembled at 0 it is off by as much, which "
+         " deg: under its mean load the joint then follows its law; tied at 0 it is off by as much, which "
          "compensation.csv has";
 }
 

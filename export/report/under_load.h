@@ -22,7 +22,7 @@ Json motor_json(const analysis::MotorCheck& motor);
 /// " Under 15 N, θ is off by up to 1.35° (at α = 119.3°). Tendon 1 is slack over the whole range: …", with a blank in
 /// front. "" if it was not computed.
 std::string under_load_sentences(const analysis::UnderLoad& load, const Mechanism& mechanism);
-/// Where tendon 1 or 2 is slack; "nowhere".
+/// Ranges of α in which a tendon is slack; "nowhere".
 std::string slack_words(const analysis::UnderLoad& load, const std::vector<analysis::AlphaRange>& ranges);
 /// The pretension that keeps a slack tendon taut; "" for a taut tendon, or if there is none.
 std::string pretension_words(const analysis::UnderLoad& load, const std::vector<analysis::AlphaRange>& ranges);

@@ -92,7 +92,7 @@ struct Strength {
   std::string source;  ///< "tendon.strength_N", or the tendon of the catalogue
 };
 
-/// What the joint requires of its motor, beside what the motor gives.
+/// Requirements of the joint on its motor, beside the limits of the motor.
 struct MotorCheck {
   std::string model;              ///< of the catalogue; "" for a motor with numbers of its own
   bool enforced = false;          ///< the joint is refused unless every condition holds
@@ -125,7 +125,7 @@ struct UnderLoad {
   Extreme largest_torque;    ///< magnitude of the motor torque, N·mm
   Extreme hysteresis;        ///< largest |θ rising − θ falling| at one α, rad
   Extreme theta_error;       ///< largest |θ − declared θ| in either direction, rad
-  /// Where tendon 1 is slack, which is without tension, in either direction.
+  /// Ranges in which tendon 1 is slack (without tension) in either direction.
   std::vector<AlphaRange> slack1;
   std::vector<AlphaRange> slack2;
   std::vector<AlphaRange> untensioned;  ///< where both are slack, and nothing holds the joint

@@ -121,6 +121,8 @@ Advice find_advice(const Mechanism& mechanism, const FeasibilityOracle& judge,
 std::vector<Change> nearest_changes(const Mechanism& mechanism, const std::function<bool(const Mechanism&)>& possible,
                                     const std::vector<std::string>& more_keys = {});
 
+/// "pulley.r1_mm = 18.9 or less (now 20)".
+std::string setting_words(const Change& change);
 /// "make r1 ≤ 18.9 mm, or EF ≥ 95 mm, or the range ±28°"; "" for none.
 std::string advice_sentence(const std::vector<Change>& changes);
 

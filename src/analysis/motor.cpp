@@ -128,9 +128,11 @@ std::string_view key_of(const std::string& condition) {
 }
 
 std::string hint_of(const MotorCheck& motor) {
-  std::string change = profile::advice_sentence(motor.advice.alone);
+  std::string change;
+  for (const profile::Change& part : motor.advice.alone)
+    change += (change.empty() ? "try " : ", or ") + profile::setting_words(part);
   for (const profile::Change& part : motor.advice.together)
-    change += (change.empty() ? "make " : " together with ") + part.text;
+    change += (change.empty() ? "try " : " together with ") + profile::setting_words(part);
   const std::string models = motor.sufficient_models.empty() ? "no motor of the catalogue suffices"
                                                              : "of the catalogue these suffice: " + motor.models_text();
   return change.empty() ? models : change + "; " + models;

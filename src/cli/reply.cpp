@@ -88,26 +88,9 @@ void add_obstacles(const std::string& file, const std::vector<profile::Condition
   }
 }
 
-namespace {
-
-/// "pulley.r1_mm = 18.9 or less (now 20)".
-std::string setting_of(const profile::Change& change) {
-  if (!change.to_word.empty()) return change.text + " (now \"" + change.from_word + "\")";
-  if (change.key == "joint.range_deg") {
-    const auto around_home = [](double end) { return "[" + rounded(-end) + ", " + rounded(end) + "]"; };
-    return change.key + " = " + around_home(change.to) + " (now " + around_home(change.from) + ")";
-  }
-  // Enough digits for the number that was tried, in mm or inches.
-  constexpr int k_digits = 10;
-  return change.key + " = " + rounded(change.to, k_digits) + (change.to > change.from ? " or more" : " or less") +
-         " (now " + rounded(change.from, k_digits) + ")";
-}
-
-}  // namespace
-
 void add_advice(const std::vector<profile::Change>& advice, Reply& reply, bool is_exhausted) {
   for (const profile::Change& change : advice)
-    reply.diagnostics.push_back(note(Severity::note, "try " + setting_of(change)));
+    reply.diagnostics.push_back(note(Severity::note, "try " + profile::setting_words(change)));
   const auto is_number = [](const profile::Change& change) { return change.to_word.empty(); };
   if (std::none_of(advice.begin(), advice.end(), is_number))
     reply.diagnostics.push_back(
@@ -132,7 +115,8 @@ void add_layout_advice(const std::optional<profile::LayoutAdvice>& advice, Reply
 void add_advice_together(const std::vector<profile::Change>& advice, Reply& reply) {
   if (advice.empty()) return;
   std::string both;
-  for (const profile::Change& change : advice) both += (both.empty() ? "" : " together with ") + setting_of(change);
+  for (const profile::Change& change : advice)
+    both += (both.empty() ? "" : " together with ") + profile::setting_words(change);
   reply.diagnostics.push_back(note(Severity::note, "try " + both));
 }
 

@@ -10,7 +10,7 @@ namespace fusee::cli {
 
 /// "alpha = 12.3 deg".
 std::string alpha_text(double alpha);
-/// Where a tendon is slack: "over the whole range", or ranges of α.
+/// The ranges of α in which a tendon is slack; "over the whole range".
 std::string slack_text(const analysis::UnderLoad& load, const std::vector<analysis::AlphaRange>& ranges);
 /// ": tendon.pretension_N >= 14.2 keeps it taut"; "" if there is no such pretension.
 std::string pretension_text(const analysis::UnderLoad& load);

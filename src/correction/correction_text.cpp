@@ -66,9 +66,9 @@ std::string words_of(const calibration::Calibration& calibration, const Correcti
              rounded(degrees(correction.by_curve), 2) + " deg rms\n";
   }
   if (correction.assembly_angle != 0) {
-    words += "# Assembly angle: tie the tendons with the unloaded joint at home and the motor at " +
+    words += "# Tie the tendons with the unloaded joint at home and the motor at " +
              rounded(degrees(correction.assembly_angle), 4) +
-             " deg: the joint then follows the law under its mean load.\n# If assembled at 0 deg, use compensation.csv "
+             " deg: the joint then follows the law under its mean load.\n# If tied at 0 deg, use compensation.csv "
              "for the motor angles.\n";
   }
   return words;

@@ -382,7 +382,7 @@ void add_motor(std::vector<Field>& table) {
   add(number<motor, &Motor::speed, degrees_as_read, radians>(
           {"motor.speed_deg_per_s", "", "", "speed of the motor without load"}, "deg/s", 0.001, 1000000),
       of_model, [](const DeclaredMechanism& m) { return m.motor.speed > 0; });
-  // The same number in another unit: it is written in deg/s.
+  // An alternative unit of the speed, which is written in deg/s.
   add(number<motor, &Motor::speed, in_rpm, from_rpm>(
           {"motor.speed_rpm", "", "", "speed of the motor without load, in place of speed_deg_per_s"}, "rpm", 0.001,
           100000),

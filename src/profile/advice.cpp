@@ -525,6 +525,18 @@ Advice find_advice(const Mechanism& mechanism, const FeasibilityOracle& judge,
   return advice;
 }
 
+std::string setting_words(const Change& change) {
+  if (!change.to_word.empty()) return change.text + " (now \"" + change.from_word + "\")";
+  if (change.key == "joint.range_deg") {
+    const auto around_home = [](double end) { return "[" + rounded(-end) + ", " + rounded(end) + "]"; };
+    return change.key + " = " + around_home(change.to) + " (now " + around_home(change.from) + ")";
+  }
+  // Enough digits for the number that was tried, in mm or inches.
+  constexpr int k_digits = 10;
+  return change.key + " = " + rounded(change.to, k_digits) + (change.to > change.from ? " or more" : " or less") +
+         " (now " + rounded(change.from, k_digits) + ")";
+}
+
 std::string advice_sentence(const std::vector<Change>& changes) {
   std::string sentence;
   for (const Change& change : changes) sentence += (sentence.empty() ? "make " : ", or ") + change.text;

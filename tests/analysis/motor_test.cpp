@@ -115,7 +115,7 @@ TEST(Motor, WarningStandsAtLimitOrModel) {
   ASSERT_THAT(warnings, SizeIs(1));
   EXPECT_EQ(warnings[0].place.line, 7);
   EXPECT_EQ(warnings[0].severity, Severity::warning);
-  EXPECT_THAT(warnings[0].hint, HasSubstr("make ratio ≤ 2; of the catalogue these suffice: "));
+  EXPECT_THAT(warnings[0].hint, HasSubstr("try pulley.ratio = 2 or less (now 3.2); of the catalogue these suffice: "));
   motor.enforced = true;
   EXPECT_EQ(motor_warnings(motor, file)[0].severity, Severity::error);
 }

@@ -100,8 +100,8 @@ class Analyze(harness.Scratch):
 
     def test_motor_is_compared(self):
         short = "--set motor.travel_deg=180"
-        self.expect(f"analyze arm.toml --samples 10 {short}", 0, r"motor +travel 236\.\d of 180 deg.*suitable: ",
-                    "warning: the motor turns 180 deg, and the range requires 236\\.\\d deg.*make r1 ≥ .*of the catalogue")
+        self.expect(f"analyze arm.toml --samples 10 {short}", 0, r"motor +travel 238\.\d of 180 deg.*suitable: ",
+                    "warning: the motor turns 180 deg, and the range requires 238\\.\\d deg.*try pulley\\.r1_mm = [\\d.]+ or more.*of the catalogue")
         self.expect(f"analyze arm.toml --samples 10 {short} --set motor.enforce=true", 4, "Summary", "error: the motor turns 180 deg")
         self.expect("analyze arm.toml --samples 10 --set motor.model=MG996R --set motor.speed_rpm=60 --set motor.travel_deg=300", 0,
                     "MG996R: travel .*joint turns at .* deg/s under the load", "^$")

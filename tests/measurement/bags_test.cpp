@@ -395,7 +395,8 @@ TEST(BagClock, IsTheHeadersIfTheyHaveStamps) {
   EXPECT_THAT(without.sources, Contains(HasSubstr("time is that of the recorder, as")));
   EXPECT_EQ(rows_of(one_topic(7000 * k_ms).finished(), with_columns({{"time", "log_time"}})).samples[1].time, 0.021);
   EXPECT_THAT(error_in(one_topic(0).finished(), with_columns({{"time", "header_stamp"}})), HasSubstr("has no stamps"));
-  EXPECT_THAT(error_in(one_topic(0).finished(), with_columns({{"time", "stamp"}})), HasSubstr("there is no time \"stamp\""));
+  EXPECT_THAT(error_in(one_topic(0).finished(), with_columns({{"time", "stamp"}})),
+              HasSubstr("there is no time \"stamp\""));
 }
 
 TEST(BagClock, IsTheRecordersForStampsOfTwoClocks) {

@@ -379,7 +379,7 @@ TEST_F(Build, PaperMethodReportsSlack) {
                                                                ::testing::Not(::testing::Contains("excess_length"))));
 }
 
-// The range requires 236.8° of the motor.
+// The range requires 238.2° of the motor.
 TEST_F(Build, MotorAdviceIsTriedWithFullBuild) {
   file_.mechanism.motor.travel = radians(180);
   options_.dry_run = true;

@@ -37,7 +37,6 @@ REPLACED = {
     r"test model": "test rig",
     r"nobody|somebody": "name the person or the thing",
     r"mouths?|gables?|keels?|roofs?": "channel entry, overhang support cone",
-    r"tied at 0|tied where": "assembled at 0, assembly angle",
     r"slips? of (?:a|the) (?:file|log|data)": "likely input error",
     r"needed law": "compensating law",
     r"ways? of printing": "print orientation",

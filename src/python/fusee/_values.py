@@ -287,7 +287,7 @@ class Extreme(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Motor(Value):
-    """What the joint requires of its motor, beside the motor's limits. None: the limit is unknown."""
+    """Requirements of the joint on its motor, beside the motor's limits. None: the limit is unknown."""
 
     model: str  #: of the catalogue; "" for a motor with numbers of its own
     enforced: bool
