@@ -15,11 +15,12 @@
 #include "fusee/mechanism_file.h"
 #include "mechanism/catalogue.h"
 #include "mechanism/field_text.h"
+#include "transmission/load.h"
 
 namespace fusee::cli {
 namespace {
 
-constexpr double k_gravity = 9.80665;
+using transmission::k_gravity;
 
 // Text ----------------------------------------------------------------------------------------------------------------
 

@@ -74,7 +74,7 @@ class BagLog {
   void add_source(const std::vector<Chosen>& chosen, Clock clock, const std::string& why, LoggedRows& rows) const;
 
   std::string name_;
-  const MeasurementOptions& options_;
+  MeasurementOptions options_;
   std::vector<Topic> topics_;
   std::map<std::string, std::size_t, std::less<>> topic_by_name_;
   std::map<std::string, Series> series_;

@@ -38,7 +38,7 @@ class LogFile {
   void unpack_held();
 
   const std::string& name_;
-  const MeasurementOptions& options_;
+  MeasurementOptions options_;
   std::size_t most_samples_;
   BagLog* bag_;
   std::optional<BagLog> own_bag_;

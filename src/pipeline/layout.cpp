@@ -14,6 +14,7 @@
 #include "fusee/transmission.h"
 #include "pipeline/design.h"
 #include "pipeline/several_turns.h"
+#include "transmission/load.h"
 
 namespace fusee::pipeline {
 namespace {
@@ -43,9 +44,8 @@ double tidy(double value) { return std::stod(rounded(value, 3)); }
 
 /// The torque of the declared load about the joint, at most. N·mm
 double torque_of(const Mechanism& mechanism) {
-  constexpr double gravity = 9.80665;
   const Load& load = mechanism.load;
-  return std::abs(load.tip_force) * mechanism.joint.R + std::abs(load.torque) + load.mass_kg * gravity * load.lever;
+  return std::abs(load.tip_force) * mechanism.joint.R + std::abs(load.torque) + transmission::weight_moment(load);
 }
 
 /// Moves the pitch radius of a drum, its guides and both ends to places at which the tendons stay on the drum over the

@@ -178,7 +178,7 @@ constexpr std::size_t k_sufficient_builds = 2;
 constexpr int k_max_builds = 4;
 constexpr int k_max_evaluations = 400;
 // Most values of a search over whole ranges fail at the first condition.
-constexpr int k_max_sweep_evaluations = 2400;
+constexpr int k_max_sweep_evaluations = 5000;
 // Reserve for pairs.
 constexpr int k_pair_evaluations = 150;
 // Number of the most helpful changes that are combined in pairs.

@@ -149,7 +149,7 @@ TEST(Plausibility, DetectsErrorsInRandomJoints) {
 TEST(SignOfOE, WarnsOfUnevenPulley) {
   EXPECT_THAT(said({{"guides.OE_mm", "40"}}),
               ElementsAre(AllOf(HasSubstr("guides.OE_mm = 40 mm: positive is below the joint"),
-                                HasSubstr("the radius of P2 varies 10-fold"), HasSubstr("did you mean -40?"))));
+                                HasSubstr("the radius of P2 varies 10-fold"), HasSubstr("did you mean -40 mm?"))));
 }
 
 TEST(SignOfOE, WarnsIfOnlyOppositeIsFeasible) {
@@ -157,7 +157,7 @@ TEST(SignOfOE, WarnsIfOnlyOppositeIsFeasible) {
   file.mechanism.guides.OE *= -1;
   ASSERT_FALSE(profile::synthesise(file.mechanism, {.advice = false}).made());
   EXPECT_THAT(said(file),
-              ElementsAre(AllOf(HasSubstr("no such pulley can be made"), HasSubstr("did you mean -37.5?"))));
+              ElementsAre(AllOf(HasSubstr("no such pulley can be made"), HasSubstr("did you mean -37.5 mm?"))));
 }
 
 TEST(SignOfOE, AcceptsPinsBelow) {

@@ -220,7 +220,7 @@ class Refusals(harness.Scratch):
     def test_other_obstacles_name_no_drum(self):
         self.assertNotIn("advice_layout", self.expect_json("build forearm.toml --dry-run --set pulley.r1_mm=25", 4))
 
-    def test_typed_number_comes_first_however_far_it_is_off(self):
+    def test_typed_number_comes_first(self):
         for key, typed in (("guides.EB_mm", 5), ("guides.ED_mm", 5), ("joint.length_mm", 10)):
             advice = self.expect_json(f"build forearm.toml --dry-run --set {key}={typed}", 4)["advice"]
             self.assertEqual(advice[0]["key"], key)

@@ -391,6 +391,7 @@ TEST_F(Build, MotorAdviceIsTriedWithFullBuild) {
   EXPECT_THAT(motor.advice.alone, Contains(Field(&profile::Change::key, "pulley.r1_mm")));
   EXPECT_THAT(built.product.file.warnings, Contains(Field(&Diagnostic::message, HasSubstr("turns 180 deg"))));
   for (const profile::Change& change : motor.advice.alone) {
+    if (change.key == "joint.range_deg") continue;  // both ends, by no single number
     MechanismFile changed = file_;
     find_number_key(change.key)->set(changed.mechanism, change.to);
     const pipeline::BuildResult better = pipeline::build(changed, options_);

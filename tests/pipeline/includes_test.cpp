@@ -28,7 +28,7 @@ const std::map<std::string, std::set<std::string>> k_export_uses = {{"mesh_files
                                                                     {"drawings", {}},
                                                                     {"report", {"mesh_files", "drawings"}},
                                                                     {"kit", {"mesh_files", "drawings", "report"}},
-                                                                    {"model", {}},
+                                                                    {"model", {"report"}},
                                                                     {"step", {}}};
 
 struct Include {

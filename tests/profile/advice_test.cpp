@@ -74,7 +74,7 @@ TEST(Advice, LimitsEffort) {
   const FeasibilityOracle hopeless{[&](const Mechanism&) { return ++looks, fails_by(1.0); },
                                    [&](const Mechanism&) { return ++builds_left, true; }};
   EXPECT_TRUE(find_advice(testing::forearm(), hopeless).empty());
-  EXPECT_LT(looks, 2600);
+  EXPECT_LT(looks, 4000);
   EXPECT_EQ(builds_left, 0);
   looks = 0;
   FeasibilityOracle expensive = hopeless;

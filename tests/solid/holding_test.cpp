@@ -146,7 +146,7 @@ TEST(Holding, WarnsAboveHalfStrengthWithAdvice) {
   advised = mechanism;
   const std::size_t bears = warning.find("a tendon with a strength of ");
   ASSERT_NE(bears, std::string::npos) << warning;
-  advised.tendon.strength = std::stod(warning.substr(bears + 26));
+  advised.tendon.strength = std::stod(warning.substr(bears + 28));
   EXPECT_TRUE(Held(advised).holding.warnings.empty());
 }
 
