@@ -1,7 +1,10 @@
 #include "pins/runs.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "base/text.h"
 #include "export/report/analysis.h"
@@ -69,11 +72,16 @@ Outputs built_corrected(const fs::path& spec, const std::vector<fs::path>& measu
   const Outputs outputs = calibration_outputs(spec, measured);
   const auto corrected = std::find_if(outputs.begin(), outputs.end(),
                                       [](const OutputFile& file) { return file.name == "corrected.toml"; });
+  const fs::path folder = fs::temp_directory_path() / ("fusee-pins-" + std::to_string(::getpid()));
+  fs::create_directories(folder);
   MechanismFile file;
-  file.path = corrected->name;
+  file.path = (folder / corrected->name).string();
   file.sha256 = sha256(corrected->bytes);
+  std::ofstream(file.path, std::ios::binary) << corrected->bytes;
   file.mechanism = parse_mechanism(corrected->bytes, file.path, k_root, {}, &file.warnings);
-  return built(file, formats::DxfVersion::ac1015);
+  Outputs part = built(file, formats::DxfVersion::ac1015);
+  fs::remove_all(folder);
+  return part;
 }
 
 /// The new file, and the figures of `fusee optimize` with a fixed number of digits.
