@@ -164,8 +164,8 @@ void McapReader::take_message(std::string_view body) {
   const auto log_time = fields.number<std::uint64_t>();
   fields.number<std::uint64_t>();  // time of publication, which most recorders do not know
   if (!fields.ok() || channel == channels_.end() || channel->second == BagLog::k_not_used) return;
-  constexpr auto k_latest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  into_.take(channel->second, static_cast<std::int64_t>(std::min(log_time, k_latest)), fields.rest());
+  constexpr auto k_latest_stamp = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  into_.take(channel->second, static_cast<std::int64_t>(std::min(log_time, k_latest_stamp)), fields.rest());
 }
 
 /// `is_cut_off`: the file ends within the chunk.

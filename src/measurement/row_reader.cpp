@@ -271,8 +271,8 @@ class RowReader {
 
   void add_to_tracks(const Sample& sample) {
     const double time = sample.time * find("time")->unit->factor;
-    constexpr double k_latest = 4e9, k_since_1970 = 9e8;  // s
-    if (!(std::abs(time) < k_latest)) return;
+    constexpr double k_last_second = 4e9, k_since_1970 = 9e8;  // s
+    if (!(std::abs(time) < k_last_second)) return;
     // Times since 1970 have microseconds in a double.
     const std::int64_t tick = time > k_since_1970 ? 1000 : 1;
     const std::int64_t exact = std::llround(time * 1e9 / static_cast<double>(tick)) * tick;

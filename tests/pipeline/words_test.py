@@ -17,7 +17,7 @@ MOST_WORDS_IN_SENTENCE = 25
 MOST_WORDS_IN_TITLE = 8
 MOST_COLUMNS = 120
 #: Lines of pages that may be longer: rows of tables, pictures, and commands with their messages.
-LONG_LINE = re.compile(r"\||!\[|fusee |.*(error|warning|note): |PYTHONPATH")
+LONG_LINE = re.compile(r"\||!\[|fusee |.*(error|warning|note|hint): |PYTHONPATH")
 
 FIRST = re.compile(r"(What|Of|The same|Where|Whether)\b|…|\.\.\.")
 #: Expression → what to write instead.
