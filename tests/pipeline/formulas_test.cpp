@@ -24,7 +24,8 @@ const std::vector<Formula> k_formulas = {
     // tan(π/4 − …) is another formula.
     {"section_stiffness", R"((0\.25\s*\*\s*k_pi|k_pi\s*/\s*4(\.0)?)\b(?!\s*-))", "include/fusee/mechanism.h"},
     {"standard_gravity", R"(\b9\.8\d*)", "src/transmission/load.h"},
-    {"weight_moment", R"(\bmass(_kg)?\s*\*\s*k_gravity\b|\bk_gravity\s*\*\s*[\w.]*mass(_kg)?\b)", "src/transmission/load.cpp"},
+    {"weight_moment", R"(\bmass(_kg)?\s*\*\s*k_gravity\b|\bk_gravity\s*\*\s*[\w.]*mass(_kg)?\b)",
+     "src/transmission/load.cpp"},
     {"golden_section", R"(\b(0\.618|0\.38196|1\.618)\d*)", "src/base/"},
     {"target_motion", R"(\bclass\s+TargetMotion\b)", "src/transmission/target_motion.h"},
     {"binning", R"(\bstruct\s+Bins\b)", "src/measurement/seen_span.h"},
