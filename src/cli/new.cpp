@@ -23,7 +23,7 @@ Reply list_templates() {
     reply.fields["templates"].push_back({{"name", known.name}, {"group", known.group}, {"about", known.description}});
   }
   reply.text +=
-      "\n'fusee new TEMPLATE > my.toml' writes one of them; 'fusee new --ask > my.toml' asks for your joint.\n";
+      "\n'fusee new TEMPLATE > my.toml' writes one of them.\n'fusee new --ask > my.toml' asks for your joint.\n";
   return reply;
 }
 
@@ -190,7 +190,7 @@ Reply run_new(const Arguments& arguments, Console& console, const RunContext& co
 Command new_command() {
   return {"new",
           "[TEMPLATE]",
-          "a commented mechanism file, from a template or your answers",
+          "a commented mechanism file to start from",
           "Prints a mechanism file with an explanation of every number.\n"
           "Without TEMPLATE it lists the templates. With --ask it asks seven questions,\n"
           "chooses the layout by full builds, draws the joint and writes its file.\n"
@@ -202,8 +202,8 @@ Command new_command() {
           {{"fusee new", "list the templates"},
            {"fusee new paper_optimum > arm.toml", "save one as arm.toml"},
            {"fusee new --ask > arm.toml", "answer seven questions; Enter takes the proposal"},
-           {"fusee new --from pulley.3mf -o arm.toml", "the mechanism file of an earlier print"},
-           {"fusee new paper_optimum --set pulley.r1_mm=15 > arm.toml", "the same with another r1"}},
+           {"fusee new --from pulley.3mf -o earlier.toml", "the mechanism file of an earlier print"},
+           {"fusee new paper_optimum --set pulley.r1_mm=17 > arm.toml", "the same with another r1"}},
           run_new};
 }
 

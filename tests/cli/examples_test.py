@@ -15,11 +15,14 @@ class Examples(harness.Scratch):
         return lines
 
     def test_all(self):
+        self.fusee("build arm.toml -o earlier")
+        (self.folder / "earlier/pulley.3mf").rename(self.folder / "pulley.3mf")
         (self.folder / "arm.toml").unlink()  # the examples create their own
         for command in ["", "new", "explain", "analyze", "build", "check", "rewind", "optimize", "reproduce", "plan", "kit", "model", "simulate", "replay", "completion", "manual"]:
             for line in self.examples(command):
                 with self.subTest(line):
-                    done = subprocess.run(["bash", "-c", line], cwd=self.folder, env=harness.ENVIRONMENT, capture_output=True, timeout=120)
+                    # Enter takes each proposal of --ask.
+                    done = subprocess.run(["bash", "-c", line], cwd=self.folder, env=harness.ENVIRONMENT, input=b"\n" * 7, capture_output=True, timeout=120)
                     self.assertEqual(done.returncode, 0, done.stderr.decode())
                     if command == "reproduce":  # tested below, since it takes long
                         self.assertLessEqual(max(map(len, done.stdout.decode().splitlines()), default=0), 80)

@@ -474,7 +474,7 @@ class Kill(harness.Scratch):
     DELAYS = [0.005, 0.02, 0.05, 0.08, 0.11, 0.15, 0.2, 0.3]
 
     def start(self, arguments=""):
-        line = [harness.PROGRAM, "build", "arm.toml", "--set", "pulley.r1_mm=15", *arguments.split()]
+        line = [harness.PROGRAM, "build", "arm.toml", "-o", "out/arm", "--set", "pulley.r1_mm=15", *arguments.split()]
         return subprocess.Popen(line, cwd=self.folder, env=harness.ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
     def test_killed(self):
@@ -530,7 +530,7 @@ class Kill(harness.Scratch):
             while True:
                 os.write(writing, b" " * 4096)
         os.set_blocking(writing, True)
-        process = subprocess.Popen([harness.PROGRAM, "build", "arm.toml", "--set", "pulley.r1_mm=15", "--json"],
+        process = subprocess.Popen([harness.PROGRAM, "build", "arm.toml", "-o", "out/arm", "--set", "pulley.r1_mm=15", "--json"],
                                    cwd=self.folder, env=harness.ENVIRONMENT, stdout=writing, stderr=subprocess.PIPE)
         for _ in range(1000):
             time.sleep(0.02)
@@ -552,7 +552,7 @@ class Kill(harness.Scratch):
         self.assertEqual(self.files("both"), self.build("alone", "--set pulley.r1_mm=15"))
 
     def test_two_different_at_once(self):
-        sets = [self.build("one"), self.build("other", "--set pulley.r1_mm=15")]
+        sets = [self.build(f"r1_{r1}", f"--set pulley.r1_mm={r1}") for r1 in (16, 15)]
         for _ in range(3):
             runs = [subprocess.Popen([harness.PROGRAM, "build", "arm.toml", "-o", "both", "--set", f"pulley.r1_mm={r1}"],
                                      cwd=self.folder, env=harness.ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)

