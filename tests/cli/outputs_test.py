@@ -473,8 +473,8 @@ class Kill(harness.Scratch):
 
     DELAYS = [0.005, 0.02, 0.05, 0.08, 0.11, 0.15, 0.2, 0.3]
 
-    def start(self, arguments=""):
-        line = [harness.PROGRAM, "build", "arm.toml", "-o", "out/arm", "--set", "pulley.r1_mm=15", *arguments.split()]
+    def start(self, arguments="-o out/arm"):
+        line = [harness.PROGRAM, "build", "arm.toml", "--set", "pulley.r1_mm=15", *arguments.split()]
         return subprocess.Popen(line, cwd=self.folder, env=harness.ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
     def test_killed(self):
