@@ -502,7 +502,7 @@ class Kill(harness.Scratch):
         earlier = self.build()
         later = self.build("later", "--set pulley.r1_mm=15")
         for delay in self.DELAYS:
-            process = self.start("--json")
+            process = self.start("--json -o out/arm")
             time.sleep(delay)
             process.send_signal(number)
             out, _ = process.communicate(timeout=60)
