@@ -113,7 +113,7 @@ std::string summary(const analysis::AnalysisResult& result, const analysis::Anal
   text += motor_lines(result, k_column);
   text += "\nError budget\n" + sources_table(result.sources);
   text += "\nTolerances: each dimension within " + shortest(options.dimension_tolerance) +
-          " mm (95 %), and the resulting limits of theta and of the\nexcess length of tendon 2\n" +
+          " mm (95 %), and the resulting\nlimits of theta and of the excess length of tendon 2\n" +
           tolerances_table(result.tolerances);
   return text;
 }
