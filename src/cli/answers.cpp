@@ -13,14 +13,12 @@
 
 #include "base/text.h"
 #include "fusee/mechanism_file.h"
+#include "measurement/units.h"
 #include "mechanism/catalogue.h"
 #include "mechanism/field_text.h"
-#include "transmission/load.h"
 
 namespace fusee::cli {
 namespace {
-
-using transmission::k_gravity;
 
 // Text ----------------------------------------------------------------------------------------------------------------
 
@@ -321,55 +319,23 @@ Answer<AngleRange> read_range(std::string_view typed) {
 
 Answer<TypedLoad> read_load(std::string_view typed) {
   constexpr std::string_view k_examples = "10 N, 0.5 kg, 500 g, 2 lbf, or 0.8 Nm for a torque about the joint";
-  struct Unit {
-    std::string_view name;
-    double newton, newton_mm;
-  };
-  constexpr double pound = 0.45359237 * k_gravity;
-  static constexpr std::array<Unit, 23> units{{{"", 1, 0},
-                                               {"n", 1, 0},
-                                               {"newton", 1, 0},
-                                               {"newtons", 1, 0},
-                                               {"kn", 1000, 0},
-                                               {"g", 0.001 * k_gravity, 0},
-                                               {"gf", 0.001 * k_gravity, 0},
-                                               {"gram", 0.001 * k_gravity, 0},
-                                               {"grams", 0.001 * k_gravity, 0},
-                                               {"kg", k_gravity, 0},
-                                               {"kgf", k_gravity, 0},
-                                               {"lb", pound, 0},
-                                               {"lbs", pound, 0},
-                                               {"lbf", pound, 0},
-                                               {"oz", pound / 16, 0},
-                                               {"ozf", pound / 16, 0},
-                                               {"nm", 0, 1000},
-                                               {"nmm", 0, 1},
-                                               {"ncm", 0, 10},
-                                               {"kgcm", 0, 10 * k_gravity},
-                                               {"ozin", 0, pound / 16 * 25.4},
-                                               {"lbin", 0, pound * 25.4},
-                                               {"inlb", 0, pound * 25.4}}};
   const std::string simple = simplified(typed);
   std::string_view text = simple;
   const auto number = take_signed(text);
   if (!number) return not_read(typed, "a load", k_examples);
-  std::string unit;
-  for (const char c : text) {
-    if (c != ' ' && c != '*' && c != '-' && c != '.') unit += c;
+  skip_blanks(text);
+  const measurement::Unit* unit = find_unit(measurement::Quantity::load, text.empty() ? "N" : text);
+  if (unit == nullptr)
+    return Refusal{fmt::format("{} is not a unit of force or torque: type it as {}", in_quotes(text), k_examples)};
+  const double size = *number * unit->factor;
+  const TypedLoad load{unit->base == "N" ? size : 0, unit->base == "Nmm" ? size : unit->base == "Nm" ? 1000 * size : 0};
+  for (const auto& [key, value] : {std::pair{"load.tip_force_N", load.force}, {"load.torque_Nmm", load.torque}}) {
+    const Field& field = *find_field(key);
+    if (value < field.least || value > field.most)
+      return Refusal{fmt::format("{} {} is not within {} to {}", rounded(value), field.unit, rounded(field.least),
+                                 rounded(field.most))};
   }
-  for (const Unit& known : units) {
-    if (known.name != unit) continue;
-    const TypedLoad load{known.newton > 0 ? *number * known.newton : 0,
-                         known.newton_mm > 0 ? *number * known.newton_mm : 0};
-    for (const auto& [key, value] : {std::pair{"load.tip_force_N", load.force}, {"load.torque_Nmm", load.torque}}) {
-      const Field& field = *find_field(key);
-      if (value < field.least || value > field.most)
-        return Refusal{fmt::format("{} {} is not within {} to {}", rounded(value), field.unit, rounded(field.least),
-                                   rounded(field.most))};
-    }
-    return load;
-  }
-  return Refusal{fmt::format("{} is not a unit of force or torque: type it as {}", in_quotes(unit), k_examples)};
+  return load;
 }
 
 Answer<TypedMotor> read_motor(std::string_view typed) {

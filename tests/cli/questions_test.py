@@ -93,7 +93,8 @@ class Questions(harness.Scratch):
 
     def test_loads(self):
         for typed, load in (("10 N", "10 N at C"), ("0,5 kg", "4.903 N at C"), ("500 g", "4.903 N at C"), ("2 lbf", "8.896 N at C"),
-                            ("0.8 Nm", "800 Nmm about O"), ("5 kg cm", "490.3 Nmm about O")):
+                            ("0.8 Nm", "800 Nmm about O"), ("5 kg cm", "490.3 Nmm about O"), ("8 lb-in", "903.9 Nmm about O"),
+                            ("1 lb ft", "1356 Nmm about O")):
             self.assertIn(f"load: {load}", self.understood("a", "45", "0 80", "30", typed)[0], typed)
 
     def test_names_of_motors_and_tendons(self):
