@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "fusee/mechanism_file.h"
 #include "fusee/profile.h"
@@ -18,9 +20,13 @@ using testing::circle;
 using testing::plain_mechanism;
 using testing::pulley_of;
 
+DeclaredMechanism profile_named(const std::string& name) {
+  return read_mechanism(FUSEE_SOURCE_DIR "/profiles/" + name + ".toml").mechanism;
+}
+
 /// A finger's base joint with a drum, as its length, r1 and tendon.
 DeclaredMechanism finger_of(double r1, double tendon) {
-  DeclaredMechanism mechanism = read_mechanism(std::string(FUSEE_SOURCE_DIR) + "/profiles/finger_mcp.toml").mechanism;
+  DeclaredMechanism mechanism = profile_named("finger_mcp");
   mechanism.joint.R = 45;
   mechanism.joint.theta_min = 0;
   mechanism.joint.theta_max = radians(80);
@@ -35,34 +41,54 @@ Pulley built(const Mechanism& mechanism) {
   return make_pulley(mechanism, synthesis);
 }
 
-/// Features omitted with a hub of 14.4 mm, which holds a nut, and with the automatic one.
-struct Omitted {
-  std::size_t wide = 0, automatic = 0;
-};
+BodyLayout layout_of(const Mechanism& mechanism) { return resolve_layout(mechanism, profile::synthesise(mechanism)); }
 
-Omitted omitted_from(Mechanism mechanism) {
-  const profile::SynthesisResult synthesis = profile::synthesise(mechanism);
-  Omitted omitted;
-  omitted.automatic = resolve_layout(mechanism, synthesis).omissions.size();
-  mechanism.body.hub_diameter = 14.4;
-  omitted.wide = resolve_layout(mechanism, synthesis).omissions.size();
-  return omitted;
+std::vector<std::string> omitted_from(const BodyLayout& layout) {
+  std::vector<std::string> features;
+  for (const Omission& omission : layout.omissions) features.push_back(omission.feature);
+  return features;
 }
 
-TEST(Hub, CostsSmallPulleysFewerFeatures) {
-  for (const double r1 : {7.5, 8.0, 9.0, 10.0}) {
-    for (const double tendon : {0.4, 0.6}) {
-      SCOPED_TRACE(::testing::Message() << "r1 " << r1 << ", tendon " << tendon);
-      const Mechanism mechanism = finger_of(r1, tendon);
-      const Omitted omitted = omitted_from(mechanism);
-      EXPECT_LE(omitted.automatic, omitted.wide);
-      const Pulley pulley = built(mechanism);
-      ASSERT_TRUE(pulley.made()) << pulley.brief();
-      EXPECT_TRUE(all_ok(pulley.mesh_checks));
-    }
+BodyLayout with_hub(Mechanism mechanism, double diameter) {
+  mechanism.body.hub_diameter = diameter;
+  return layout_of(mechanism);
+}
+
+// A nut would need a hub of 14.4 mm on a flange of 21 mm.
+TEST(Hub, CostsSmallPulleysFewFeatures) {
+  struct Finger {
+    double r1, tendon;
+    std::vector<std::string> omitted;
+  };
+  const std::vector<Finger> fingers{{7.5, 0.4, {"hub", "set_screw"}},
+                                    {7.5, 0.6, {"set_screw", "home_mark", "label_P2"}},
+                                    {8, 0.4, {"nut", "spare_tie_off_P2", "tail_slot_P2", "label_P2"}},
+                                    {8, 0.6, {"set_screw", "home_mark"}},
+                                    {9, 0.4, {"nut", "home_mark"}},
+                                    {9, 0.6, {"set_screw"}},
+                                    {10, 0.4, {"nut", "home_mark"}},
+                                    {10, 0.6, {"nut"}}};
+  for (const Finger& finger : fingers) {
+    SCOPED_TRACE(::testing::Message() << "r1 " << finger.r1 << ", tendon " << finger.tendon);
+    const Pulley pulley = built(finger_of(finger.r1, finger.tendon));
+    ASSERT_TRUE(pulley.made()) << pulley.brief();
+    EXPECT_TRUE(all_ok(pulley.mesh_checks));
+    EXPECT_EQ(omitted_from(pulley.layout), finger.omitted);
   }
-  const Omitted usual = omitted_from(finger_of(9.0, 0.6));
-  EXPECT_LT(usual.automatic, usual.wide);
+}
+
+TEST(Hub, KeepsNutWhereNothingIsLost) {
+  const Pulley pulley = built(profile_named("forearm"));
+  EXPECT_THAT(omitted_from(pulley.layout), ::testing::IsEmpty());
+  EXPECT_EQ(pulley.layout.set_screw.thread, "M3");
+  EXPECT_TRUE(pulley.layout.set_screw.nut_trap);
+}
+
+TEST(Hub, KeepsMoreThanAWideOne) {
+  const Mechanism mechanism = finger_of(9.0, 0.6);
+  const BodyLayout automatic = layout_of(mechanism), wide = with_hub(mechanism, 14.4);
+  EXPECT_GT(wide.omissions.size(), automatic.omissions.size());
+  EXPECT_LT(automatic.hub_radius, wide.hub_radius);
 }
 
 TEST(Hub, KeepsRequestedDiameter) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <pugixml.hpp>
+#include <set>
 
 #include "export/report/html.h"
 #include "export/report/mesh_code.h"
@@ -17,8 +18,10 @@ namespace fusee::formats {
 namespace {
 
 using ::testing::ContainsRegex;
+
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::UnorderedElementsAre;
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -116,9 +119,18 @@ TEST(Report, IsWellFormed) {
 
 TEST(Report, IsSelfContained) {
   const std::string html = report_html(sample());
-  for (const char* reference : {"://", "src=", "href=\"/", "url(", "@import", "fetch(", "XMLHttpRequest"}) {
+  for (const char* reference : {"://", "src=", "url(", "@import", "fetch(", "XMLHttpRequest"}) {
     EXPECT_THAT(html, Not(HasSubstr(reference)));
   }
+  // Links are to files of the same build.
+  std::set<std::string> linked;
+  const std::string link = "href=\"";
+  for (std::size_t at = html.find(link); at != std::string::npos; at = html.find(link, at + 1))
+    linked.insert(html.substr(at + link.size(), html.find('"', at + link.size()) - at - link.size()));
+  EXPECT_THAT(linked,
+              UnorderedElementsAre("manifest.json", "mechanism.toml", "plates.dxf", "profile.csv", "profile.dxf",
+                                   "profile_p1.csv", "profile_p2.csv", "pulley.3mf", "pulley.drc", "pulley.obj",
+                                   "pulley.scad", "pulley.stl", "transmission.csv"));
   EXPECT_THAT(html, HasSubstr("default-src 'none'"));
 }
 
