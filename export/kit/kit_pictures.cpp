@@ -17,7 +17,7 @@ namespace {
 
 constexpr double k_picture_width = 520, k_picture_height = 420;
 
-/// A convex slab with holes, in place, vertical or not.
+/// A convex slab with holes at its place in the rig; its walls may be inclined.
 struct DrawnSlab {
   Polygon below, above;
   double low = 0, high = 0;
@@ -31,7 +31,7 @@ struct DrawnLine {
   std::string classes;
 };
 
-/// From the front right and from above, y up the picture.
+/// Parallel projection, seen from the front right and from above; y points up in the picture.
 class Projection {
  public:
   Vec2 operator()(const Vec2& p, double z) const {
@@ -46,7 +46,7 @@ class Projection {
   }
 };
 
-/// Maps to the paper.
+/// Maps projected points to the picture: all included points fill it.
 class Paper {
  public:
   void include(const Vec2& p) {
@@ -282,7 +282,7 @@ Figure kit_plan_view(const KitProduct& product) {
 
 namespace {
 
-/// The pitch curve of a side; for several turns, the turn that its tendon leaves at home.
+/// The pitch curve of a side. For several turns, only the turn that its tendon leaves at home.
 profile::Outline at_home(const Product& product, transmission::Side side) {
   if (!product.helix) return side == transmission::Side::left ? product.synthesis.p1 : product.synthesis.p2;
   const helix::HelixSide& helix = product.helix->synthesis.sides.at(side == transmission::Side::left ? 0 : 1);
@@ -300,7 +300,7 @@ profile::Outline at_home(const Product& product, transmission::Side side) {
   return outline;
 }
 
-/// In the mechanism's frame.
+/// The whole pitch curve of a side, in the mechanism's frame.
 std::vector<Vec2> pitch_curve(const Product& product, transmission::Side side) {
   const Vec2 axis = pulley_axis(product.joint.mechanism);
   std::vector<Vec2> points;
@@ -319,8 +319,8 @@ std::vector<Vec2> pitch_curve(const Product& product, transmission::Side side) {
 }  // namespace
 
 Figure kit_template_view(const KitProduct& product) {
-  const Product& made = product.pulley;
-  const Mechanism& mechanism = made.joint.mechanism;
+  const Product& pulley = product.pulley;
+  const Mechanism& mechanism = pulley.joint.mechanism;
   Paper paper;
   const auto shown = [](const std::vector<Vec2>& points) {
     std::vector<Vec2> result;
@@ -344,7 +344,7 @@ Figure kit_template_view(const KitProduct& product) {
     for (const Vec2& p : shown(outline)) paper.include(p);
   }
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
-    for (const Vec2& p : shown(pitch_curve(made, side))) paper.include(p);
+    for (const Vec2& p : shown(pitch_curve(pulley, side))) paper.include(p);
   }
   Figure figure{k_picture_width, k_picture_height, "From above, at home: base, drum and link with their holes", {}, {}};
   for (const auto& [classes, outline] : drawn) figure.body += svg_path(classes, paper(shown(outline)), true);
@@ -356,8 +356,8 @@ Figure kit_template_view(const KitProduct& product) {
     if (mechanism.guides.kind == GuideKind::idler) circle("kit-bought-top", pin.place, mechanism.guides.bearing_radius);
   }
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
-    const profile::Outline outline = at_home(made, side);
-    figure.body += svg_path("main", paper(shown(pitch_curve(made, side))), !made.helix);
+    const profile::Outline outline = at_home(pulley, side);
+    figure.body += svg_path("main", paper(shown(pitch_curve(pulley, side))), !pulley.helix);
     if (mechanism.sheath.is_there())
       figure.body += "<g class=\"kit-sheath\" style=\"fill:none;stroke:#c9b48a;stroke-width:7\"><path d=\"" +
                      path_data(paper(shown(sheath_curve(mechanism, side))), false) + "\"/></g>";

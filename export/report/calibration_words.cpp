@@ -71,7 +71,7 @@ std::string unmodelled_words(const calibration::FoundEffect& effect) {
 
 std::string beside_words(const calibration::FoundEffect& effect, const std::string& load_unit) {
   std::vector<std::string> members;
-  for (const calibration::MemberBeside& member : effect.beside) {
+  for (const calibration::GroupMember& member : effect.beside) {
     std::vector<std::string> numbers;
     for (const calibration::FittedParameter& own : member.parameters)
       numbers.push_back(parameter_words(own, load_unit));
@@ -83,8 +83,8 @@ std::string beside_words(const calibration::FoundEffect& effect, const std::stri
          "predicted best.";
 }
 
-std::string unknown_words(const calibration::DiscrepancyComponent& unknown) {
-  return rounded(degrees(unknown.rms), 2) + "° rms, " + unknown.factor + ": " + unknown.words;
+std::string discrepancy_words(const calibration::DiscrepancyComponent& part) {
+  return rounded(degrees(part.rms), 2) + "° rms, " + part.factor + ": " + part.words;
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& between) {

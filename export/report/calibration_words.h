@@ -27,6 +27,6 @@ std::string unmodelled_words(const calibration::FoundEffect& effect);
 /// where no member of its group is handed over beside it.
 std::string beside_words(const calibration::FoundEffect& effect, const std::string& load_unit);
 /// "0.021° rms, place: the same at a place whichever way …"
-std::string unknown_words(const calibration::DiscrepancyComponent& unknown);
+std::string discrepancy_words(const calibration::DiscrepancyComponent& part);
 
 }  // namespace fusee::formats

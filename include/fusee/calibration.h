@@ -69,7 +69,7 @@ struct UnmodelledAlternative {
 };
 
 /// Member of a group with its parameters.
-struct MemberBeside {
+struct GroupMember {
   std::string name;
   std::vector<FittedParameter> parameters;
 };
@@ -82,9 +82,9 @@ struct FoundEffect {
   ChainPlace place = ChainPlace::joint;
   std::vector<FittedParameter> parameters;
   /// Members of `group` with which held-out runs are predicted better when added to the found set.
-  std::vector<MemberBeside> beside;
+  std::vector<GroupMember> beside;
   /// Members of `group` that can replace the effect, with the parameters that they have there.
-  std::vector<MemberBeside> instead;
+  std::vector<GroupMember> alternatives;
   double rms_drop = 0;  ///< reduction of the held-out residual, rad; at least 0
   /// True if effects that move no row explained the data equally well in its place: then an unmodelled cause may, too.
   bool idle_did_as_well = false;

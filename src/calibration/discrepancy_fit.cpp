@@ -8,8 +8,8 @@
 #include "base/text.h"
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
-#include "measurement/seen_span.h"
 #include "measurement/strokes.h"
+#include "measurement/value_range.h"
 
 namespace fusee::calibration {
 namespace {
@@ -119,7 +119,7 @@ bool has_course(Factor factor) {
 
 /// Draws the largest value of a component at each place.
 void draw(const Angles& angles, const Eigen::VectorXd& part, DiscrepancyComponent& component) {
-  measurement::SeenSpan span;
+  measurement::ValueRange span;
   for (const double alpha : angles.motor) span.take(alpha);
   if (!span.any()) return;
   const measurement::Bins bins{span, k_places};

@@ -144,7 +144,8 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
       const bool in_group = std::count(found.group.begin(), found.group.end(), rival.rival->name) > 0;
       if (rival.accepted != effect || !in_group) continue;
       const std::vector<ConfidenceInterval> own = intervals(rival.fit, selection.temperature);
-      found.instead.push_back({rival.rival->name, fitted_parameters(evidence, rival.fit, {own, own}, *rival.rival)});
+      found.alternatives.push_back(
+          {rival.rival->name, fitted_parameters(evidence, rival.fit, {own, own}, *rival.rival)});
     }
     found.rms_drop = rms_drop(selection, all.size());
     found.share = share(selection, all.size());

@@ -26,14 +26,13 @@ HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fol
 std::vector<Eigen::VectorXd> numbers_without(const Evidence& evidence, const Fit& fit, const Amplitudes* beside,
                                              const std::vector<Fold>& folds);
 
-/// Held-out errors of a fit with the discrepancy beside it, which is estimated from the other folds too. `amplitudes`:
-/// of that fit.
-struct HeldOutBeside {
+/// Held-out errors of a fit with its discrepancy. Both are estimated from the other folds. `amplitudes`: of that fit.
+struct HeldOutWithDiscrepancy {
   HeldOut effects;     ///< error of the effects alone
   HeldOut with_place;  ///< error of effects and the discrepancy of place and direction
   HeldOut with_all;    ///< error of effects and the whole discrepancy; a held-out run has none of its own
 };
-HeldOutBeside hold_out_beside(const Evidence& evidence, const Fit& fit, const Amplitudes& amplitudes,
-                              const std::vector<Fold>& folds);
+HeldOutWithDiscrepancy hold_out_with_discrepancy(const Evidence& evidence, const Fit& fit, const Amplitudes& amplitudes,
+                                                 const std::vector<Fold>& folds);
 
 }  // namespace fusee::calibration

@@ -55,18 +55,18 @@ struct Thresholds {
   double most_false_positives = 0.02;
   /// Members that an audit adds to a group: the most frequent true causes of its false positives.
   std::size_t most_true_causes = 6;
-  /// Doubt above which an effect is not reported. Between the false-positive rate and this its group contains
-  /// `unmodelled`. 48 joints: of 10 effects that were lost 6 were in the likeliest set.
-  double most_doubtful = 0.3;
-  /// Share to which an effect as doubtful must lower the unexplained residual to be reported nevertheless. Joint
+  /// Absence probability above which an effect is not reported. Between the false-positive rate and this, its group
+  /// contains `unmodelled`. 48 joints: of 10 effects that were lost 6 were in the likeliest set.
+  double most_absence_probability = 0.3;
+  /// Share to which an effect that uncertain must lower the unexplained residual to be reported nevertheless. Joint
   /// 950018: without this rule an offset is dropped, 4.4 noise floors remain in place of 2, and the held-out error is
   /// 2.0 times as large.
   double residual_share = 0.8;
-  /// Share of the remaining doubt that each further member of a group must remove. Without it groups of 9 joints from
-  /// seed 950001 have 7.2 members in place of 5.7.
+  /// Share of the absence probability that each further member of a group must remove. Without it groups of 9 joints
+  /// from seed 950001 have 7.2 members in place of 5.7.
   double least_gain = 0.1;
-  /// Doubt at which a group is complete.
-  double complete_group_doubt = 0.005;
+  /// Absence probability at which a group is complete.
+  double complete_group_absence = 0.005;
   /// Noise floors rms that an effect beside the best set must trade with a member to join its group, and the number of
   /// effects that are tested. Without this step 8 of 10 effects of the same joints are held in place of 10; without the
   /// limit groups of the first six grow from 7.1 to 7.7.
@@ -131,7 +131,7 @@ struct Thresholds {
   /// leaves 1.8 where a tendon goes slack.
   double input_error_alone = 2.0;
   /// Otherwise the corrected file, nothing fitted, must leave this many times less than all identified effects. Rig data:
-  /// errors leave 3 to 7 times less (signs of a nearly symmetric joint) to 700 times less; no right file is doubted.
+  /// errors leave 3 to 7 times less (signs of a nearly symmetric joint) to 700 times less; no right file is reported.
   double input_error_gain = 3.0;
   /// Ratio from which an input error is reported although another cause stays unexplained beside it. Rig data
   /// f_not_in_any_catalogue with the sign of OE turned: 26.

@@ -489,7 +489,7 @@ void add_unmodelled(bool beside_unmodelled, const Selection& selection, std::vec
     std::vector<std::string>& group = effects[i].group;
     const double least = is_sure ? required_log_odds(*selection.best.effects[i], group, selection.catalogue)
                                  : std::numeric_limits<double>::infinity();
-    if (selection.groups[i].doubt > k_thresholds.most_false_positives || effects[i].idle_did_as_well ||
+    if (selection.groups[i].absence_probability > k_thresholds.most_false_positives || effects[i].idle_did_as_well ||
         effects[i].unmodelled.log_odds < least)
       group.emplace_back(k_unmodelled);
   }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "fusee/measurement.h"
-#include "measurement/seen_span.h"
 #include "measurement/strokes.h"
+#include "measurement/value_range.h"
 
 // Strokes of equal direction, load and speed are repeats. The scatter of a row is (2θ − θbefore − θafter)/√6, with θ of
 // the neighbouring repeats at the same α; a steady drift cancels. Further influences:
@@ -55,7 +55,7 @@ class Scatter {
   /// α at which the differences have the largest mean square.
   double largest_at() const {
     constexpr int k_places = 12;
-    SeenSpan span;
+    ValueRange span;
     for (const double place : places_) span.take(place);
     if (!span.any() || places_.size() != values_.size()) return 0;
     const Bins bins{span, k_places};
@@ -255,7 +255,7 @@ struct RepeatTolerance {
 };
 
 RepeatTolerance repeat_tolerance(const Measurement& measurement, bool across_runs) {
-  const SeenSpan alphas = seen_span(measurement, &Sample::alpha);
+  const ValueRange alphas = value_range(measurement, &Sample::alpha);
   return {load_tolerance(measurement),
           std::max(2e-3 * (alphas.any() ? alphas.size() : 0.0), 3 * measurement.alpha_quantum), across_runs};
 }

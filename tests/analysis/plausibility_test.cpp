@@ -91,17 +91,17 @@ TEST(Plausibility, AcceptsRatioJoints) {
 // OE lies between −0.5 R and 0.2 R. Warnings occur only for pins below the joint and a radius that varies fourfold and
 // more, at most 1.6-fold with pins above: 3 of 300, 13 of 2000.
 TEST(Plausibility, RarelyWarnsOfRandomJoints) {
-  int doubted = 0, cases = 0;
+  int warned = 0, cases = 0;
   testing::expect_law(300, [&](const Mechanism& mechanism) {
     ++cases;
     for (const Diagnostic& warning : plausibility_warnings(file_of(mechanism))) {
-      ++doubted;
+      ++warned;
       RC_ASSERT(warning.message.find("guides.OE_mm") == 0);
       RC_ASSERT(mechanism.guides.OE > 0);
     }
     return profile::synthesise(mechanism, {.advice = false}).made();
   });
-  EXPECT_LE(doubted, cases / 50);
+  EXPECT_LE(warned, cases / 50);
 }
 
 // Most input errors in random joints are detected.
@@ -314,9 +314,9 @@ TEST(Places, WarningsNameTheirKey) {
   std::string text = k_forearm;
   text.replace(text.find("-40.0"), 5, "40.0");
   file.mechanism = parse_mechanism(text, file.path, ".", {}, &file.warnings, &file.places);
-  const MechanismFile doubted = with_plausibility_warnings(file);
-  ASSERT_THAT(doubted.warnings, SizeIs(1));
-  EXPECT_THAT(to_text(doubted.warnings.front()), HasSubstr("arm.toml:11:9: warning: guides.OE_mm = 40 mm"));
+  const MechanismFile warned = with_plausibility_warnings(file);
+  ASSERT_THAT(warned.warnings, SizeIs(1));
+  EXPECT_THAT(to_text(warned.warnings.front()), HasSubstr("arm.toml:11:9: warning: guides.OE_mm = 40 mm"));
   EXPECT_EQ(file_with({{"guides.OE_mm", "40"}}).place_of("guides.OE_mm").file, "--set guides.OE_mm=40");
   EXPECT_EQ(file.place_of("tendon.strength_N").line, 0);
 }

@@ -44,7 +44,7 @@ TEST(Gather, APartialStrokeIsNone) {
   EXPECT_THAT(strokes_of(calibration::gather(joint(), measurement, k_floor), 0), ElementsAre(1, 3));
 }
 
-TEST(Gather, ARowThatJumpsIsLeftOut) {
+TEST(Gather, DropsRowThatJumps) {
   measurement::Measurement measurement = quiet({0});
   const std::size_t wild = 2 * k_rows + 7;
   measurement.runs[0].samples[wild].theta += 20 * k_floor;
@@ -188,7 +188,7 @@ TEST(Gather, ShortDwellsOfOneKindAreJoined) {
   }
 }
 
-TEST(Gather, LongStandsGiveAFewRowsEach) {
+TEST(Gather, ThinsLongDwells) {
   const calibration::Evidence evidence =
       calibration::gather(joint(), held_at_ends(std::vector<double>(40, 0.0), 2000), k_floor);
   EXPECT_EQ(evidence.blocks.size(), 39u);

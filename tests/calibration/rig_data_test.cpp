@@ -46,7 +46,7 @@ TEST(RigData, DeclaredJointHasNoFalsePositive) {
   EXPECT_FALSE(found.detectable.empty());
 }
 
-TEST(RigData, a_soft_tendon_is_found_with_its_stiffness) {
+TEST(RigData, IdentifiesStiffnessOfSoftTendon) {
   const Calibration found = rig("b_stretch");
   EXPECT_EQ(found.verdict, CalibrationVerdict::explained);
   ASSERT_THAT(names(found), ElementsAre("tendon_stretch"));
@@ -57,7 +57,7 @@ TEST(RigData, a_soft_tendon_is_found_with_its_stiffness) {
   EXPECT_GE(found.effects[0].parameters[0].high, truth);
 }
 
-TEST(RigData, backlash_is_found_with_its_width) {
+TEST(RigData, IdentifiesWidthOfBacklash) {
   const Calibration found = rig("c_backlash");
   EXPECT_EQ(found.verdict, CalibrationVerdict::explained);
   ASSERT_THAT(names(found), ElementsAre("backlash"));
@@ -66,13 +66,13 @@ TEST(RigData, backlash_is_found_with_its_width) {
   EXPECT_LT(found.after.held_out_rms, 0.1 * found.before.held_out_rms);
 }
 
-TEST(RigData, a_thicker_pin_is_in_the_group) {
+TEST(RigData, GroupContainsThickerPin) {
   const Calibration found = rig("d_guide_radius");
   ASSERT_EQ(found.effects.size(), 1u);
   EXPECT_THAT(found.effects[0].group, Contains("guide_radius"));
 }
 
-TEST(RigData, one_sweep_cannot_name_a_cause_alone) {
+TEST(RigData, OneSweepLeavesCauseAmbiguous) {
   const Calibration found = rig("e_one_sweep_only");
   EXPECT_EQ(found.verdict, CalibrationVerdict::confounded);
   ASSERT_EQ(found.effects.size(), 1u);
@@ -82,7 +82,7 @@ TEST(RigData, one_sweep_cannot_name_a_cause_alone) {
   EXPECT_FALSE(found.next.empty());
 }
 
-TEST(RigData, what_no_catalogue_holds_stays_unexplained) {
+TEST(RigData, CauseOutsideCatalogueIsUnexplained) {
   const Calibration found = rig("f_not_in_any_catalogue");
   EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained);
   EXPECT_TRUE(found.effects.empty()) << found.summary;
@@ -91,7 +91,7 @@ TEST(RigData, what_no_catalogue_holds_stays_unexplained) {
 }
 
 // Data of O'Neill et al., RA-L 3(4), 2018, doi 10.1109/LRA.2018.2849862.
-TEST(RealJaw, lost_motion_and_stretch_and_no_delay) {
+TEST(RealJaw, IdentifiesFrictionAndStretchWithoutDelay) {
   const char* folder = std::getenv("FUSEE_DAVINCI_JAW");
   if (folder == nullptr) GTEST_SKIP() << "FUSEE_DAVINCI_JAW names no folder";
   const DeclaredMechanism declared = parse_mechanism(

@@ -156,7 +156,7 @@ class Calibrate(harness.Scratch):
         page = Page()
         page.feed(text)
         self.assertEqual(page.open, [])
-        self.assertEqual(page.ids, ["causes", "verdict", "actions", "numbers", "effects", "residuals", "rest", "figures", "evidence", "detectable"])
+        self.assertEqual(page.ids, ["causes", "verdict", "actions", "numbers", "effects", "residuals", "unexplained", "figures", "evidence", "detectable"])
         self.assertIn("<b>&joint", page.words)
         self.assertIn("✓ backlash", page.words)
         self.assertNotRegex(page.words, r"\b(nan|inf|null)\b")

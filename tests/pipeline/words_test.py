@@ -43,6 +43,7 @@ REPLACED = {
     r"undersides?": "downward face",
     r"withheld": "held-out",
     r"rareness": "log prior odds, penalty",
+    r"doubts?|doubtful|doubted": "absence probability, plausibility warning, uncertain",
 }
 #: Identifiers and file names that were replaced → what they are now. Keys of JSON documents keep their names: in quotes.
 RENAMED = {
@@ -95,6 +96,8 @@ def first_word_of(text):
 
 
 def title_faults(title, words):
+    if "_" in title and title[0].islower() and not title.startswith("test_"):
+        yield f"title {title} is in snake_case", "CamelCase"
     if words[0] in ("What", "Where", "Whether", "Of", "That", "what", "where", "whether", "of", "that"):
         yield f"title {title} begins with '{words[0]}'", "what fails when the test fails, subject or verb first"
     if len(words) > MOST_WORDS_IN_TITLE:
@@ -233,6 +236,7 @@ class Words(unittest.TestCase):
     def test_detects_titles(self):
         self.assertEqual(len(self.refused(".cpp", "TEST(Part, WhatIsMade) {\n")), 1)
         self.assertEqual(len(self.refused(".cpp", "TEST(Part, IsMadeOfOneTwoThreeFourFiveSixSeven) {\n")), 1)
+        self.assertEqual(len(self.refused(".cpp", "TEST(Part, passes_checks) {\n")), 1)
         self.assertEqual(self.refused(".cpp", "TEST(Part, PassesChecks) {\n"), [])
         self.assertEqual(len(self.refused(".py", "    def test_what_is_made(self):\n")), 1)
 
