@@ -182,13 +182,13 @@ std::vector<DrawnLine> tendon_lines(const KitProduct& product) {
   return lines;
 }
 
-void draw_slab(std::string& body, const DrawnSlab& slab, const Projection& look, const Paper& paper) {
-  Polygon both = look(slab.below, slab.low);
-  const Polygon above = look(slab.above, slab.high);
+void draw_slab(std::string& body, const DrawnSlab& slab, const Projection& project, const Paper& paper) {
+  Polygon both = project(slab.below, slab.low);
+  const Polygon above = project(slab.above, slab.high);
   both.insert(both.end(), above.begin(), above.end());
   body += svg_path(slab.kind + "-side", paper(convex_hull(both)), true);
   std::string data = path_data(paper(above), true);
-  for (const Polygon& hole : slab.holes) data += path_data(paper(look(hole, slab.high)), true);
+  for (const Polygon& hole : slab.holes) data += path_data(paper(project(hole, slab.high)), true);
   body += "<path class=\"" + slab.kind + "-top\" fill-rule=\"evenodd\" d=\"" + data + "\"/>";
 }
 
@@ -218,21 +218,21 @@ Figure kit_picture(const KitProduct& product, const std::vector<KitStep>& steps,
     if (std::abs(a.low - b.low) > 1e-6) return a.low < b.low;
     return nearness(a) < nearness(b);
   });
-  const Projection look;
+  const Projection project;
   Paper paper;
   for (const DrawnSlab& slab : drawn) {
-    for (const Vec2& p : look(slab.below, slab.low)) paper.include(p);
-    for (const Vec2& p : look(slab.above, slab.high)) paper.include(p);
+    for (const Vec2& p : project(slab.below, slab.low)) paper.include(p);
+    for (const Vec2& p : project(slab.above, slab.high)) paper.include(p);
   }
   Figure figure{k_picture_width, k_picture_height, steps[last].title, {}, {}};
   std::size_t drawn_lines = 0;
   for (const DrawnSlab& slab : drawn) {
     for (; drawn_lines < lines.size() && lines[drawn_lines].points.front().z() < slab.low; ++drawn_lines) {
       std::vector<Vec2> points;
-      for (const Vec3& p : lines[drawn_lines].points) points.push_back(look(Vec2(p.x(), p.y()), p.z()));
+      for (const Vec3& p : lines[drawn_lines].points) points.push_back(project(Vec2(p.x(), p.y()), p.z()));
       figure.body += svg_path(lines[drawn_lines].classes, paper(points));
     }
-    draw_slab(figure.body, slab, look, paper);
+    draw_slab(figure.body, slab, project, paper);
   }
   return figure;
 }

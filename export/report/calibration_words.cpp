@@ -225,10 +225,10 @@ std::vector<std::string> shortened_notes(const std::vector<std::string>& notes) 
   constexpr std::size_t k_shown_alike = 2;
   std::map<std::string, std::size_t> count;
   for (const std::string& note : notes) ++count[gist(note)];
-  std::map<std::string, std::size_t> said;
+  std::map<std::string, std::size_t> seen;
   std::vector<std::string> shown;
   for (const std::string& note : notes) {
-    const std::size_t all = count[gist(note)], nth = ++said[gist(note)];
+    const std::size_t all = count[gist(note)], nth = ++seen[gist(note)];
     if (nth <= k_shown_alike || all == k_shown_alike + 1) {
       shown.push_back(note);
     } else if (nth == k_shown_alike + 1) {

@@ -177,7 +177,7 @@ struct KitCut {
   transmission::Side side = transmission::Side::left;
   double between_knots = 0;  ///< from the pulley's knot to its fastening at the joint, taut, at home, mm
   double cut = 0;            ///< including both ends, in whole 5 mm
-  double longer = 0;         ///< than the cut without the rig, whose tensioner and post use that much, mm
+  double longer = 0;         ///< additional length that the rig's tensioner and post use, mm
 };
 /// The lengths of both tendons. mm.
 std::vector<KitCut> kit_cuts(const KitProduct& product);
@@ -289,7 +289,8 @@ struct CauseRow {
   std::string corrected_by;  ///< "pulley", "table" or "–"
 
   /// Titles of the columns, in the order of the members.
-  static constexpr std::array<const char*, 5> k_titles = {"cause", "size", "95 % if alone", "share", "corrected by"};
+  static constexpr std::array<const char*, 5> k_titles = {"cause", "size", "95 % if only cause", "share",
+                                                          "corrected by"};
 };
 /// The table of causes, in the order of Calibration::effects.
 std::vector<CauseRow> cause_rows(const CalibrationProduct& product);

@@ -303,7 +303,7 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
     std::vector<double> differences, places;
     const Run& run = *group[k].run;
     const Segment& rows = group[k].rows;
-    const auto look = [&](const Pass& pass, std::size_t row) {
+    const auto angle_of = [&](const Pass& pass, std::size_t row) {
       const Sample& sample = run.samples[row];
       const double share =
           static_cast<double>(row - rows.first) / static_cast<double>(std::max<std::size_t>(1, rows.last - rows.first));
@@ -316,14 +316,14 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
     for (std::size_t i = rows.first; i <= rows.last; ++i) {
       const Sample& sample = run.samples[i];
       if (!rows.is_dwell && !is_inner(run, rows, sample.alpha)) continue;
-      const InterpolatedAngle before = look(group[k - 1], i);
+      const InterpolatedAngle before = angle_of(group[k - 1], i);
       if (!before.inside) continue;
       if (!triples) {
         places.push_back(sample.alpha);
         differences.push_back((sample.theta - before.theta) / std::sqrt(1 + before.weight));
         continue;
       }
-      const InterpolatedAngle after = look(group[k + 1], i);
+      const InterpolatedAngle after = angle_of(group[k + 1], i);
       if (!after.inside) continue;
       places.push_back(sample.alpha);
       differences.push_back((2 * sample.theta - before.theta - after.theta) /

@@ -399,16 +399,16 @@ void BoundCalculator::add_tightest_places(const DesignNumbers<double>& middle, s
     const int places = which < k_basic_conditions ? k_places : k_places_of_drawing, step = places / 12;
     int tightest = 0;
     double least = k_infinite;
-    const auto look = [&](int place) {
+    const auto test_place = [&](int place) {
       if (place < 0 || place > places) return;
       const double here = value(which, place, places);
       if (here < least) least = here, tightest = place;
     };
-    for (int place = 0; place <= places; place += step) look(place);
+    for (int place = 0; place <= places; place += step) test_place(place);
     for (int by = step / 2; by > 0; by /= 2) {
       const int around = tightest;
-      look(around - by);
-      look(around + by);
+      test_place(around - by);
+      test_place(around + by);
     }
     query.push_back({Query::Kind::needed, static_cast<double>(tightest) / places, static_cast<DesignCondition>(which)});
   }

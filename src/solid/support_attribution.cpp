@@ -22,7 +22,7 @@ struct Attribution {
   double gap = std::numeric_limits<double>::infinity();
   std::optional<Rejection> who;
 
-  void look(double candidate, const Rejection& rejection) {
+  void consider(double candidate, const Rejection& rejection) {
     if (candidate >= gap) return;
     gap = candidate;
     who = rejection;
@@ -38,9 +38,9 @@ Attribution attribution_of(const Vec3& place, const BodyPlan& plan) {
   for (const PlannedAnchor& anchor : plan.anchors) {
     if (anchor.side != side) continue;
     const Rejection itself{side, anchor.wound_end, anchor.wrap(), false};
-    for (const Bar& bar : anchor.bars(layout)) nearest.look(gap(at, bar), itself);
+    for (const Bar& bar : anchor.bars(layout)) nearest.consider(gap(at, bar), itself);
     if (anchor.tail) {
-      nearest.look(
+      nearest.consider(
           gap(at, {anchor.tail->from, anchor.tail->to, 0.5 * anchor.tail->width}) - anchor.pocket_radius(layout) * 0.1,
           {side, anchor.wound_end, anchor.wrap(), true});
     }

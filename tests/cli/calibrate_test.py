@@ -257,10 +257,10 @@ class Calibrate(harness.Scratch):
         self.expect("calibrate joint.toml rad.csv --column alpha=motor --column time=t --column 'theta=joint [mrad]'", 3, err="as s, the rows are 20 s apart")
 
     def test_rejects_reading_options(self):
-        for option, said in (("--unit time=furlong", "units: s, ms, us"), ("--unit tim=ms", "did you mean 'time'"), ("--unit ms", "role=value"),
+        for option, message in (("--unit time=furlong", "units: s, ms, us"), ("--unit tim=ms", "did you mean 'time'"), ("--unit ms", "role=value"),
                              ("--ticks-per-turn load=4096", "no role 'load'"), ("--ticks-per-turn alpha=many", "'many' is none"),
                              ("--ticks-per-turn alpha=1", "2 or more"), ("--zero-ticks theta=2048", "give --ticks-per-turn theta=N too")):  # fmt: skip
-            self.expect(f"calibrate joint.toml run_1.csv {option}", 2, err=said)
+            self.expect(f"calibrate joint.toml run_1.csv {option}", 2, err=message)
 
     def test_rejects_unreadable_runs(self):
         self.expect("calibrate joint.toml", 2, err="needs RUN.csv")

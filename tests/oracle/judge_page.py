@@ -453,15 +453,15 @@ def self_test(folder):
     breaks = {name: fault for name, fault in BREAKS.items() if name not in LEVER_ALONE} | HELIX_BREAKS if isinstance(lever, Helix) else BREAKS
     for name, (old, new, word) in breaks.items():
         assert old in page, f"{name}: the page has no {old!r}"
-        said = list(faults(page.replace(old, new, 1), rows[::6], lever, WAYS[:1]))
-        if not any(word in fault for fault in said):
+        seen = list(faults(page.replace(old, new, 1), rows[::6], lever, WAYS[:1]))
+        if not any(word in fault for fault in seen):
             failed += 1
-            print(f"{name}: not seen; said {said}")
+            print(f"{name}: not detected; found {seen}")
     for name, (old, new, word) in NARROW_BREAKS.items():
-        said = list(narrow_faults(page.replace(old, new, 1)))
-        if not any(word in fault for fault in said):
+        seen = list(narrow_faults(page.replace(old, new, 1)))
+        if not any(word in fault for fault in seen):
             failed += 1
-            print(f"{name}: not seen; said {said}")
+            print(f"{name}: not detected; found {seen}")
     return 1 if failed else 0
 
 

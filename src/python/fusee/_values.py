@@ -64,8 +64,8 @@ class Value:
         return hash(tuple(_hashed(getattr(self, part.name)) for part in _parts(self)))
 
     def __repr__(self) -> str:
-        said = ", ".join(f"{part.name}={_shown(getattr(self, part.name))}" for part in _parts(self) if part.repr)
-        return f"{type(self).__name__}({said})"
+        parts = ", ".join(f"{part.name}={_shown(getattr(self, part.name))}" for part in _parts(self) if part.repr)
+        return f"{type(self).__name__}({parts})"
 
     def __getstate__(self) -> Dict[str, Any]:
         return {name: _frozen(value) if isinstance(value, np.ndarray) else value for name, value in self.__dict__.items()}

@@ -106,10 +106,10 @@ TEST(NormalSpline, DeclaredKinkAddsNoPoles) {
     points.push_back(point(at));
   }
   const SupportCurve curve(psi, points, radii);
-  const auto said = fit(curve, 1, 5, {k_pi}, 1e-5, 1), unsaid = fit(curve, 1, 5, {}, 1e-5, 1);
-  ASSERT_TRUE(said && unsaid);
-  EXPECT_LT(said->position.size() + 4, unsaid->position.size());
-  const StepSpline spline = said->parallel(0);
+  const auto with_kink = fit(curve, 1, 5, {k_pi}, 1e-5, 1), without_kink = fit(curve, 1, 5, {}, 1e-5, 1);
+  ASSERT_TRUE(with_kink && without_kink);
+  EXPECT_LT(with_kink->position.size() + 4, without_kink->position.size());
+  const StepSpline spline = with_kink->parallel(0);
   for (const double at : {1.5, 3.0, k_pi, 3.3, 4.5}) EXPECT_LT((point_on(spline, at) - point(at)).norm(), 2e-5) << at;
 }
 
