@@ -69,7 +69,7 @@ std::vector<Figure> figures(const analysis::AnalysisResult& result, const Mechan
   Plot torque{"Motor torque", alpha, axis_of("torque", "N·mm", 0.1), {}, {}, {}};
   torque.series = {{"α growing", Ink::main, over_rows(result, [](const auto& r) { return r.rising.motor_torque; })},
                    {"α falling", Ink::p2, over_rows(result, [](const auto& r) { return r.falling.motor_torque; })}};
-  Plot error{"Joint angle less the declared law", alpha, axis_of("Δθ", "°", 1e-3), {}, {}, {}};
+  Plot error{"Joint angle minus the target motion", alpha, axis_of("Δθ", "°", 1e-3), {}, {}, {}};
   const auto off = [](const joint::EquilibriumPoint& point, const analysis::AnalysisRow& row) {
     return degrees(point.theta - row.declared.theta);
   };

@@ -508,7 +508,7 @@ std::string compensation_html(const CalibrationProduct& product) {
   for (PlotSeries* series : {&up, &down}) {
     for (Vec2& point : series->points) point.y() -= law ? 0 : constant;
   }
-  Plot plot{"compensation.csv against the declared law",
+  Plot plot{"compensation.csv against the target motion",
             {"joint angle θ", "°", {}, {}, 1e-3},
             {law ? "added to α" : "added to α, less a constant", "°", {}, {}, 1e-2},
             {up, down},

@@ -63,9 +63,9 @@ std::string audit_words(const calibration::FoundEffect& effect) {
 std::string unmodelled_words(const calibration::FoundEffect& effect) {
   if (effect.group.empty() || effect.group.back() != calibration::k_unmodelled) return "";
   const calibration::UnmodelledAlternative& rival = effect.unmodelled;
-  const std::string in_its_place = (rival.words.empty() ? "a smooth curve" : rival.words) +
-                                   " in its place; odds for the reported cause " + calibration::odds(rival.log_odds);
-  return "Or an unmodelled cause with the same effect: " + in_its_place +
+  const std::string alternative = (rival.words.empty() ? "a smooth curve" : rival.words) +
+                                  ". Odds for the reported cause: " + calibration::odds(rival.log_odds);
+  return "Or an unmodelled cause with the same effect: " + alternative +
          (rival.separating_run.empty() ? "." : ". To distinguish them: " + rival.separating_run + ".");
 }
 
@@ -79,8 +79,7 @@ std::string beside_words(const calibration::FoundEffect& effect, const std::stri
   }
   if (members.empty()) return "";
   return "Perhaps " + joined(members, " and ") +
-         " beside it: with both, as in corrected.toml and compensation.csv, runs that were left out are "
-         "predicted best.";
+         " acts too: with both, as in corrected.toml and compensation.csv, held-out runs are predicted best.";
 }
 
 std::string discrepancy_words(const calibration::DiscrepancyComponent& part) {
@@ -166,7 +165,7 @@ std::string seen_words(const std::vector<double>& seen, const std::string& unit)
   return (from == to ? from : from + " … " + to) + unit;
 }
 
-/// Between which angles, loads and speeds.
+/// The ranges of angle, load and speed in which the data were measured.
 std::string where_seen(const CalibrationProduct& product) {
   const calibration::EmpiricalCurve& curve = product.calibration.curve;
   std::vector<double> loads, speeds;

@@ -77,8 +77,8 @@ std::string moving_helix(const Product& product) {
   figure.width = 900;
   figure.height = 320;
   figure.title = "The pulley from the side, and both tendons";
-  figure.body = "<g class=\"climbing-scene\"></g>";
-  return "<div class=\"moving climbing\"><div class=\"controls\" hidden=\"hidden\"><button type=\"button\" "
+  figure.body = "<g class=\"helix-scene\"></g>";
+  return "<div class=\"moving helix\"><div class=\"controls\" hidden=\"hidden\"><button type=\"button\" "
          "class=\"play\" aria-pressed=\"false\">Play</button><label for=\"alpha\">Pulley angle α</label><input "
          "id=\"alpha\" type=\"range\" min=\"" +
          trimmed_fixed(degrees(stroke.front().alpha), 3) + "\" max=\"" +

@@ -270,7 +270,7 @@ std::string part_view(const Product& product) {
       std::to_string(code->triangles) + "\" data-groove1=\"" + groove_words(product, transmission::Side::left) +
       "\" data-groove2=\"" + groove_words(product, transmission::Side::right) + "\"></canvas>";
   html +=
-      "<div class=\"buttons\" hidden=\"hidden\"><button data-view=\"slanted\">Isometric</button><button "
+      "<div class=\"buttons\" hidden=\"hidden\"><button data-view=\"isometric\">Isometric</button><button "
       "data-view=\"top\">Top</button>"
       "<button data-view=\"side\">Side</button><button data-view=\"below\">Below</button>"
       "<button data-view=\"half\" aria-pressed=\"false\">Cut open</button></div>"
@@ -520,7 +520,7 @@ std::string derived_table(const Product& product) {
          "class=\"number\">Declared</th><th class=\"number\">Built</th></tr></thead><tbody>" +
          rows +
          "</tbody></table></div><p class=\"hint\">These numbers include the file’s [identified] table: with them the "
-         "identified joint follows the declared law.</p>";
+         "identified joint follows the target motion.</p>";
 }
 
 /// Links to files beside the page. `names`: separated by ", ".

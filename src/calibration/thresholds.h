@@ -124,7 +124,7 @@ struct Thresholds {
 
   // ---- likely input errors ----
 
-  /// Noise floors that the file as it is must leave for an input error to be likely before any search. Known faults
+  /// Noise floors that the declared file must leave for an input error to be likely before any search. Known faults
   /// leave 15, one of them 27. The corrected file must leave less, if effects are sought beside the error.
   double input_error_large = 15.0;
   /// Noise floors that the corrected file may leave to explain the data alone. A pulley made for the other sign of OE

@@ -351,7 +351,7 @@ class BranchAndBound {
   /// Halves per batch: enough for eight threads, and few compared with a search. The search does not depend on the
   /// number of threads.
   static constexpr std::size_t k_batch = 32;
-  static constexpr std::size_t k_mended = 4;  ///< number of the most promising boxes of a batch
+  static constexpr std::size_t k_mended = 4;  ///< number of boxes of a batch with the lowest bounds
 
   const Problem& problem_;
   std::size_t count_;

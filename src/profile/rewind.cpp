@@ -137,7 +137,7 @@ double taut_theta(const String& string, double alpha, double guess) {
 transmission::Transmission law_without_dead_centre(const Mechanism& mechanism) {
   transmission::Transmission declared(mechanism);
   if (const auto dead = declared.dead_centre()) {
-    throw InputError("", "the declared law ends at a dead centre, θ = " + rounded(degrees(*dead), 4) + "°",
+    throw InputError("", "the target motion ends at a dead centre, θ = " + rounded(degrees(*dead), 4) + "°",
                      "make the range smaller");
   }
   return declared;

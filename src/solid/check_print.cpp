@@ -57,9 +57,9 @@ bool measurable(const TriangleMesh& mesh) {
 }
 
 Check island_check(const TriangleMesh& mesh, const PrintLimits& limits) {
-  const std::vector<Vec3> islands = find_islands(mesh, limits.first_layer);
-  return exactly("island", static_cast<double>(islands.size()), 0, "1",
-                 islands.empty() ? std::string() : "begins in mid-air at " + place_of(islands.front()));
+  const std::vector<Vec3> regions = find_unsupported_regions(mesh, limits.first_layer);
+  return exactly("island", static_cast<double>(regions.size()), 0, "1",
+                 regions.empty() ? std::string() : "begins in mid-air at " + place_of(regions.front()));
 }
 
 std::vector<Check> checks_within(const PrintLimits& limits, const TriangleMesh& mesh) {

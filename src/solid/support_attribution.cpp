@@ -53,8 +53,8 @@ Attribution attribution_of(const Vec3& place, const BodyPlan& plan) {
 std::vector<Vec3> unprintable_places(const TriangleMesh& lying, Piece piece, const BodyLayout& layout, double overhang,
                                      Corners corners) {
   std::vector<Vec3> places = ledges_in_layers(lying, overhang, corners);
-  const std::vector<Vec3> islands = find_islands(lying, PrintLimits{}.first_layer);
-  places.insert(places.end(), islands.begin(), islands.end());
+  const std::vector<Vec3> regions = find_unsupported_regions(lying, PrintLimits{}.first_layer);
+  places.insert(places.end(), regions.begin(), regions.end());
   for (Vec3& place : places) {
     if (piece == Piece::p1) place.tail<2>() = -place.tail<2>();
     place /= layout.scale;

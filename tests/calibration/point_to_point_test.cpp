@@ -1,5 +1,4 @@
-// Joints measured at held motor angles, by a rig that shares no code with the fit: what a reader of strokes would
-// refuse.
+// Joints measured at dwells of the motor, by a rig that shares no code with the fit. Such logs have no strokes.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -33,7 +32,7 @@ const rig::MadeJoint& joint() {
   return made;
 }
 
-/// Held angles with the load put on and taken off in steps at each, up the range and down again.
+/// Dwells up the range and down again; at each the load is put on and taken off in steps.
 Stops load_staircase(int rows) {
   Stops stops;
   for (const double share : {-0.8, -0.4, 0.0, 0.4, 0.8, 0.4, 0.0, -0.4, -0.8}) {
@@ -50,7 +49,7 @@ Stops alternating_ends(int rows) {
   return stops;
 }
 
-/// Between held angles, up and down at three loads.
+/// Moves between dwells, up and down at three loads.
 Stops steps(int rows) {
   Stops stops;
   for (const double load : {0.0, 1.5, 3.0}) {

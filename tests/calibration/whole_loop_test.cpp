@@ -229,7 +229,7 @@ TEST(WholeLoop, LaterFindingIsAdded) {
   EXPECT_EQ(total.shaft.backlash, 0);  // a table's matter: not found again, it is gone
 }
 
-/// From what the bench logged to the pulley, nothing told.
+/// From the log to the corrected pulley, with nothing but the log known.
 class Found : public testing::TestWithParam<const char*> {};
 
 TEST_P(Found, PulleyCorrectsFault) {

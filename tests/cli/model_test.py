@@ -140,15 +140,15 @@ class Model(harness.Scratch):
         shutil.copy(self.folder / "arm.toml", self.folder / "corrected.toml")
         (self.folder / "compensation.csv").write_text(COMPENSATION)
         outputs = [{"file": name, "bytes": 0, "sha256": hashlib.sha256((self.folder / name).read_bytes()).hexdigest()} for name in ("corrected.toml", "compensation.csv")]
-        self.expect("model corrected.toml -o m", 0, "of the declared law")
+        self.expect("model corrected.toml -o m", 0, "of the target motion")
         (self.folder / "manifest.json").write_text(json.dumps({"outputs": outputs}))
         self.expect("model corrected.toml -o m", 0, "of compensation.csv")
-        self.expect("model corrected.toml -o m --compensation none", 0, "of the declared law")
+        self.expect("model corrected.toml -o m --compensation none", 0, "of the target motion")
         (self.folder / "compensation.csv").write_text(COMPENSATION + "# edited\n")
-        self.expect("model corrected.toml -o m", 0, "of the declared law")
+        self.expect("model corrected.toml -o m", 0, "of the target motion")
         for text in ("[]", '{"outputs": 3}', '{"outputs": [1, {"file": 2}]}', "{"):
             (self.folder / "manifest.json").write_text(text)
-            self.expect("model corrected.toml -o m --dry-run", 0, "of the declared law")
+            self.expect("model corrected.toml -o m --dry-run", 0, "of the target motion")
 
     def test_coarse_polynomial_is_refused_with_advice(self):
         document = self.expect_json("model arm.toml -o m --max-error-deg 0.001", 4)

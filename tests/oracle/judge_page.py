@@ -61,7 +61,7 @@ LEVER = """
 # For a pulley of several turns seen from the side, x right and y up, in mm, scaled by the lines at its lower and
 # upper face.
 HELIX = """
-  const scene = document.querySelector(".climbing-scene");
+  const scene = document.querySelector(".helix-scene");
   const [[low, high], [, top]] = scene.querySelector(".dimension").getAttribute("d").slice(1).split("M").map(part => part.split("L").map(p => p.split(" ").map(Number)));
   const axis = (low[0] + high[0]) / 2, scale = (low[1] - top[1]) / HEIGHT;
   const mm = (px, py) => [(px - axis) / scale, (low[1] - py) / scale];

@@ -29,7 +29,7 @@ REPLACED = {
     r"culprits?|blame[ds]?|falsely blamed": "attributed cause, false positive",
     r"how sure|surer": "uncertainty",
     r"may as well be": "equally likely",
-    r"tells? \w+ from|told apart|tells? apart": "distinguishes, resolved",
+    r"tells? \w+ from|tells? apart": "distinguishes, resolved",
     r"would be possible with": "try KEY = VALUE or less (now VALUE)",
     r"it takes \d": "at least … is required",
     r"as it lies|as they lie": "print orientation, present position",
@@ -43,6 +43,10 @@ REPLACED = {
     r"undersides?": "downward face",
     r"withheld": "held-out",
     r"rareness": "log prior odds, penalty",
+    r"declared law": "target motion",
+    r"islands": "unsupported regions",
+    r"plainly": "without discrepancy",
+    r"told": "reported, given",
     r"doubts?|doubtful|doubted": "absence probability, plausibility warning, uncertain",
 }
 #: Identifiers and file names that were replaced → what they are now. Keys of JSON documents keep their names: in quotes.

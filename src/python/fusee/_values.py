@@ -308,7 +308,7 @@ class Motor(Value):
 class UnderLoad(Value):
     """The joint under [load] and [spring], beside the geometry that ``as_built`` describes."""
 
-    theta_error_rad: Extreme  #: from the declared law, in either direction
+    theta_error_rad: Extreme  #: from the target motion, in either direction
     slack1_rad: Tuple[Tuple[float, float], ...]  #: parts of α where tendon 1 is without tension
     slack2_rad: Tuple[Tuple[float, float], ...]
     taut_pretension_N: Optional[float]  #: keeps a slack tendon taut
@@ -430,7 +430,7 @@ class Analysis(Value):
     largest_paper_tension_N: Extreme
     largest_torque_Nmm: Extreme
     hysteresis_rad: Extreme
-    theta_error_rad: Extreme  #: from the declared law, in either direction
+    theta_error_rad: Extreme  #: from the target motion, in either direction
     slack1_rad: Tuple[Tuple[float, float], ...]  #: parts of α where tendon 1 is without tension
     slack2_rad: Tuple[Tuple[float, float], ...]
     untensioned_rad: Tuple[Tuple[float, float], ...]  #: parts of α where both tendons are slack
