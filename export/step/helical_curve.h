@@ -32,7 +32,7 @@ class HelicalCurve {
   double slope_ = 0;  ///< height per planar length
 };
 
-/// From 0 at 0 to 1 at 1, with two zero derivatives at both ends.
+/// Rises from 0 at 0 to 1 at 1, with two zero derivatives at both ends.
 double smooth_step(double share);
 
 /// A groove of the part, including the continuation of its edges beyond its ends, which follow the turn before.

@@ -117,8 +117,8 @@ struct Wound {
 struct Sector {
   double from = 0, to = 0;
   JointSpline spline;
-  /// By strand and place: of groove edges past their ends, of rings, and, under the first corner's strand, of a groove's
-  /// curve.
+  /// Columns of `spline` by strand and place: groove edges past their ends, rings, and grooves' curves (strand of the
+  /// first corner).
   std::map<Place, Eigen::Index> columns;
 };
 

@@ -96,9 +96,9 @@ struct HelixGroove {
 
 /// The largest number of turns, spare turns excluded.
 constexpr double k_most_turns = 12;
-/// Fleet angles above which a note or a warning is given. rad
+/// Fleet angle above which a note is given. rad
 constexpr double k_noted_fleet = radians(1.5);
-/// As k_noted_fleet, for a warning. rad
+/// Fleet angle above which a warning is given. rad
 constexpr double k_warned_fleet = radians(2.0);
 
 /// The accuracy of the curves: as they will be built, or coarse and some ten times faster. The conditions of coarse

@@ -23,9 +23,9 @@ constexpr std::size_t k_cheaper = 5;
 constexpr std::size_t k_least_rows_a_block = 6;
 /// Least rows of a dwell in a run of many dwells.
 constexpr std::size_t k_rows_a_dwell = 3;
-/// Segments repeat one another only if their α end points agree within this share of the range of α. Levels of a load
-/// that varies with the motion divide strokes into segments at different places, whose difference is θ(α) and no noise
-/// (the jaw of docs/background/real-joint.md).
+/// Segments repeat one another only if their α end points agree within this share of the range of α. A load that varies
+/// with the motion divides strokes into segments at different places; their difference is θ(α), not noise (the jaw of
+/// docs/background/real-joint.md).
 constexpr double k_one_way = 0.1;
 
 /// Selects whole cycles, evenly spread, so that each keeps enough rows; of other strokes the ends are kept as history.

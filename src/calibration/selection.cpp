@@ -843,8 +843,8 @@ std::optional<double> Selector::square_deviation(const Fit& fit, Eigen::Index pl
   return apart * apart + selection_.temperature * std::max(0.0, fit.posterior.covariance(k, k));
 }
 
-/// Variance of each number over all sets that contain it by their weight, at least that with any companion, and larger
-/// beside an unexplained residual.
+/// Variance of each number: the weighted mean over all sets that contain it, and at least its variance with any
+/// companion. An unexplained residual enlarges it.
 void Selector::estimate_variance() {
   const Fit& best = selection_.best;
   const double wider = leaves_unexplained(best) ? std::pow(k_thresholds.interval_factor, 2) : 1.0;

@@ -3,7 +3,8 @@
 ///
 /// docs/development/calibration-ablation.md reports which of them were switched off on joints that nothing was tuned
 /// on, and the cost. *Rig data* are the six joints of tests/data/rig. "Joints" without a place are joints of
-/// tests/rig/known_truth. A false positive is a group without a true cause. Evidence is in natural logarithms (nats).
+/// tests/rig/known_truth. An effect is held if a reported group contains it. A false positive is a group without a true
+/// cause. Evidence is in natural logarithms (nats).
 #pragma once
 
 #include <cstddef>
@@ -32,8 +33,8 @@ struct Thresholds {
   /// Prior scale of a discrepancy's family, in noise floors: one in two is larger. 150 joints: without this prior 50 %
   /// of the effects are held, with it 75 %; false positives beside an unmodelled cause are 18 % and 25 %.
   double usual_discrepancy = 0.5;
-  /// The prior size of a number is narrowed until it moves the reading by at most so many times the observed error, or
-  /// so many noise floors if the error is small.
+  /// Limits of the prior size of a number: it moves the reading by at most `most_expected` times the observed error, or
+  /// `least_expected` noise floors if those are larger.
   double most_expected = 2.0;
   double least_expected = 10.0;
   /// Divisor of log odds, since evidence is overstated if the model is slightly wrong. 296 joints: at 1.0, 1.5, 2.2 and
@@ -67,9 +68,9 @@ struct Thresholds {
   double least_gain = 0.1;
   /// Absence probability at which a group is complete.
   double complete_group_absence = 0.005;
-  /// Noise floors rms that an effect beside the best set must trade with a member to join its group, and the number of
-  /// effects that are tested. Without this step 8 of 10 effects of the same joints are held in place of 10; without the
-  /// limit groups of the first six grow from 7.1 to 7.7.
+  /// An effect beside the best set joins a member's group if both can exchange at least this much, rms in noise floors.
+  /// At most `most_companions` effects are tested. Without this step 8 of 10 effects of the same joints are held in place
+  /// of 10. Without the limit groups of the first six grow from 7.1 to 7.7.
   double least_shared = 1.5;
   std::size_t most_companions = 10;
   /// Log odds of an effect against the best unmodelled cause in its place (unmodelled_alternatives.h) below which its group contains

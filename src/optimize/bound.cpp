@@ -40,7 +40,7 @@ struct NumberSlot {
   bool angle = false;
 };
 
-/// In the order of FileNumbers, then of WideFileNumbers.
+/// All variables, in the order of FileNumbers, then of WideFileNumbers.
 constexpr std::array<NumberSlot, 26> k_slots{{{"joint.length_mm"},
                                               {"guides.EB_mm"},
                                               {"guides.ED_mm"},
@@ -583,7 +583,7 @@ Design BoundCalculator::lowest_around(const Design& design, double size) const {
   const transmission::Jet whole = at(transmission::Jet::variable({low, high}, 0, 1));
   transmission::Interval value = whole.value;
   if (whole.count == 0) return value;
-  // From the end towards which it does not decrease, or from the middle.
+  // The mean value form starts from the end towards which the function does not decrease, or from the middle.
   const transmission::Interval slope = whole.slope[0];
   const double from = slope.lower() >= 0 ? high : slope.upper() <= 0 ? low : 0.5 * (low + high);
   const transmission::Interval centred =

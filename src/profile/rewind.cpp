@@ -163,7 +163,7 @@ RewindResult wind(const transmission::Transmission& declared, std::vector<String
     for (String& string : strings) string.turn_to(alpha);
   };
   RewindResult result;
-  // From home to one end and back through home to the other, so that turns are counted without jumps.
+  // The strings turn from home to one end and back through home to the other, so that turns are counted without jumps.
   for (int i = 0; i < steps; ++i) turn_to(declared.alpha_min() * i / steps);
   for (const double alpha : transmission::alphas_over_range(declared, steps)) {
     turn_to(alpha);
