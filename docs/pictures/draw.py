@@ -295,7 +295,7 @@ def flow():
     """The modules in the order in which they may include each other, as the top CMakeLists.txt has them."""
     text = (SOURCE / "CMakeLists.txt").read_text()
     lines = re.search(r"#\s+(base <- (?:.|\n#)*)", text)[1]
-    return re.findall(r"[a-z]+", lines)
+    return re.findall(r"[a-z_]+", lines)
 
 
 def modules():

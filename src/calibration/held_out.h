@@ -17,8 +17,8 @@ struct HeldOut {
   double mean_square = 0;  ///< mean square over rows
 };
 
-/// Held-out error by one linear step from the fit of all data to the fit without each fold. A fold without which a
-/// number is not determined is left out block by block.
+/// Held-out error by one linear step from the fit of all data to the fit without each fold. If a number is not determined
+/// without a fold, the blocks of that fold are left out one by one.
 HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fold>& folds);
 
 /// Parameters of `fit` refitted without each of the folds, by the same step. `beside`: amplitudes of the discrepancy,
@@ -30,7 +30,7 @@ std::vector<Eigen::VectorXd> numbers_without(const Evidence& evidence, const Fit
 struct HeldOutWithDiscrepancy {
   HeldOut effects;     ///< error of the effects alone
   HeldOut with_place;  ///< error of effects and the discrepancy of place and direction
-  HeldOut with_all;    ///< error of effects and the whole discrepancy; a held-out run has none of its own
+  HeldOut with_all;    ///< error of effects and the whole discrepancy, except for the component of the held-out run
 };
 HeldOutWithDiscrepancy hold_out_with_discrepancy(const Evidence& evidence, const Fit& fit, const Amplitudes& amplitudes,
                                                  const std::vector<Fold>& folds);

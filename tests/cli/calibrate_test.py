@@ -70,7 +70,7 @@ class Calibrate(harness.Scratch):
         self.assertAlmostEqual(float(middle["alpha_up_deg"]) - float(middle["alpha_down_deg"]), 4.0, delta=0.3)
 
     def assert_numbers(self, value, where):
-        """True for a finite number, not for null, text or a switch."""
+        """Rejects null, text, switches and infinite numbers."""
         self.assertIsInstance(value, (int, float), where)
         self.assertNotIsInstance(value, bool, where)
         self.assertTrue(math.isfinite(value), where)

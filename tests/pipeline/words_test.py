@@ -129,6 +129,8 @@ def cpp_faults(lines):
 def header_faults(lines):
     if lines and not lines[0].startswith("/// \\file"):
         yield 1, "begins without '/// \\file'", "'/// \\file' and what the header is for"
+    elif len(lines) > 1 and not lines[1].startswith("///"):
+        yield 2, "'/// \\file' says nothing", "what the header is for"
     yield from cpp_faults(lines)
 
 
