@@ -25,7 +25,7 @@ std::string numbers_text(std::size_t count, int decimals, Number number) {
 }
 
 /// x, y, height and turn of rows with a minimum spacing.
-std::string drawn_rows(const helix::Spiral& spiral, const coil::SpiralPlace& place) {
+std::string drawn_rows(const helix::Spiral& spiral, const helical_solid::SpiralPlace& place) {
   std::string text = "[";
   double drawn = -1e9;
   for (std::size_t i = 0; i < spiral.rows.size(); ++i) {
@@ -41,7 +41,7 @@ std::string drawn_rows(const helix::Spiral& spiral, const coil::SpiralPlace& pla
 std::string side_json(const Product& product, std::size_t i) {
   const HelixProduct& helix = *product.helix;
   const helix::HelixSide& side = helix.synthesis.sides.at(i);
-  const coil::SpiralPlace& place = i == 0 ? helix.pulley.p1 : helix.pulley.p2;
+  const helical_solid::SpiralPlace& place = i == 0 ? helix.pulley.p1 : helix.pulley.p2;
   const std::vector<transmission::TransmissionPoint>& stroke = product.synthesis.stroke;
   // Per mm towards the joint, which is shorter than the path in its own plane.
   const auto climb = [&](std::size_t k) {

@@ -248,7 +248,7 @@ GrooveBand groove_band(const Product& product, transmission::Side which) {
   const solid::GrooveWalls& walls = left ? layout.p1 : layout.p2;
   const double half = 0.98 * std::min(walls.below_width(), walls.above_width());
   if (!product.helix) return {left ? layout.z_p1 : layout.z_p2, half};
-  const coil::SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
+  const helical_solid::SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
   const std::vector<helix::SpiralRow>& rows = product.helix->synthesis.sides.at(left ? 0 : 1).spiral.rows;
   const double first = place.height(rows.front().z), last = place.height(rows.back().z);
   return {0.5 * (first + last), 0.5 * std::abs(last - first) + half};

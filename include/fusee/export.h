@@ -13,8 +13,8 @@
 #include "fusee/analysis.h"
 #include "fusee/base.h"
 #include "fusee/calibration.h"
-#include "fusee/coil.h"
 #include "fusee/correction.h"
+#include "fusee/helical_solid.h"
 #include "fusee/helix.h"
 #include "fusee/joint.h"
 #include "fusee/kit.h"
@@ -33,13 +33,13 @@ namespace fusee::formats {
 /// Additional data of a multi-turn pulley, whose curves are no outlines and whose grooves lie in no plane.
 struct HelixProduct {
   helix::HelixSynthesis synthesis;
-  coil::HelicalPulley pulley;  ///< its mesh and conditions are in Product::pulley
-  coil::HelicalRewind as_built;
+  helical_solid::HelicalPulley pulley;  ///< its mesh and conditions are in Product::pulley
+  helical_solid::HelicalRewind as_built;
 
   /// Heights above the part's lower face of the tendons' ends on the joint, or of their guides' collars.
-  coil::TendonsLaid laid(bool collar) const {
-    return coil::tendons_laid(pulley, synthesis.sides[0].spiral, synthesis.sides[1].spiral,
-                              synthesis.sides[0].attachment_z, synthesis.sides[1].attachment_z, collar);
+  helical_solid::TendonsLaid laid(bool collar) const {
+    return helical_solid::tendons_laid(pulley, synthesis.sides[0].spiral, synthesis.sides[1].spiral,
+                                       synthesis.sides[0].attachment_z, synthesis.sides[1].attachment_z, collar);
   }
 };
 

@@ -86,7 +86,7 @@ struct HelixSynthesis {
 /// mm
 using MinLead = std::function<double(double step)>;
 
-/// The cross-section of a mechanism's helical grooves, which the module `coil` defines.
+/// The cross-section of a mechanism's helical grooves, which the module `helical_solid` defines.
 struct HelixGroove {
   double groove_edge = 0;  ///< height of the groove edge over the floor, mm
   double room_at_groove_edge =

@@ -118,7 +118,7 @@ TEST_F(HelicalStep, IsSoundSolidAndWinds) {
   ASSERT_EQ(file().complaint, "");
   const StepInspection inspection = inspect(file().bytes);
   for (const Check& check : inspection.checks) EXPECT_TRUE(check.ok) << check.name << " " << check.value;
-  const coil::HelicalRewind wound = pipeline::rewind_several_turns(helical(), inspection.helical);
+  const helical_solid::HelicalRewind wound = pipeline::rewind_several_turns(helical(), inspection.helical);
   // Measured on the surfaces themselves: the error is far below that of facets.
   EXPECT_LT(degrees(wound.result.max_theta_error), 0.002);
   EXPECT_LT(wound.result.max_excess, 0.001);
