@@ -19,7 +19,7 @@ constexpr std::size_t k_most_candidates = 3;
 
 std::string angle_words(double angle) { return readable_rounded(std::abs(degrees(angle)), 2) + "°"; }
 
-// ---- what is wrong --------------------------------------------------------------------------------------------------
+// ---- the problem ----------------------------------------------------------------------------------------------------
 
 /// Linear regression of the error on one predictor, over all rows.
 struct Pattern {
@@ -176,7 +176,7 @@ std::string cause_words(const CalibrationProduct& product) {
   return text + ".";
 }
 
-// ---- what to do -----------------------------------------------------------------------------------------------------
+// ---- the action -----------------------------------------------------------------------------------------------------
 
 /// The instruction up to the first colon. The remainder is shown below.
 std::string first_clause(const std::string& sentence) {

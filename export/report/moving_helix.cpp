@@ -43,7 +43,7 @@ std::string side_json(const Product& product, std::size_t i) {
   const helix::HelixSide& side = helix.synthesis.sides.at(i);
   const helical_solid::SpiralPlace& place = i == 0 ? helix.pulley.p1 : helix.pulley.p2;
   const std::vector<transmission::TransmissionPoint>& stroke = product.synthesis.stroke;
-  // Per mm towards the joint, which is shorter than the path in its own plane.
+  // Rise per mm in the direction of the joint. That distance is shorter than the path in the tendon's own plane.
   const auto climb = [&](std::size_t k) {
     const transmission::TendonPoint& tendon = i == 0 ? stroke[k].t1 : stroke[k].t2;
     return -place.direction * std::tan(side.stroke[k].slope) / std::abs(std::cos(tendon.lower_normal));

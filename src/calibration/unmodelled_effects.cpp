@@ -162,7 +162,7 @@ Fit fit_with_unmodelled(const Fitter& fitter, const Fit& others, const fusee::Ef
   return fitter.fit(effects, at);
 }
 
-/// UnmodelledAlternative effect in the place of an effect: a fit from each of its starts.
+/// Unmodelled effect in the place of an effect: a fit from each of its starts.
 struct Substitute {
   std::size_t effect = 0;
   const UnmodelledEffect* unmodelled = nullptr;

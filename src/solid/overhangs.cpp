@@ -171,7 +171,7 @@ class PatchFinder {
   std::vector<std::uint32_t> index_;  // index of a facet within its patch
 };
 
-// ---- unsupported regions ------------------------------------------------------------------------------------------------
+// ---- unsupported regions --------------------------------------------------------------------------------------------
 
 // Vertices connected by level edges.
 struct Terrace {

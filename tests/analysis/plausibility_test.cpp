@@ -65,7 +65,7 @@ std::vector<std::string> texts_of(const MechanismFile& file) {
 }
 std::vector<std::string> texts_of(const std::vector<Setting>& settings) { return texts_of(file_with(settings)); }
 
-// ---- where nothing is odd -------------------------------------------------------------------------------------------
+// ---- no warnings ----------------------------------------------------------------------------------------------------
 
 TEST(Plausibility, AcceptsProfiles) {
   int files = 0;

@@ -106,7 +106,7 @@ TEST(Folds, SpeedIsAFactorToo) {
   EXPECT_THAT(calibration::gather(joint(), measurement, k_floor).factors, ElementsAre("speed"));
 }
 
-// ---- dwells and load levels ---------------------------------------------------------------------------------
+// ---- dwells and load levels -----------------------------------------------------------------------------------------
 
 /// For each block, the number of the blocks of its run that it repeats.
 std::vector<std::size_t> repeats_in(const calibration::Evidence& evidence) {

@@ -1,5 +1,5 @@
-// Six joints measured on a rig that shares no code with the fit, and a real one: each is read as its truth says, with
-// no option set.
+// Six joints measured on a rig that shares no code with the fit, and a real one. With default options, calibration finds
+// the true cause of each.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -99,8 +99,8 @@ TEST(RealJaw, IdentifiesFrictionAndStretchWithoutDelay) {
   measurement::MeasurementOptions options;
   options.columns = {{"load", "tau_out_Nm"}};
   const measurement::Measurement measurement = measurement::read_measurement(runs_in(folder), options);
-  // As in the published figures: 0.3 and 0.5 Hz are for validation only. Whole levels of load left out in turn are
-  // harder: 0.345°.
+  // As in the paper, the runs at 0.3 and 0.5 Hz are for validation only. If whole load levels are left out in turn, the
+  // error is larger: 0.345°.
   CalibrationOptions speeds;
   for (const auto& run : measurement.runs) {
     if (run.name.find("_f2_") != std::string::npos || run.name.find("_f4_") != std::string::npos)
@@ -114,7 +114,7 @@ TEST(RealJaw, IdentifiesFrictionAndStretchWithoutDelay) {
   EXPECT_THAT(names(found), Not(Contains("sensor_lag")));
   EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained);
   EXPECT_GT(degrees(found.before.held_out_rms), 1.5);
-  // Error of the kept runs; numbers beside the discrepancy leave 0.377.
+  // Error of the validation runs. The MAP estimate leaves 0.377°.
   EXPECT_LE(degrees(found.after.held_out_rms), 0.33);
 }
 

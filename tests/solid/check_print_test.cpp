@@ -396,7 +396,7 @@ TEST(CheckPrint, VaultIsNoBridge) {
   EXPECT_EQ(failed(check_print(vaulted({{-2, 0}, {-1, 1.1}, {1, 1.1}, {2, 0}}))), "");
 }
 
-// ---- unsupported regions --------------------------------------------------------------------------------------------------------
+// ---- unsupported regions --------------------------------------------------------------------------------------------
 
 TEST(CheckPrint, ReportsUnsupportedRegion) {
   const auto checks = check_print(joined(cube(10), cube(4, {20, 0, 5})));
