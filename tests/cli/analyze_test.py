@@ -65,7 +65,7 @@ class Analyze(harness.Scratch):
             with self.subTest(strain):
                 document = self.expect_json(f"analyze arm.toml --samples 10 {strain}", 0)
                 summary, motor = document["summary"], document.get("motor")
-                built = self.expect_json(f"build arm.toml --force {strain}", 0)
+                built = self.expect_json(f"build arm.toml --force -o out/arm {strain}", 0)
                 manifest = json.loads((self.folder / "out/arm/manifest.json").read_bytes())
                 for load in (built["under_load"], manifest["under_load"]):
                     self.assertEqual(load["max_theta_error_deg"], summary["theta_error"]["value_deg"])
