@@ -286,7 +286,7 @@ MODULES = {
                   "profile": "pitch curves", "helix": "spirals", "joint": "elastic, with friction"},
     "Questions": {"analysis": "forces and errors", "optimize": "better numbers", "paper": "the paper, computed"},
     "Measured data": {"measurement": "runs from CSV", "plan": "which runs", "calibration": "which causes", "correction": "the corrected file"},
-    "The part": {"solid": "mesh, one turn", "coil": "mesh, several turns", "kit": "test rig", "model": "for simulators"},
+    "The part": {"solid": "mesh, one turn", "helical_solid": "mesh, several turns", "kit": "test rig", "model": "for simulators"},
     "Files, commands": {"export": "a function a format", "pipeline": "the verbs", "python": "from Python", "cli": "from a shell"},
 }
 
@@ -295,7 +295,7 @@ def flow():
     """The modules in the order in which they may include each other, as the top CMakeLists.txt has them."""
     text = (SOURCE / "CMakeLists.txt").read_text()
     lines = re.search(r"#\s+(base <- (?:.|\n#)*)", text)[1]
-    return re.findall(r"[a-z]+", lines)
+    return re.findall(r"[a-z_]+", lines)
 
 
 def modules():

@@ -249,7 +249,7 @@ std::optional<Vec2> label_place(const PlateLayer& layer, const Material2d& mater
   const Box2d box = bounding_box(layer.outer.front());
   for (double y = box.low.y(); y + size.y() < box.high.y(); y += 1.0) {
     for (int side = 0; side < 40; ++side) {
-      // From the middle outward, left and right in turn.
+      // Places alternate between left and right, from the middle outward.
       const double x = (side % 2 ? 1 : -1) * 0.5 * (side + 1) / 2.0 * (box.size().x() / 20) - 0.5 * size.x();
       if (x < box.low.x() || x + size.x() > box.high.x()) continue;
       const bool on_mark =

@@ -144,7 +144,7 @@ std::vector<DxfLayer> spiral_layers() {
   return all;
 }
 
-std::vector<Vec3> helical_line(const helix::Spiral& spiral, const coil::SpiralPlace& place, std::size_t first,
+std::vector<Vec3> helical_line(const helix::Spiral& spiral, const helical_solid::SpiralPlace& place, std::size_t first,
                                std::size_t last, double outward) {
   std::vector<Vec3> points;
   for (std::size_t i = first; i <= last; ++i) {
@@ -156,7 +156,7 @@ std::vector<Vec3> helical_line(const helix::Spiral& spiral, const coil::SpiralPl
 }
 
 void add_spiral(DxfDocument& drawing, const std::string& pulley, const helix::HelixSide& side,
-                const coil::SpiralPlace& place, double half) {
+                const helical_solid::SpiralPlace& place, double half) {
   const helix::Spiral& spiral = side.spiral;
   const std::size_t last = spiral.rows.size() - 1;
   const auto curve = [&](const char* layer, std::size_t from, std::size_t to, double outward) {
@@ -217,7 +217,7 @@ std::string spirals_dxf(const Product& product, DxfVersion version) {
       drawing, bore.radius,
       std::max(reach_of(sides[0].spiral), reach_of(sides[1].spiral)) + product.pulley.layout.groove_depth);
   add_home_take_offs(drawing, product);
-  for (const coil::HelicalAnchor& anchor : helix.pulley.anchors)
+  for (const helical_solid::HelicalAnchor& anchor : helix.pulley.anchors)
     drawing.closed("MARK_ANCHOR", circle_contour({anchor.pocket.head<2>(), 2 * anchor.pocket_radius}));
   add_legend(drawing, legend);
   return dxf_text(drawing, version);

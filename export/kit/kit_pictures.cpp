@@ -17,7 +17,7 @@ namespace {
 
 constexpr double k_picture_width = 520, k_picture_height = 420;
 
-/// A convex slab with holes, in place, vertical or not.
+/// A convex slab with holes at its place in the rig; its walls may be inclined.
 struct DrawnSlab {
   Polygon below, above;
   double low = 0, high = 0;
@@ -31,7 +31,7 @@ struct DrawnLine {
   std::string classes;
 };
 
-/// From the front right and from above, y up the picture.
+/// Parallel projection, seen from the front right and from above; y points up in the picture.
 class Projection {
  public:
   Vec2 operator()(const Vec2& p, double z) const {
@@ -46,7 +46,7 @@ class Projection {
   }
 };
 
-/// Maps to the paper.
+/// Maps projected points to the picture: all included points fill it.
 class Paper {
  public:
   void include(const Vec2& p) {
@@ -182,13 +182,13 @@ std::vector<DrawnLine> tendon_lines(const KitProduct& product) {
   return lines;
 }
 
-void draw_slab(std::string& body, const DrawnSlab& slab, const Projection& look, const Paper& paper) {
-  Polygon both = look(slab.below, slab.low);
-  const Polygon above = look(slab.above, slab.high);
+void draw_slab(std::string& body, const DrawnSlab& slab, const Projection& project, const Paper& paper) {
+  Polygon both = project(slab.below, slab.low);
+  const Polygon above = project(slab.above, slab.high);
   both.insert(both.end(), above.begin(), above.end());
   body += svg_path(slab.kind + "-side", paper(convex_hull(both)), true);
   std::string data = path_data(paper(above), true);
-  for (const Polygon& hole : slab.holes) data += path_data(paper(look(hole, slab.high)), true);
+  for (const Polygon& hole : slab.holes) data += path_data(paper(project(hole, slab.high)), true);
   body += "<path class=\"" + slab.kind + "-top\" fill-rule=\"evenodd\" d=\"" + data + "\"/>";
 }
 
@@ -218,21 +218,21 @@ Figure kit_picture(const KitProduct& product, const std::vector<KitStep>& steps,
     if (std::abs(a.low - b.low) > 1e-6) return a.low < b.low;
     return nearness(a) < nearness(b);
   });
-  const Projection look;
+  const Projection project;
   Paper paper;
   for (const DrawnSlab& slab : drawn) {
-    for (const Vec2& p : look(slab.below, slab.low)) paper.include(p);
-    for (const Vec2& p : look(slab.above, slab.high)) paper.include(p);
+    for (const Vec2& p : project(slab.below, slab.low)) paper.include(p);
+    for (const Vec2& p : project(slab.above, slab.high)) paper.include(p);
   }
   Figure figure{k_picture_width, k_picture_height, steps[last].title, {}, {}};
   std::size_t drawn_lines = 0;
   for (const DrawnSlab& slab : drawn) {
     for (; drawn_lines < lines.size() && lines[drawn_lines].points.front().z() < slab.low; ++drawn_lines) {
       std::vector<Vec2> points;
-      for (const Vec3& p : lines[drawn_lines].points) points.push_back(look(Vec2(p.x(), p.y()), p.z()));
+      for (const Vec3& p : lines[drawn_lines].points) points.push_back(project(Vec2(p.x(), p.y()), p.z()));
       figure.body += svg_path(lines[drawn_lines].classes, paper(points));
     }
-    draw_slab(figure.body, slab, look, paper);
+    draw_slab(figure.body, slab, project, paper);
   }
   return figure;
 }
@@ -282,7 +282,7 @@ Figure kit_plan_view(const KitProduct& product) {
 
 namespace {
 
-/// The pitch curve of a side; for several turns, the turn that its tendon leaves at home.
+/// The pitch curve of a side. For several turns, only the turn that its tendon leaves at home.
 profile::Outline at_home(const Product& product, transmission::Side side) {
   if (!product.helix) return side == transmission::Side::left ? product.synthesis.p1 : product.synthesis.p2;
   const helix::HelixSide& helix = product.helix->synthesis.sides.at(side == transmission::Side::left ? 0 : 1);
@@ -300,7 +300,7 @@ profile::Outline at_home(const Product& product, transmission::Side side) {
   return outline;
 }
 
-/// In the mechanism's frame.
+/// The whole pitch curve of a side, in the mechanism's frame.
 std::vector<Vec2> pitch_curve(const Product& product, transmission::Side side) {
   const Vec2 axis = pulley_axis(product.joint.mechanism);
   std::vector<Vec2> points;
@@ -319,8 +319,8 @@ std::vector<Vec2> pitch_curve(const Product& product, transmission::Side side) {
 }  // namespace
 
 Figure kit_template_view(const KitProduct& product) {
-  const Product& made = product.pulley;
-  const Mechanism& mechanism = made.joint.mechanism;
+  const Product& pulley = product.pulley;
+  const Mechanism& mechanism = pulley.joint.mechanism;
   Paper paper;
   const auto shown = [](const std::vector<Vec2>& points) {
     std::vector<Vec2> result;
@@ -344,7 +344,7 @@ Figure kit_template_view(const KitProduct& product) {
     for (const Vec2& p : shown(outline)) paper.include(p);
   }
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
-    for (const Vec2& p : shown(pitch_curve(made, side))) paper.include(p);
+    for (const Vec2& p : shown(pitch_curve(pulley, side))) paper.include(p);
   }
   Figure figure{k_picture_width, k_picture_height, "From above, at home: base, drum and link with their holes", {}, {}};
   for (const auto& [classes, outline] : drawn) figure.body += svg_path(classes, paper(shown(outline)), true);
@@ -356,8 +356,8 @@ Figure kit_template_view(const KitProduct& product) {
     if (mechanism.guides.kind == GuideKind::idler) circle("kit-bought-top", pin.place, mechanism.guides.bearing_radius);
   }
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
-    const profile::Outline outline = at_home(made, side);
-    figure.body += svg_path("main", paper(shown(pitch_curve(made, side))), !made.helix);
+    const profile::Outline outline = at_home(pulley, side);
+    figure.body += svg_path("main", paper(shown(pitch_curve(pulley, side))), !pulley.helix);
     if (mechanism.sheath.is_there())
       figure.body += "<g class=\"kit-sheath\" style=\"fill:none;stroke:#c9b48a;stroke-width:7\"><path d=\"" +
                      path_data(paper(shown(sheath_curve(mechanism, side))), false) + "\"/></g>";

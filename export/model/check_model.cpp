@@ -68,7 +68,7 @@ Vec2 point_in(const pugi::xml_node& node) {
   return 1e3 * Vec2(values[0], values[1]);
 }
 
-/// The error of the tendon equality, with the values that MuJoCo has.
+/// The error of the tendon equality, computed from the values in the file as MuJoCo would.
 double error_of_tendons_xml(const ModelProduct& product, const std::vector<OutputFile>& outputs) {
   const pugi::xml_document document = xml_of(outputs, "joint_tendons.xml");
   const pugi::xml_node root = document.child("mujoco"), world = root.child("worldbody");
@@ -198,8 +198,8 @@ std::vector<Check> check_model(const ModelProduct& product, const std::vector<Ou
   std::vector<Check> checks;
   const auto in_degrees = [&](const std::string& name, double error, double limit) {
     // Beyond the ninth decimal, the number depends on the compiler.
-    const double said = std::isfinite(error) ? std::round(1e9 * degrees(error)) / 1e9 : error;
-    checks.push_back(at_most(name, said, degrees(limit), "deg"));
+    const double rounded_error = std::isfinite(error) ? std::round(1e9 * degrees(error)) / 1e9 : error;
+    checks.push_back(at_most(name, rounded_error, degrees(limit), "deg"));
   };
   if (product.with_polynomial)
     in_degrees("joint_xml_theta_error", error_of_joint_xml(product, outputs), product.most_error);

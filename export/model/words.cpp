@@ -73,7 +73,7 @@ std::vector<std::string> of_curve(const model::JointCurve& curve, const ModelPro
       break;
     case model::CurveSource::compensation:
       lines.push_back("From " + product.compensation +
-                      ", with the shape of the declared law between its rows. alpha: reading of the");
+                      ", with the shape of the target motion between its rows. alpha: reading of the");
       lines.push_back("motor's sensor; theta: reading of the joint's sensor.");
       break;
   }

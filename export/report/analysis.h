@@ -12,9 +12,9 @@
 namespace fusee::formats {
 
 /// A self-contained page: the joint moves under a slider, with the forces of both models and the error budget. Requires
-/// a law that exists over the range. `said`: additional remarks at the top. The same input gives the same bytes.
+/// a law that exists over the range. `remarks`: shown at the top. The same input gives the same bytes.
 std::string analysis_html(const MechanismFile& file, const analysis::AnalysisResult& result,
-                          const analysis::AnalysisOptions& options, const std::vector<Diagnostic>& said);
+                          const analysis::AnalysisOptions& options, const std::vector<Diagnostic>& remarks);
 
 /// The page's plots as one SVG picture, and as PNG or PDF. Throws InputError if the system has no librsvg.
 std::string analysis_svg(const MechanismFile& file, const analysis::AnalysisResult& result);

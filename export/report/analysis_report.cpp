@@ -69,7 +69,7 @@ std::vector<Figure> figures(const analysis::AnalysisResult& result, const Mechan
   Plot torque{"Motor torque", alpha, axis_of("torque", "N·mm", 0.1), {}, {}, {}};
   torque.series = {{"α growing", Ink::main, over_rows(result, [](const auto& r) { return r.rising.motor_torque; })},
                    {"α falling", Ink::p2, over_rows(result, [](const auto& r) { return r.falling.motor_torque; })}};
-  Plot error{"Joint angle less the declared law", alpha, axis_of("Δθ", "°", 1e-3), {}, {}, {}};
+  Plot error{"Joint angle minus the target motion", alpha, axis_of("Δθ", "°", 1e-3), {}, {}, {}};
   const auto off = [](const joint::EquilibriumPoint& point, const analysis::AnalysisRow& row) {
     return degrees(point.theta - row.declared.theta);
   };
@@ -131,10 +131,10 @@ std::string tolerances_table(const std::vector<analysis::ToleranceEffect>& effec
                     rows);
 }
 
-std::string said_section(const std::vector<Diagnostic>& said, LengthUnit units) {
-  if (said.empty()) return "";
+std::string remarks_section(const std::vector<Diagnostic>& remarks, LengthUnit units) {
+  if (remarks.empty()) return "";
   std::vector<std::string> lines;
-  for (const Diagnostic& diagnostic : said)
+  for (const Diagnostic& diagnostic : remarks)
     lines.push_back(lengths_in(units, diagnostic.message + (diagnostic.hint.empty() ? "" : " – " + diagnostic.hint)));
   return "<section class=\"warnings\">" + html_list(lines) + "</section>\n";
 }
@@ -162,14 +162,14 @@ std::string analysis_pdf(const MechanismFile& file, const analysis::AnalysisResu
 }
 
 std::string analysis_html(const MechanismFile& file, const analysis::AnalysisResult& result,
-                          const analysis::AnalysisOptions& options, const std::vector<Diagnostic>& said) {
+                          const analysis::AnalysisOptions& options, const std::vector<Diagnostic>& remarks) {
   const std::string moving = moving_joint(file.mechanism, result.synthesis, stroke_of(result));
   return html_page(
       {.title = "analysis",
        .kicker = "Analysis",
        .name = file.mechanism.name,
        .source = "of " + source_html(file),
-       .body = said_section(said, file.mechanism.units) +
+       .body = remarks_section(remarks, file.mechanism.units) +
                html_section("numbers", "Key numbers", key_numbers_of(result, file.mechanism)) +
                html_section("moving", "The joint moves", moving.empty() ? "" : std::string(k_moving_words) + moving) +
                html_section("forces", "Over the range", plots(result, file.mechanism)) +

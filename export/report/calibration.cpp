@@ -44,17 +44,17 @@ Json effect_json(const calibration::FoundEffect& effect) {
   if (effect.group.back() == calibration::k_unmodelled) {
     json["unmodelled"] = {{"behind", nine_digits(effect.unmodelled.log_odds)}, {"words", unmodelled_words(effect)}};
   }
-  for (const calibration::MemberBeside& member : effect.instead)
+  for (const calibration::GroupMember& member : effect.alternatives)
     json["instead"].push_back({{"name", member.name}, {"parameters", parameters_json(member.parameters)}});
-  for (const calibration::MemberBeside& member : effect.beside)
+  for (const calibration::GroupMember& member : effect.beside)
     json["beside"].push_back({{"name", member.name}, {"parameters", parameters_json(member.parameters)}});
   return json;
 }
 
-/// Parts of the discrepancy beside the effects.
-Json unknown_json(const std::vector<calibration::DiscrepancyComponent>& unknown) {
+/// Components of the discrepancy.
+Json discrepancy_json(const std::vector<calibration::DiscrepancyComponent>& parts) {
   Json list = Json::array();
-  for (const calibration::DiscrepancyComponent& part : unknown) {
+  for (const calibration::DiscrepancyComponent& part : parts) {
     Json json = {{"factor", part.factor},
                  {"rms_deg", angle_json(part.rms)},
                  {"evidence", nine_digits(part.evidence)},
@@ -214,7 +214,7 @@ std::string calibration_json(const CalibrationProduct& product) {
   json["unexplained_rms_deg"] = angle_json(calibration.unexplained_rms);
   json["dropped"] = calibration.dropped;
   json["unexplained_where"] = calibration.unexplained_where;
-  json["unknown"] = unknown_json(calibration.discrepancy);
+  json["unknown"] = discrepancy_json(calibration.discrepancy);
   json["instead"] = Json::array();  // always empty; readers of the schema expect the key
   json["covered"] = covered_json(product);
   json["slips"] = input_errors_json(product.input_errors);

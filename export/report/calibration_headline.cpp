@@ -19,9 +19,9 @@ constexpr std::size_t k_most_candidates = 3;
 
 std::string angle_words(double angle) { return readable_rounded(std::abs(degrees(angle)), 2) + "°"; }
 
-// ---- what is wrong --------------------------------------------------------------------------------------------------
+// ---- the problem ----------------------------------------------------------------------------------------------------
 
-/// One way in which a joint can be off, over all rows: its slope, and the part of the mean square it makes.
+/// Linear regression of the error on one predictor, over all rows.
 struct Pattern {
   double sum = 0, sum_error = 0, squares = 0, products = 0, most = 0;
 
@@ -37,10 +37,11 @@ struct Pattern {
     const double spread = this->spread(rows);
     return spread > 0 ? (products - sum * sum_error / rows) / spread : 0.0;
   }
-  double taken(double rows) const { return slope(rows) * slope(rows) * std::max(0.0, spread(rows)); }
+  /// Part of the sum of squares that the regression explains.
+  double explained(double rows) const { return slope(rows) * slope(rows) * std::max(0.0, spread(rows)); }
 };
 
-/// By proportion to the joint's angle, by direction and by load, and all squares.
+/// Regressions of the error on the joint's angle, the direction and the load, and the sums over all rows.
 struct Patterns {
   Pattern angle, direction, load;
   double rows = 0, error = 0, squares = 0;
@@ -66,7 +67,7 @@ Patterns patterns_of(const measurement::Measurement& measurement, const std::vec
   return all;
 }
 
-/// The pattern that makes more than half of the error, or how large it is.
+/// The pattern that explains more than half of the squared error, or else the largest error.
 std::string problem_words(const CalibrationProduct& product) {
   const calibration::Calibration& calibration = product.calibration;
   const Patterns all = patterns_of(product.measurement, calibration.residuals_before);
@@ -77,11 +78,11 @@ std::string problem_words(const CalibrationProduct& product) {
   const double slope = all.angle.slope(all.rows);
   const std::array<std::pair<double, std::string>, 4> known = {{
       {all.rows * mean * mean, "The joint reads " + angle_words(mean) + (mean > 0 ? " high" : " low") + " everywhere"},
-      {all.angle.taken(all.rows),
+      {all.angle.explained(all.rows),
        "The joint turns " + readable_rounded(std::abs(100 * slope), 2) + " % too " + (slope < 0 ? "little" : "far")},
-      {all.direction.taken(all.rows),
-       "The joint stands " + angle_words(2 * all.direction.slope(all.rows)) + " apart between its two directions"},
-      {all.load.taken(all.rows),
+      {all.direction.explained(all.rows),
+       "The joint angle differs by " + angle_words(2 * all.direction.slope(all.rows)) + " between the two directions"},
+      {all.load.explained(all.rows),
        "The joint moves by " + angle_words(all.load.slope(all.rows) * all.load.most) + " under its largest load"},
   }};
   const auto most = std::max_element(known.begin(), known.end(),
@@ -100,13 +101,13 @@ std::string number_words(const calibration::FittedParameter& number, const std::
   return name + " " + readable_rounded(number.value, 3) + unit;
 }
 
-/// A cause, and the numbers that it may have: by two effects where both say the same of the joint.
+/// A cause, and the fitted numbers of each effect that has this cause.
 struct CandidateWords {
   std::string cause;
   std::vector<std::string> numbers;
 };
 
-/// "both pulleys are too small" and "scale −1.2 %"; the name of an effect whose sign has no words.
+/// "both pulleys are too small" and "scale −1.2 %". If the sign has no words, the cause is the effect's name.
 CandidateWords candidate_words(const std::string& name, const std::vector<calibration::FittedParameter>& numbers,
                                const std::string& load_unit) {
   if (numbers.empty()) return {open_words(name), {}};
@@ -118,20 +119,20 @@ bool may_be_unmodelled(const calibration::FoundEffect& effect) {
   return effect.group.back() == calibration::k_unmodelled;
 }
 
-/// Other candidates, in the order of the group.
+/// The other members of an effect's group, in its order.
 std::vector<CandidateWords> other_candidates(const calibration::FoundEffect& effect, const std::string& load_unit) {
   std::vector<CandidateWords> others;
   for (const std::string& member : rivals_of(effect)) {
     if (member == calibration::k_unmodelled) continue;
-    const auto own = std::find_if(effect.instead.begin(), effect.instead.end(),
-                                  [&](const calibration::MemberBeside& other) { return other.name == member; });
-    others.push_back(own == effect.instead.end() ? CandidateWords{open_words(member), {}}
-                                                 : candidate_words(member, own->parameters, load_unit));
+    const auto own = std::find_if(effect.alternatives.begin(), effect.alternatives.end(),
+                                  [&](const calibration::GroupMember& other) { return other.name == member; });
+    others.push_back(own == effect.alternatives.end() ? CandidateWords{open_words(member), {}}
+                                                      : candidate_words(member, own->parameters, load_unit));
   }
   return others;
 }
 
-/// The effect, and others of its group.
+/// "either CAUSE, or CAUSE, or 1 more, or an unmodelled cause": the effect and its group.
 std::string group_words(const calibration::FoundEffect& effect, const std::string& load_unit) {
   std::vector<CandidateWords> candidates = {candidate_words(effect.name, effect.parameters, load_unit)};
   std::size_t more = 0;
@@ -175,7 +176,7 @@ std::string cause_words(const CalibrationProduct& product) {
   return text + ".";
 }
 
-// ---- what to do -----------------------------------------------------------------------------------------------------
+// ---- the action -----------------------------------------------------------------------------------------------------
 
 /// The instruction up to the first colon. The remainder is shown below.
 std::string first_clause(const std::string& sentence) {
@@ -241,7 +242,7 @@ Headline headline(const CalibrationProduct& product) {
     return {"These runs decide nothing.", calibration.summary,
             calibration.next.empty() ? "" : first_clause(calibration.next.front().words)};
   if (calibration.verdict == calibration::CalibrationVerdict::not_repeatable)
-    return {"The joint does not repeat: the same angle, direction and load give other joint angles.", "",
+    return {"The joint does not repeat: the same angle, direction and load give different joint angles.", "",
             calibration.next.empty() ? "" : first_clause(calibration.next.front().words)};
   return {problem_words(product), cause_words(product), action_words(product)};
 }
@@ -256,11 +257,11 @@ std::vector<CauseRow> cause_rows(const CalibrationProduct& product) {
     rows[first].corrected_by =
         effect.correctable_by == CorrectableBy::nothing ? "–" : fusee::word(effect.correctable_by);
     for (const std::string& member : rivals_of(effect)) {
-      const auto own = std::find_if(effect.instead.begin(), effect.instead.end(),
-                                    [&](const calibration::MemberBeside& other) { return other.name == member; });
+      const auto own = std::find_if(effect.alternatives.begin(), effect.alternatives.end(),
+                                    [&](const calibration::GroupMember& other) { return other.name == member; });
       const std::vector<calibration::FittedParameter> none;
       add_rows("or " + (member == calibration::k_unmodelled ? "an unmodelled cause" : open_words(member)),
-               own == effect.instead.end() ? none : own->parameters, load_unit, rows);
+               own == effect.alternatives.end() ? none : own->parameters, load_unit, rows);
     }
   }
   return rows;

@@ -14,10 +14,10 @@
 namespace fusee::formats {
 namespace {
 
-constexpr int k_places = 48;                // of α
-constexpr std::size_t k_most_points = 240;  // of a direction in a plot
-constexpr std::size_t k_most_runs = 40;     // with plots of their own
-constexpr std::size_t k_few_runs = 6;       // with wide plots
+constexpr int k_places = 48;                // bins of the range of α
+constexpr std::size_t k_most_points = 240;  // in a plot, for each direction
+constexpr std::size_t k_most_runs = 40;     // that have plots of their own
+constexpr std::size_t k_few_runs = 6;       // up to this number, plots are wide
 
 using Residuals = std::vector<std::vector<double>>;
 
@@ -46,7 +46,7 @@ void for_each_sample(
   }
 }
 
-/// How many runs have residuals of every sample.
+/// Number of leading runs that have a residual for every sample.
 std::size_t judged_runs(const CalibrationProduct& product) {
   const calibration::Calibration& calibration = product.calibration;
   std::size_t count = 0;
@@ -67,7 +67,7 @@ Extent alpha_extent(const measurement::Measurement& measurement) {
   return extent;
 }
 
-/// Mean over the samples at each place of α, deg; NaN beyond the first and the last that has any.
+/// Mean over the samples in each bin of α, deg. NaN before the first and after the last bin with samples.
 using Profile = std::array<double, k_places>;
 
 class ProfileSum {
@@ -84,7 +84,7 @@ class ProfileSum {
     });
   }
 
-  /// The mean at each place. Fast runs have fewer rows than there are places: gaps are interpolated linearly.
+  /// The mean in each bin. Fast runs leave bins empty: these are interpolated linearly.
   Profile mean() const {
     Profile profile;
     profile.fill(k_gap);
@@ -160,7 +160,7 @@ constexpr int k_shades = 8;
 constexpr double k_row_height = 11;
 constexpr double k_run_gap = 3;
 
-/// The mean residuals of all runs at one time, two rows per run.
+/// The mean residuals of all runs, before or after: two rows per run.
 struct Map {
   std::vector<std::array<Profile, 2>> rows;  ///< [run][0: α grows, 1: falls]
 };
@@ -213,7 +213,7 @@ std::string map_label(const measurement::Run& run, const std::string& load_unit)
          (load_unit.empty() ? "" : " " + load_unit);
 }
 
-/// Three numbers under the shades from cold to warm.
+/// The shades from cold to warm, and three numbers under them.
 std::string map_scale(double left, double top, double width, double most) {
   std::string svg;
   const double cell = width / (2 * k_shades + 1);
@@ -284,7 +284,7 @@ Figure map_figure(const CalibrationProduct& product, const Map& map, const std::
 
 // ---- load and speed -------------------------------------------------------------------------------------------------
 
-/// One dot a run and direction.
+/// One dot for each run and direction.
 struct Level {
   double at = 0;
   double residual = 0;  ///< deg
@@ -431,7 +431,7 @@ std::string residual_runs_html(const CalibrationProduct& product) {
   return lead + "</p><div class=\"runs" + (wide ? "" : " many") + "\">" + html + "</div>";
 }
 
-std::string rest_html(const CalibrationProduct& product) {
+std::string residual_html(const CalibrationProduct& product) {
   const Extent alpha = alpha_extent(product.measurement);
   const std::size_t judged = judged_runs(product);
   if (judged == 0 || !alpha.any()) return "";
@@ -454,14 +454,14 @@ std::string rest_html(const CalibrationProduct& product) {
   return single(plot);
 }
 
-std::string unknown_html(const calibration::DiscrepancyComponent& unknown) {
-  if (unknown.alpha.size() < 2) return "";
+std::string discrepancy_html(const calibration::DiscrepancyComponent& part) {
+  if (part.alpha.size() < 2) return "";
   PlotSeries course{"", Ink::third, {}};
-  for (std::size_t i = 0; i < unknown.alpha.size(); ++i)
-    course.points.emplace_back(degrees(unknown.alpha[i]), degrees(unknown.theta[i]));
-  Plot plot{"Unmodelled, by " + unknown.factor,
+  for (std::size_t i = 0; i < part.alpha.size(); ++i)
+    course.points.emplace_back(degrees(part.alpha[i]), degrees(part.theta[i]));
+  Plot plot{"Unmodelled, by " + part.factor,
             {"motor angle α", "°", {}, {}, 1e-6},
-            {"largest there", "°", {}, {}, 1e-3},
+            {"largest error", "°", {}, {}, 1e-3},
             {course},
             {},
             {}};
@@ -504,11 +504,11 @@ std::string compensation_html(const CalibrationProduct& product) {
     down.points.emplace_back(degrees(row.theta), degrees(row.alpha_down - declared));
     constant += (up.points.back().y() + down.points.back().y()) / (2.0 * static_cast<double>(table.size()));
   }
-  // A free zero of the joint leaves a constant undetermined, which would dwarf everything else.
+  // If the zero of the joint is free, the table has an arbitrary constant. It would dwarf everything else in the plot.
   for (PlotSeries* series : {&up, &down}) {
     for (Vec2& point : series->points) point.y() -= law ? 0 : constant;
   }
-  Plot plot{"compensation.csv against the declared law",
+  Plot plot{"compensation.csv against the target motion",
             {"joint angle θ", "°", {}, {}, 1e-3},
             {law ? "added to α" : "added to α, less a constant", "°", {}, {}, 1e-2},
             {up, down},

@@ -14,13 +14,13 @@ std::string residual_map_html(const CalibrationProduct& product);
 std::string residual_runs_html(const CalibrationProduct& product);
 /// Mean residual of each run and direction over load and over speed, where these vary.
 std::string residual_levels_html(const CalibrationProduct& product);
-/// The residual of all runs over α, on an axis of its own with the noise floor.
-std::string rest_html(const CalibrationProduct& product);
-/// An unmodelled part over α.
-std::string unknown_html(const calibration::DiscrepancyComponent& unknown);
+/// The mean residual of all runs over α, on an axis of its own, with the noise floor.
+std::string residual_html(const CalibrationProduct& product);
+/// A component of the discrepancy over α.
+std::string discrepancy_html(const calibration::DiscrepancyComponent& part);
 /// The empirical curve over α, both ways; "" where the table has none.
 std::string curve_html(const CalibrationProduct& product);
-/// Required motor angle, minus that of the declared law.
+/// The required motor angle minus that of the target motion, over θ.
 std::string compensation_html(const CalibrationProduct& product);
 /// θ over α as it was logged: for data that cannot be judged.
 std::string logged_html(const measurement::Measurement& measurement);

@@ -66,7 +66,7 @@ std::string cause_table_section(const CalibrationProduct& product) {
                       html_table({titles[0], titles[1], titles[2], std::string("#") + titles[3], titles[4]}, rows));
 }
 
-/// A section that opens where it is asked for.
+/// The section, closed until its title is clicked.
 std::string folded(const std::string& section) {
   const std::size_t title = section.find("<h2>"), end = section.find("</h2>");
   if (title == std::string::npos) return section;
@@ -81,11 +81,12 @@ std::string summary_section(const calibration::Calibration& calibration) {
           (calibration.noise_varies.empty() ? "" : "<p>" + safe_text(calibration.noise_varies) + "</p>"));
 }
 
-std::string slips_section(const CalibrationProduct& product) {
+std::string input_error_section(const CalibrationProduct& product) {
   if (product.input_errors.empty()) return "";
-  return html_section("slips", "Likely input error",
-                      "<p class=\"lead\">No effect explains these data. What follows would: look there first.</p>" +
-                          html_list(input_error_texts(product)));
+  return html_section(
+      "slips", "Likely input error",
+      "<p class=\"lead\">No effect explains these data, but these errors of the file or log do. Check them first.</p>" +
+          html_list(input_error_texts(product)));
 }
 
 std::string key_numbers(const CalibrationProduct& product) {
@@ -95,7 +96,7 @@ std::string key_numbers(const CalibrationProduct& product) {
               degree_words(c.before.held_out_rms) + " → " + degree_words(c.after.held_out_rms));
   numbers.add("Largest error", degree_words(c.before.max) + " → " + degree_words(c.after.max));
   numbers.add("Noise floor", degree_words(c.noise.rms), c.noise.from_repeats ? "from repeats" : "at least: no repeats");
-  if (c.noise.rms > 0) numbers.add("Residual, per noise floor", readable(c.after.rms / c.noise.rms, 2));
+  if (c.noise.rms > 0) numbers.add("Residual / noise floor", readable(c.after.rms / c.noise.rms, 2));
   numbers.add("Unexplained beyond the noise, RMS", degree_words(c.unexplained_rms));
   numbers.add("Reversal error (ISO 230-2 B)", degree_words(c.iso_before.B) + " → " + degree_words(c.iso_after.B));
   if (product.correction.has_pulley)
@@ -116,14 +117,13 @@ std::string held_out_words(const CalibrationProduct& product) {
   const calibration::Calibration& calibration = product.calibration;
   const std::size_t runs = product.measurement.runs.size();
   const bool named = calibration.held_out_runs.size() < runs;
-  std::string words = "The error on data that were not fitted ";
-  words += named       ? "is that of " + joined(calibration.held_out_runs, ", ")
-           : runs == 1 ? "leaves out strokes in turn"
-                       : "leaves out whole runs in turn";
+  std::string words = "Data that were not fitted: ";
+  words += named ? joined(calibration.held_out_runs, ", ") : runs == 1 ? "each stroke in turn" : "each run in turn";
+  words += ".";
   if (!calibration.held_out_factors.empty())
-    words +=
-        "; what decides between effects leaves out whole levels of " + joined(calibration.held_out_factors, " and of ");
-  return words + ".";
+    words += " For the choice between effects: each level of " +
+             joined(calibration.held_out_factors, " in turn, and each level of ") + " in turn.";
+  return words;
 }
 
 std::string figures_section(const CalibrationProduct& product) {
@@ -139,11 +139,11 @@ std::string figures_section(const CalibrationProduct& product) {
       figures_row("ISO 230-2 B, reversal", c.iso_before.B, c.iso_after.B) +
       figures_row("ISO 230-2 E, systematic", c.iso_before.E, c.iso_after.E) +
       figures_row("ISO 230-2 M, mean of both ways", c.iso_before.M, c.iso_after.M);
-  return html_section(
-      "figures", "Before and after",
-      "<p class=\"lead\">Before: the joint as the file declares it, nothing fitted but free zeros. After: "
-      "with the effects below. " +
-          safe_text(held_out_words(product)) + "</p>" + html_table({"at the joint", "#before", "#after"}, rows));
+  return html_section("figures", "Before and after",
+                      "<p class=\"lead\">Before: the joint as the file declares it; only free zeros are fitted. After: "
+                      "with the identified effects. " +
+                          safe_text(held_out_words(product)) + "</p>" +
+                          html_table({"at the joint", "#before", "#after"}, rows));
 }
 
 // ---- what to do -----------------------------------------------------------------------------------------------------
@@ -310,56 +310,58 @@ std::string residuals_section(const CalibrationProduct& product) {
 std::string covered_html(const CalibrationProduct& product) {
   const std::string words = curve_words(product);
   if (words.empty()) return "";
-  return "<h3>What of it the table covers</h3><p>" + safe_text(first_upper(words)) + ".</p>" + curve_html(product);
+  return "<h3>The part that the table corrects</h3><p>" + safe_text(first_upper(words)) + ".</p>" + curve_html(product);
 }
 
 std::string described_html(const std::string& heading, const std::vector<calibration::DiscrepancyComponent>& parts) {
   std::string html = parts.empty() ? "" : "<h3>" + heading + "</h3>";
   for (const calibration::DiscrepancyComponent& part : parts)
-    html += "<p>" + safe_text(first_upper(unknown_words(part))) + ".</p>" + unknown_html(part);
+    html += "<p>" + safe_text(first_upper(discrepancy_words(part))) + ".</p>" + discrepancy_html(part);
   return html;
 }
 
-std::string rest_section(const CalibrationProduct& product) {
+std::string remainder_section(const CalibrationProduct& product) {
   const calibration::Calibration& calibration = product.calibration;
-  const std::string plot = rest_html(product);
+  const std::string plot = residual_html(product);
   if (plot.empty()) return "";
   const std::string words = calibration.unexplained_where.empty()
                                 ? "The residual is at the noise floor."
                                 : "Unexplained beyond the noise: " + degree_words(calibration.unexplained_rms) +
                                       " rms, " + calibration.unexplained_where + ".";
-  const std::string colour = " Neighbouring rows of it are correlated by " +
-                             readable(calibration.residual_autocorrelation, 2) +
-                             "; noise would be near 0. Dashed: the noise floor of a single row.";
-  const std::string unknown =
+  const std::string correlation = " The correlation of neighbouring rows is " +
+                                  readable(calibration.residual_autocorrelation, 2) +
+                                  "; that of noise is near 0. Dashed: the noise floor of a single row.";
+  const std::string parts =
       described_html("Unmodelled, by what it depends on", calibration.discrepancy) + covered_html(product);
-  return html_section("rest", "Residual", "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot + unknown);
+  return html_section("unexplained", "Unexplained residual",
+                      "<p class=\"lead\">" + safe_text(words + correlation) + "</p>" + plot + parts);
 }
 
 // ---- evidence -------------------------------------------------------------------------------------------------------
 
-/// True if `name` is in the group of an effect that another names.
-bool is_as_good(const calibration::Calibration& calibration, const std::string& name) {
+/// True if `name` is a further member of an identified effect's group.
+bool is_equally_likely(const calibration::Calibration& calibration, const std::string& name) {
   return std::any_of(
       calibration.effects.begin(), calibration.effects.end(), [&](const calibration::FoundEffect& effect) {
         return name != effect.name && std::find(effect.group.begin(), effect.group.end(), name) != effect.group.end();
       });
 }
 
-std::string evidence_row(const calibration::Candidate& candidate, double most, bool as_good) {
+std::string evidence_row(const calibration::Candidate& candidate, double most, bool equally_likely) {
   const double width = most > 0 ? std::clamp(100 * candidate.evidence / most, 0.0, 100.0) : 0;
   return std::string("<tr") +
          (candidate.accepted ? " class=\"taken\""
-          : as_good          ? " class=\"alike\""
+          : equally_likely   ? " class=\"alike\""
                              : "") +
          ">" +
          html_cell((candidate.accepted ? "✓ "
-                    : as_good          ? "≈ "
+                    : equally_likely   ? "≈ "
                                        : "") +
                    open_words(candidate.name)) +
          "<td class=\"bar\"><span style=\"width:" + fixed(width, 1) + "%\"></span></td>" +
          html_number_cell(std::isfinite(candidate.evidence) ? calibration::odds(candidate.evidence) : "–") +
-         html_cell(candidate.why + (as_good ? "; equally likely in place of another" : "")) + "</tr>";
+         html_cell(candidate.why + (equally_likely ? "; equally likely in place of an identified effect" : "")) +
+         "</tr>";
 }
 
 std::string evidence_section(const calibration::Calibration& calibration) {
@@ -372,12 +374,13 @@ std::string evidence_section(const calibration::Calibration& calibration) {
     most = std::isfinite(candidate.evidence) ? std::max(most, candidate.evidence) : most;
   std::string rows;
   for (const calibration::Candidate& candidate : all)
-    rows += evidence_row(candidate, most, !candidate.accepted && is_as_good(calibration, candidate.name));
+    rows += evidence_row(candidate, most, !candidate.accepted && is_equally_likely(calibration, candidate.name));
   if (rows.empty()) return "";
   return html_section(
       "evidence", "Evidence",
-      "<p class=\"lead\">Odds of the data with an effect to those without it, beside all identified effects and a "
-      "discrepancy that may take any smooth shape. A reported effect requires 400 : 1.</p>" +
+      "<p class=\"lead\">How many times likelier the data are with an effect than without it. All other identified "
+      "effects, and an unmodelled cause of any smooth shape, are allowed in both cases. A reported effect requires "
+      "400 : 1.</p>" +
           html_table({"effect", "", "#odds", "why"}, rows));
 }
 
@@ -387,8 +390,8 @@ std::string detectable_section(const calibration::Calibration& calibration) {
     rows += "<tr>" + html_number_cell(degree_words(size)) + html_cell(open_words(joined(names, ", "))) + "</tr>";
   if (rows.empty()) return "";
   return html_section("detectable", "Detectable sizes",
-                      "<p class=\"lead\">The smallest error at the joint, rms, at which these data would have shown an "
-                      "effect that was not identified.</p>" +
+                      "<p class=\"lead\">Effects that were not identified: each one moves the joint by less than this, "
+                      "rms. These runs would have shown a larger one.</p>" +
                           html_table({"#at the joint", "effects"}, rows));
 }
 
@@ -412,14 +415,14 @@ std::string calibration_report_html(const CalibrationProduct& product) {
             .name = product.file.mechanism.name,
             .source = std::to_string(runs) + (runs == 1 ? " run" : " runs") + " against <code>" +
                       safe_text(std::filesystem::path(product.file.path).filename().string()) + "</code>",
-            .body = verdict_section(product) + cause_table_section(product) + slips_section(product),
+            .body = verdict_section(product) + cause_table_section(product) + input_error_section(product),
             .foot = "Angles in degrees at the joint, lengths in mm, forces in N.",
             .styles = {embedded::figure_css, embedded::page_css, embedded::calibration_css},
             .scripts = {embedded::readout_js, joint_script(product.file.mechanism)}};
   if (calibration.verdict != calibration::CalibrationVerdict::not_testable) {
     for (const std::string& section :
          {summary_section(calibration), action_section(product), key_numbers(product), effects_section(product),
-          moving_section(product), residuals_section(product), rest_section(product), figures_section(product),
+          moving_section(product), residuals_section(product), remainder_section(product), figures_section(product),
           evidence_section(calibration), detectable_section(calibration)})
       page.body += folded(section);
   } else if (!calibration.next.empty()) {

@@ -63,15 +63,15 @@ std::string audit_words(const calibration::FoundEffect& effect) {
 std::string unmodelled_words(const calibration::FoundEffect& effect) {
   if (effect.group.empty() || effect.group.back() != calibration::k_unmodelled) return "";
   const calibration::UnmodelledAlternative& rival = effect.unmodelled;
-  const std::string in_its_place = (rival.words.empty() ? "a smooth curve" : rival.words) +
-                                   " in its place; odds for the reported cause " + calibration::odds(rival.log_odds);
-  return "Or an unmodelled cause with the same effect: " + in_its_place +
+  const std::string alternative = (rival.words.empty() ? "a smooth curve" : rival.words) +
+                                  ". Odds for the reported cause: " + calibration::odds(rival.log_odds);
+  return "Or an unmodelled cause with the same effect: " + alternative +
          (rival.separating_run.empty() ? "." : ". To distinguish them: " + rival.separating_run + ".");
 }
 
 std::string beside_words(const calibration::FoundEffect& effect, const std::string& load_unit) {
   std::vector<std::string> members;
-  for (const calibration::MemberBeside& member : effect.beside) {
+  for (const calibration::GroupMember& member : effect.beside) {
     std::vector<std::string> numbers;
     for (const calibration::FittedParameter& own : member.parameters)
       numbers.push_back(parameter_words(own, load_unit));
@@ -79,12 +79,11 @@ std::string beside_words(const calibration::FoundEffect& effect, const std::stri
   }
   if (members.empty()) return "";
   return "Perhaps " + joined(members, " and ") +
-         " beside it: with both, as in corrected.toml and compensation.csv, runs that were left out are "
-         "predicted best.";
+         " acts too: with both, as in corrected.toml and compensation.csv, held-out runs are predicted best.";
 }
 
-std::string unknown_words(const calibration::DiscrepancyComponent& unknown) {
-  return rounded(degrees(unknown.rms), 2) + "° rms, " + unknown.factor + ": " + unknown.words;
+std::string discrepancy_words(const calibration::DiscrepancyComponent& part) {
+  return rounded(degrees(part.rms), 2) + "° rms, " + part.factor + ": " + part.words;
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& between) {
@@ -166,7 +165,7 @@ std::string seen_words(const std::vector<double>& seen, const std::string& unit)
   return (from == to ? from : from + " … " + to) + unit;
 }
 
-/// Between which angles, loads and speeds.
+/// The ranges of angle, load and speed in which the data were measured.
 std::string where_seen(const CalibrationProduct& product) {
   const calibration::EmpiricalCurve& curve = product.calibration.curve;
   std::vector<double> loads, speeds;
@@ -225,10 +224,10 @@ std::vector<std::string> shortened_notes(const std::vector<std::string>& notes) 
   constexpr std::size_t k_shown_alike = 2;
   std::map<std::string, std::size_t> count;
   for (const std::string& note : notes) ++count[gist(note)];
-  std::map<std::string, std::size_t> said;
+  std::map<std::string, std::size_t> seen;
   std::vector<std::string> shown;
   for (const std::string& note : notes) {
-    const std::size_t all = count[gist(note)], nth = ++said[gist(note)];
+    const std::size_t all = count[gist(note)], nth = ++seen[gist(note)];
     if (nth <= k_shown_alike || all == k_shown_alike + 1) {
       shown.push_back(note);
     } else if (nth == k_shown_alike + 1) {

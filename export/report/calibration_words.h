@@ -18,15 +18,15 @@ struct NameAndUnit {
 NameAndUnit name_and_unit(const std::string& parameter, const std::string& load_unit);
 std::string joined(const std::vector<std::string>& words, const std::string& between);
 
-/// "In 200 simulated joints without backlash, these runs would have reported it in 1."; "" where none were simulated.
+/// "In 200 simulated joints without backlash, these runs would have reported it in 1."; "" if none were simulated.
 std::string audit_words(const calibration::FoundEffect& effect);
-/// "Or an unmodelled cause: a wave of 1.9 times a turn of the motor is 4.6 nats behind."; "" where the group holds
-/// names alone.
+/// "Or an unmodelled cause with the same effect: a wave of 1.9 times a turn of the motor. Odds for the reported cause:
+/// 99 : 1."; "" if the group has no unmodelled member.
 std::string unmodelled_words(const calibration::FoundEffect& effect);
-/// "Perhaps joint sensor gain (gain = 1.26 % …) beside it: with both … runs that were left out are predicted best."; ""
-/// where no member of its group is handed over beside it.
+/// "Perhaps joint sensor gain (gain = 1.26 % …) acts too: with both … held-out runs are predicted best."; "" if no member
+/// of its group is reported beside it.
 std::string beside_words(const calibration::FoundEffect& effect, const std::string& load_unit);
 /// "0.021° rms, place: the same at a place whichever way …"
-std::string unknown_words(const calibration::DiscrepancyComponent& unknown);
+std::string discrepancy_words(const calibration::DiscrepancyComponent& part);
 
 }  // namespace fusee::formats

@@ -23,7 +23,7 @@ namespace {
 
 // ---- words ----------------------------------------------------------------------------------------------------------
 
-/// How a change of a number is said; % stands for its size with its unit.
+/// The words for a change of a number; % is replaced by its size and unit.
 struct ChangeWords {
   std::string_view effect;
   std::string_view parameter;
@@ -92,7 +92,7 @@ std::string percentage_sign_filled(std::string_view text, const std::string& siz
   return words;
 }
 
-/// The number that says most: its change by the width of its interval. One without an interval follows from others.
+/// The most significant number: the largest ratio of change to interval width. A number without an interval follows from others.
 const calibration::ChangedParameter* leading(const calibration::StateChange& change) {
   const auto certainty = [](const calibration::ChangedParameter& p) {
     return p.high > p.low ? std::abs(p.change()) / (p.high - p.low) : 0.0;

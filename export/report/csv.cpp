@@ -40,7 +40,7 @@ void put_outline(std::string& table, const profile::Outline& outline, double z) 
 }
 
 void put_spiral(std::string& table, transmission::Side side, const helix::Spiral& spiral,
-                const coil::SpiralPlace& place) {
+                const helical_solid::SpiralPlace& place) {
   const std::string pulley = std::string(transmission::pulley_name(side)) + ",";
   for (std::size_t i = 0; i < spiral.rows.size(); ++i) {
     const helix::SpiralRow& row = spiral.rows[i];
@@ -110,7 +110,7 @@ std::string pitch_curve_csv(const Product& product, transmission::Side side) {
   std::string table = "x_mm,y_mm,z_mm\n";
   const auto put = [&table](double x, double y, double z) { put_row(table, std::array{x, y, z}); };
   if (product.helix) {
-    const coil::SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
+    const helical_solid::SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
     for (const helix::SpiralRow& row : product.helix->synthesis.sides[left ? 0 : 1].spiral.rows)
       put(row.x, row.y, place.height(row.z));
     return table;

@@ -30,7 +30,7 @@ std::vector<Vec2> stretch(const std::vector<helix::SpiralRow>& rows, std::size_t
 }  // namespace
 
 std::string helix_heights(const Product& product) {
-  const coil::TendonsLaid ends = product.helix->laid(product.joint.mechanism.guides.collar);
+  const helical_solid::TendonsLaid ends = product.helix->laid(product.joint.mechanism.guides.collar);
   return (ends.collar ? "The collars hold tendon 1 at " : "Tendon 1 ends on the joint at ") + readable(ends.z1, 1) +
          " mm and tendon 2 at " + readable(ends.z2, 1) + " mm above the pulley’s lower face" +
          (ends.collar ? "." : ", and the guide pins are smooth cylinders over all heights between.");

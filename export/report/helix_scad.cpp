@@ -1,4 +1,4 @@
-// The rows of both grooves on one fan of directions, coarser than the mesh of src/coil. The OpenSCAD program joins
+// The rows of both grooves on one fan of directions, coarser than the mesh of src/helical_solid. The OpenSCAD program joins
 // them.
 #include "export/report/helix_scad.h"
 
@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "coil/helical_plan.h"
-#include "coil/winding.h"
 #include "export/report/scad_words.h"
 #include "fusee/base.h"
+#include "helical_solid/helical_plan.h"
+#include "helical_solid/winding.h"
 
 namespace fusee::formats {
 
@@ -23,40 +23,40 @@ namespace {
 constexpr double k_helical_sagitta = 0.02;
 
 /// The anchor at the lower face (P1) or the upper face (P2).
-const coil::HelicalAnchor& anchor_of(const Product& product, transmission::Side side) {
-  const std::vector<coil::HelicalAnchor>& all = product.helix->pulley.anchors;
+const helical_solid::HelicalAnchor& anchor_of(const Product& product, transmission::Side side) {
+  const std::vector<helical_solid::HelicalAnchor>& all = product.helix->pulley.anchors;
   return *std::find_if(all.begin(), all.end(),
-                       [side](const coil::HelicalAnchor& anchor) { return anchor.side == side; });
+                       [side](const helical_solid::HelicalAnchor& anchor) { return anchor.side == side; });
 }
 
-coil::Fan coarse_fan(const Product& product) {
+helical_solid::Fan coarse_fan(const Product& product) {
   const HelixProduct& helix = *product.helix;
   const solid::BodyLayout& layout = product.pulley.layout;
   const double half = 0.5 * layout.tendon_diameter;
   // Length of solid around the channel and its pocket.
   double filled = 0;
-  for (const coil::HelicalAnchor& anchor : helix.pulley.anchors)
+  for (const helical_solid::HelicalAnchor& anchor : helix.pulley.anchors)
     filled = std::max(filled, anchor.bend_radius + 2.0 * anchor.pocket_radius + layout.min_wall);
-  return coil::make_fan(coil::SpiralCurve(helix.synthesis.sides[0].spiral, helix.pulley.p1),
-                        coil::SpiralCurve(helix.synthesis.sides[1].spiral, helix.pulley.p2), layout.groove_depth - half,
-                        half, k_helical_sagitta, filled);
+  return helical_solid::make_fan(helical_solid::SpiralCurve(helix.synthesis.sides[0].spiral, helix.pulley.p1),
+                                 helical_solid::SpiralCurve(helix.synthesis.sides[1].spiral, helix.pulley.p2),
+                                 layout.groove_depth - half, half, k_helical_sagitta, filled);
 }
 
 std::string run_out_array(const Product& product) {
   std::string text =
       "// The run-out of each groove's end: bend radius, middle of the knot pocket, its depth.\nrun_outs = [";
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
-    const coil::HelicalAnchor& anchor = anchor_of(product, side);
+    const helical_solid::HelicalAnchor& anchor = anchor_of(product, side);
     text += fmt::format("{}[{}, {}, {}]", side == transmission::Side::left ? "" : ", ", decimal(anchor.bend_radius),
                         point_text(anchor.pocket.head<2>()), decimal(anchor.pocket_depth));
   }
   return text + "];\n\n";
 }
 
-std::string rows_array(const char* name, const coil::Winding& winding, double half) {
+std::string rows_array(const char* name, const helical_solid::Winding& winding, double half) {
   std::string text = fmt::format("{} = [", name);
   for (std::size_t j = 0; j < winding.rows.size(); ++j) {
-    const coil::WindingRow& row = winding.rows[j];
+    const helical_solid::WindingRow& row = winding.rows[j];
     const Vec2 floor = row.position - half * row.normal;
     text += (j == 0       ? "\n  "
              : j % 3 == 0 ? ",\n  "
@@ -67,12 +67,12 @@ std::string rows_array(const char* name, const coil::Winding& winding, double ha
   return text + "];\n";
 }
 
-std::string groove_edges_text(const char* name, const coil::Winding& winding) {
+std::string groove_edges_text(const char* name, const helical_solid::Winding& winding) {
   return fmt::format("{} = [{}, {}];", name, decimal(winding.bulge_low), decimal(winding.bulge_high));
 }
 
 /// `made`: the fan that the part was cut from, which has the projections of its groove edges.
-std::string spiral_arrays(const coil::Fan& fan, const coil::Fan& made, double half) {
+std::string spiral_arrays(const helical_solid::Fan& fan, const helical_solid::Fan& made, double half) {
   return "// The groove floors from end to end: x, y, the direction in which the floor looks, degrees, and the height "
          "of "
          "the tendon's\n// centre line there. A turn has as many rows as the fan has columns.\n" +

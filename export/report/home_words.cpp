@@ -11,7 +11,7 @@ namespace {
 /// Place of the knot of tendon 2, in the frame of the mesh.
 std::optional<Vec2> knot_of_tendon2(const Product& product) {
   if (product.helix) {
-    for (const coil::HelicalAnchor& anchor : product.helix->pulley.anchors) {
+    for (const helical_solid::HelicalAnchor& anchor : product.helix->pulley.anchors) {
       if (anchor.side == transmission::Side::right) return Vec2(anchor.pocket.head<2>());
     }
     return std::nullopt;

@@ -65,7 +65,7 @@ Json as_built_json(const profile::RewindResult& as_built) {
           {"max_slack_at_alpha_deg", number(degrees(as_built.max_excess_at))}};
 }
 
-Json fleet_json(const coil::HelicalRewind& as_built) {
+Json fleet_json(const helical_solid::HelicalRewind& as_built) {
   return {{"max_fleet_angle_deg", number(degrees(as_built.max_fleet))},
           {"max_fleet_angle_at_alpha_deg", number(degrees(as_built.max_fleet_at))}};
 }
@@ -80,7 +80,7 @@ Json grooves_json(const solid::BodyLayout& layout) {
 Json helical_groove_json(const Product& product, transmission::Side which) {
   const bool left = which == transmission::Side::left;
   const helix::HelixSide& side = product.helix->synthesis.sides.at(left ? 0 : 1);
-  const coil::SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
+  const helical_solid::SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
   const double scale = product.pulley.layout.scale;
   const auto height = [&](double z) { return number(scale * place.height(z)); };
   const double first = side.spiral.rows.at(side.spiral.first_used).z,

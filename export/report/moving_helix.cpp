@@ -25,7 +25,7 @@ std::string numbers_text(std::size_t count, int decimals, Number number) {
 }
 
 /// x, y, height and turn of rows with a minimum spacing.
-std::string drawn_rows(const helix::Spiral& spiral, const coil::SpiralPlace& place) {
+std::string drawn_rows(const helix::Spiral& spiral, const helical_solid::SpiralPlace& place) {
   std::string text = "[";
   double drawn = -1e9;
   for (std::size_t i = 0; i < spiral.rows.size(); ++i) {
@@ -41,9 +41,9 @@ std::string drawn_rows(const helix::Spiral& spiral, const coil::SpiralPlace& pla
 std::string side_json(const Product& product, std::size_t i) {
   const HelixProduct& helix = *product.helix;
   const helix::HelixSide& side = helix.synthesis.sides.at(i);
-  const coil::SpiralPlace& place = i == 0 ? helix.pulley.p1 : helix.pulley.p2;
+  const helical_solid::SpiralPlace& place = i == 0 ? helix.pulley.p1 : helix.pulley.p2;
   const std::vector<transmission::TransmissionPoint>& stroke = product.synthesis.stroke;
-  // Per mm towards the joint, which is shorter than the path in its own plane.
+  // Rise per mm in the direction of the joint. That distance is shorter than the path in the tendon's own plane.
   const auto climb = [&](std::size_t k) {
     const transmission::TendonPoint& tendon = i == 0 ? stroke[k].t1 : stroke[k].t2;
     return -place.direction * std::tan(side.stroke[k].slope) / std::abs(std::cos(tendon.lower_normal));
@@ -77,8 +77,8 @@ std::string moving_helix(const Product& product) {
   figure.width = 900;
   figure.height = 320;
   figure.title = "The pulley from the side, and both tendons";
-  figure.body = "<g class=\"climbing-scene\"></g>";
-  return "<div class=\"moving climbing\"><div class=\"controls\" hidden=\"hidden\"><button type=\"button\" "
+  figure.body = "<g class=\"helix-scene\"></g>";
+  return "<div class=\"moving helix\"><div class=\"controls\" hidden=\"hidden\"><button type=\"button\" "
          "class=\"play\" aria-pressed=\"false\">Play</button><label for=\"alpha\">Pulley angle α</label><input "
          "id=\"alpha\" type=\"range\" min=\"" +
          trimmed_fixed(degrees(stroke.front().alpha), 3) + "\" max=\"" +

@@ -1,10 +1,10 @@
 // Side view of both helical tendons for the slider's α: the turned spirals, and the take-offs of the tendons.
 // Lengths in mm, angles in degrees; right is +y, towards the joint, up is the pulley's axis.
 (() => {
-  const box = document.querySelector(".climbing");
+  const box = document.querySelector(".moving.helix");
   if (!box) return;
   const data = JSON.parse(document.getElementById("climb").textContent), radian = Math.PI / 180;
-  const slider = box.querySelector("#alpha"), play = box.querySelector(".play"), scene = box.querySelector(".climbing-scene");
+  const slider = box.querySelector("#alpha"), play = box.querySelector(".play"), scene = box.querySelector(".helix-scene");
   const reach = Math.max(...data.sides.flatMap(side => side.rows.map(row => Math.hypot(row[0], row[1]))));
   const beyond = 0.15 * data.pin, width = reach + data.pin + beyond;
   const scale = Math.min(860 / width, 280 / data.top), left = 20 + scale * reach, foot = 160 + scale * data.top / 2;

@@ -106,7 +106,8 @@ std::string json_effect(const correction::RehearsedEffect& effect) {
   return text + "]}";
 }
 
-/// The end of a tendon, and its angle on the drum at home, which is negative while it is clear of the drum.
+/// The end of a tendon. `lies`: joint angle up to which it lies on the drum (−1000: never). `normal`: normal of the line
+/// from drum to pin, which is constant up to that angle.
 std::string json_end(const Mechanism& mechanism, transmission::Side side) {
   const transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.guide_pitch_radius());
   double lies = -1e3, normal = 0;
@@ -163,7 +164,7 @@ std::string number_row(const std::string& words, const std::string& name) {
   return "<div><dt>" + words + "</dt><dd data-show=\"" + name + "\">–</dd></div>";
 }
 
-/// `name`: of the slider and of the output beside it.
+/// `name`: id of the slider, and key of the output beside it.
 std::string slider(const std::string& words, const std::string& name, double low, double high, double value) {
   return "<label for=\"" + name + "\">" + words + "</label><input id=\"" + name + "\" type=\"range\" min=\"" +
          trimmed_fixed(low, 3) + "\" max=\"" + trimmed_fixed(high, 3) + "\" step=\"any\" value=\"" +
@@ -207,7 +208,7 @@ std::string numbers_list(bool imperfect, const Joint& joint) {
          number_row(joint.attachment1 ? "Tendon 1, at A1 / at P1" : "Tendon 1, at C / at P1", "tendon1") +
          number_row(joint.attachment2 ? "Tendon 2, at A2 / at P2" : "Tendon 2, at C / at P2", "tendon2") +
          number_row("Motor torque", "torque") + number_row("Turning", "way") +
-         (imperfect ? number_row("Off the declared law", "off") : "") + "</dl>";
+         (imperfect ? number_row("Deviation from the target motion", "off") : "") + "</dl>";
 }
 
 std::string moving(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
@@ -232,15 +233,15 @@ std::string moving_joint(const Mechanism& mechanism, const profile::SynthesisRes
 
 namespace {
 
-/// True if all words of `asked` ("drum+sheath") apply to the joint.
-bool is_for(std::string_view asked, const std::vector<std::string_view>& words) {
-  const std::size_t plus = asked.find('+');
+/// True if all words of `required` ("drum+sheath") apply to the joint.
+bool is_for(std::string_view required, const std::vector<std::string_view>& words) {
+  const std::size_t plus = required.find('+');
   if (plus != std::string_view::npos)
-    return is_for(asked.substr(0, plus), words) && is_for(asked.substr(plus + 1), words);
-  return std::find(words.begin(), words.end(), asked) != words.end();
+    return is_for(required.substr(0, plus), words) && is_for(required.substr(plus + 1), words);
+  return std::find(words.begin(), words.end(), required) != words.end();
 }
 
-/// Keeps the lines that apply to a joint: those that end in `//=` and words require all of these words.
+/// The script for a joint with these words. A line that ends in `//=` and words is kept only if all of them are given.
 std::string lines_for(const std::vector<std::string_view>& words) {
   std::string script;
   std::string_view rest = embedded::moving_joint_js;

@@ -1,4 +1,4 @@
-// The moving joint: θ for the slider's α by the declared law, then both tendons as taut strings over pins and pulley, by
+// The moving joint: θ for the slider's α by the target motion, then both tendons as taut strings over pins and pulley, by
 // geometry alone (as in export/report/tendon_trace.cpp). Lengths in mm, angles in degrees.
 // A line that ends in a mark is kept on pages of the joints that the mark names: plain (the paper's layout), drum (a drum or separate //=source
 // attachments), pin (tendons from pin to pulley) or sheath (tendons through sheaths). See joint_script(). //=source

@@ -248,7 +248,7 @@ GrooveBand groove_band(const Product& product, transmission::Side which) {
   const solid::GrooveWalls& walls = left ? layout.p1 : layout.p2;
   const double half = 0.98 * std::min(walls.below_width(), walls.above_width());
   if (!product.helix) return {left ? layout.z_p1 : layout.z_p2, half};
-  const coil::SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
+  const helical_solid::SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
   const std::vector<helix::SpiralRow>& rows = product.helix->synthesis.sides.at(left ? 0 : 1).spiral.rows;
   const double first = place.height(rows.front().z), last = place.height(rows.back().z);
   return {0.5 * (first + last), 0.5 * std::abs(last - first) + half};
@@ -270,7 +270,7 @@ std::string part_view(const Product& product) {
       std::to_string(code->triangles) + "\" data-groove1=\"" + groove_words(product, transmission::Side::left) +
       "\" data-groove2=\"" + groove_words(product, transmission::Side::right) + "\"></canvas>";
   html +=
-      "<div class=\"buttons\" hidden=\"hidden\"><button data-view=\"slanted\">Isometric</button><button "
+      "<div class=\"buttons\" hidden=\"hidden\"><button data-view=\"isometric\">Isometric</button><button "
       "data-view=\"top\">Top</button>"
       "<button data-view=\"side\">Side</button><button data-view=\"below\">Below</button>"
       "<button data-view=\"half\" aria-pressed=\"false\">Cut open</button></div>"
@@ -520,7 +520,7 @@ std::string derived_table(const Product& product) {
          "class=\"number\">Declared</th><th class=\"number\">Built</th></tr></thead><tbody>" +
          rows +
          "</tbody></table></div><p class=\"hint\">These numbers include the file’s [identified] table: with them the "
-         "identified joint follows the declared law.</p>";
+         "identified joint follows the target motion.</p>";
 }
 
 /// Links to files beside the page. `names`: separated by ", ".

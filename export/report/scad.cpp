@@ -172,7 +172,7 @@ std::string array_text(const char* name, const char* words, const std::vector<st
 
 int groove_of(const solid::Anchor& anchor) { return anchor.side == transmission::Side::left ? 1 : 2; }
 
-/// From the start of the channel's straight to the end of its inner edge.
+/// Vector from the start of the channel's straight section to the end of its inner edge.
 Vec2 straight_run(const Polygon& inner, const Vec2& pocket) {
   const Vec2 outward = (pocket - inner.back()).normalized();
   const auto first = std::find_if(inner.begin(), inner.end(), [&](const Vec2& point) {

@@ -49,7 +49,7 @@ TendonLength length_to(const Product& product, const solid::Anchor& anchor) {
 }
 
 /// The length along the sloped path and the groove, then straight from the groove's end to the pocket.
-TendonLength length_on_helix(const Product& product, const coil::HelicalAnchor& anchor) {
+TendonLength length_on_helix(const Product& product, const helical_solid::HelicalAnchor& anchor) {
   const bool left = anchor.side == transmission::Side::left;
   const helix::HelixSide& side = product.helix->synthesis.sides.at(left ? 0 : 1);
   const std::vector<helix::SpiralRow>& rows = side.spiral.rows;
@@ -81,7 +81,7 @@ std::vector<TendonLength> tendon_lengths(const Product& product) {
   std::vector<TendonLength> lengths;
   if (product.synthesis.stroke.empty()) return lengths;
   if (product.helix) {
-    for (const coil::HelicalAnchor& anchor : product.helix->pulley.anchors)
+    for (const helical_solid::HelicalAnchor& anchor : product.helix->pulley.anchors)
       lengths.push_back(length_on_helix(product, anchor));
     return lengths;
   }

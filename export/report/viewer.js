@@ -193,7 +193,7 @@
   const set = change => { Object.assign(view, change); redraw(); };
   const keys = { ArrowLeft: () => orbit(-6, 0), ArrowRight: () => orbit(6, 0), ArrowUp: () => orbit(0, -6), ArrowDown: () => orbit(0, 6), "+": () => zoom(1.15), "=": () => zoom(1.15), "-": () => zoom(1 / 1.15), Home: () => set({ ...home, half: view.half }) };
   canvas.addEventListener("keydown", e => { const act = keys[e.key]; if (act) { e.preventDefault(); act(); } });
-  const views = { slanted: home, top: { turn: -90, lift: 90 }, side: { turn: -90, lift: 0 }, below: { turn: -90, lift: -90 } };
+  const views = { isometric: home, top: { turn: -90, lift: 90 }, side: { turn: -90, lift: 0 }, below: { turn: -90, lift: -90 } };
   for (const button of stage.querySelectorAll("button")) button.addEventListener("click", () => {
     const name = button.dataset.view;
     if (name !== "half") return set({ ...home, ...views[name], half: view.half });

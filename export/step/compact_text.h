@@ -1,4 +1,5 @@
 /// \file
+/// Internal: smaller text of a STEP file.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
 /// \file
+/// Internal: rounding of coordinates in STEP files.
 #pragma once
 
 #include <cmath>

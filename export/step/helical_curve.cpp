@@ -36,7 +36,7 @@ double integral_of(const std::array<double, 6>& powers, double u) {
 }  // namespace
 
 // The Hermite polynomial of degree 5 with the values h, h' and h'' = ρ − h of both rows.
-HelicalCurve::HelicalCurve(const helix::Spiral& spiral, const coil::SpiralPlace& place)
+HelicalCurve::HelicalCurve(const helix::Spiral& spiral, const helical_solid::SpiralPlace& place)
     : slope_(place.direction * spiral.slope) {
   for (std::size_t i = 0; i + 1 < spiral.rows.size(); ++i) {
     const helix::SpiralRow &a = spiral.rows[i], &b = spiral.rows[i + 1];
@@ -70,7 +70,8 @@ double smooth_step(double share) {
   return t * t * t * (10.0 - t * (15.0 - 6.0 * t));
 }
 
-HelicalGroove::HelicalGroove(const helix::Spiral& spiral, const coil::SpiralPlace& place, const coil::Winding& winding)
+HelicalGroove::HelicalGroove(const helix::Spiral& spiral, const helical_solid::SpiralPlace& place,
+                             const helical_solid::Winding& winding)
     : curve_(spiral, place),
       begin_(winding.groove_front().turn),
       end_(winding.groove_back().turn),
@@ -93,7 +94,7 @@ double HelicalGroove::bulge(double turn, bool low) const {
   return most * smooth_step(past / std::min(k_bulge_turn, 0.25 * whole)) * (1.0 - late_step(past / whole));
 }
 
-// As in coil/helical_blank.cpp: the ring leaves the turn in the half with the most clearance and returns to its start.
+// As in helical_solid/helical_blank.cpp: the ring leaves the turn in the half with the most clearance and returns to its start.
 Vec2 HelicalGroove::ring(double direction, bool lowest, double outward) const {
   const double first = lowest ? filled_to_ : filled_from_, inwards = lowest ? -1.0 : 1.0;
   const double away = inwards * (direction - first);

@@ -5,10 +5,10 @@
 #include <array>
 #include <vector>
 
-#include "coil/winding.h"
 #include "fusee/base.h"
-#include "fusee/coil.h"
+#include "fusee/helical_solid.h"
 #include "fusee/helix.h"
+#include "helical_solid/winding.h"
 
 namespace fusee::formats {
 
@@ -16,7 +16,7 @@ namespace fusee::formats {
 /// h' + ∫ h dψ.
 class HelicalCurve {
  public:
-  HelicalCurve(const helix::Spiral& spiral, const coil::SpiralPlace& place);
+  HelicalCurve(const helix::Spiral& spiral, const helical_solid::SpiralPlace& place);
 
   /// (x, y, height). The last piece is extrapolated beyond the rows.
   Vec3 at(double turn) const;
@@ -32,13 +32,14 @@ class HelicalCurve {
   double slope_ = 0;  ///< height per planar length
 };
 
-/// From 0 at 0 to 1 at 1, with two zero derivatives at both ends.
+/// Rises from 0 at 0 to 1 at 1, with two zero derivatives at both ends.
 double smooth_step(double share);
 
 /// A groove of the part, including the continuation of its edges beyond its ends, which follow the turn before.
 class HelicalGroove {
  public:
-  HelicalGroove(const helix::Spiral& spiral, const coil::SpiralPlace& place, const coil::Winding& winding);
+  HelicalGroove(const helix::Spiral& spiral, const helical_solid::SpiralPlace& place,
+                const helical_solid::Winding& winding);
 
   double begin() const { return begin_; }
   double end() const { return end_; }

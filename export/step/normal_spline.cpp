@@ -228,7 +228,7 @@ void SupportCurve::add(const Sample& from, const Sample& to) {
   support_.push_back(
       {h0, d0, e0, 10 * rise - 4 * steeper + bent, -15 * rise + 7 * steeper - 2 * bent, 6 * rise - 3 * steeper + bent});
   for (int k = 1; k < k_samples; ++k) {
-    if (look(support_.size() - 1, width, static_cast<double>(k) / k_samples).radius >= 0) continue;
+    if (values_in(support_.size() - 1, width, static_cast<double>(k) / k_samples).radius >= 0) continue;
     support_.back() = {h0, d0, 3 * (h1 - h0) - 2 * d0 - d1, d0 + d1 - 2 * (h1 - h0), 0, 0};
     return;
   }
@@ -239,7 +239,7 @@ std::size_t SupportCurve::interval_of(double psi) const {
   return static_cast<std::size_t>(above - psi_.begin()) - 1;
 }
 
-SupportCurve::Look SupportCurve::look(std::size_t interval, double width, double u) const {
+SupportCurve::Values SupportCurve::values_in(std::size_t interval, double width, double u) const {
   double h = 0, dh = 0, half_ddh = 0;
   for (auto c = support_[interval].rbegin(); c != support_[interval].rend(); ++c) {
     half_ddh = half_ddh * u + dh;
@@ -249,15 +249,15 @@ SupportCurve::Look SupportCurve::look(std::size_t interval, double width, double
   return {h, dh / width, h + 2 * half_ddh / (width * width)};
 }
 
-SupportCurve::Look SupportCurve::look_at(double psi) const {
+SupportCurve::Values SupportCurve::values_at(double psi) const {
   psi = profile::turned_into(psi_.front(), psi);
   const std::size_t i = interval_of(psi);
   const double width = psi_[i + 1] - psi_[i];
-  return look(i, width, (psi - psi_[i]) / width);
+  return values_in(i, width, (psi - psi_[i]) / width);
 }
 
 Vec2 SupportCurve::at(double psi) const {
-  const Look found = look_at(psi);
+  const Values found = values_at(psi);
   return found.support * unit(psi) + found.slope * turned_left(unit(psi));
 }
 

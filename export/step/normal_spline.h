@@ -24,7 +24,7 @@ class SupportCurve {
 
   Vec2 at(double psi) const;
   /// d point / dψ = radius · tangent.
-  double radius_at(double psi) const { return look_at(psi).radius; }
+  double radius_at(double psi) const { return values_at(psi).radius; }
   /// Directions at which straights end.
   const std::vector<double>& kinks() const { return kinks_; }
 
@@ -36,15 +36,15 @@ class SupportCurve {
     double support() const { return point.dot(unit(psi)); }
     double slope() const { return point.dot(turned_left(unit(psi))); }
   };
-  struct Look {
+  struct Values {
     double support, slope, radius;
   };
 
   static std::optional<std::pair<Sample, Sample>> straight_between(const Sample& from, const Sample& to);
   void add(const Sample& from, const Sample& to);
   std::size_t interval_of(double psi) const;
-  Look look(std::size_t interval, double width, double u) const;
-  Look look_at(double psi) const;
+  Values values_in(std::size_t interval, double width, double u) const;
+  Values values_at(double psi) const;
 
   std::vector<double> psi_;                     ///< the first direction is repeated, a turn on, at the end
   std::vector<std::array<double, 6>> support_;  ///< powers of h over u for each interval

@@ -8,11 +8,11 @@
 #include <map>
 #include <utility>
 
-#include "coil/helical_plan.h"
 #include "export/step/grain.h"
 #include "export/step/helical_curve.h"
 #include "export/step/normal_spline.h"
 #include "fusee/base.h"
+#include "helical_solid/helical_plan.h"
 #include "solid/heights.h"
 
 // The outer surface consists of strands: closed rings, and the corners of both grooves' sections over all turns. Marks
@@ -47,7 +47,7 @@ struct SectionCorner {
   double arc_outward = 0, arc_dz = 0, weight = 1;
 };
 
-std::vector<SectionCorner> section_corners(const coil::HelicalSection& section, const Mechanism& mechanism) {
+std::vector<SectionCorner> section_corners(const helical_solid::HelicalSection& section, const Mechanism& mechanism) {
   const double half = 0.5 * mechanism.tendon.diameter;
   const solid::GrooveWalls& walls = section.walls;
   std::vector<SectionCorner> corners{{walls.below.back().offset - half, -walls.below_width()}};
@@ -117,8 +117,8 @@ struct Wound {
 struct Sector {
   double from = 0, to = 0;
   JointSpline spline;
-  /// By strand and place: of groove edges past their ends, of rings, and, under the first corner's strand, of a groove's
-  /// curve.
+  /// Columns of `spline` by strand and place: groove edges past their ends, rings, and grooves' curves (strand of the
+  /// first corner).
   std::map<Place, Eigen::Index> columns;
 };
 
@@ -749,7 +749,7 @@ class SkinBuilder {
   }
 
   const Mechanism& mechanism_;
-  const coil::HelicalPlan& plan_;
+  const helical_solid::HelicalPlan& plan_;
   const solid::BodyLayout& layout_;
   std::vector<SectionCorner> corners_;
   double groove_edge_;
@@ -767,14 +767,14 @@ class SkinBuilder {
   StepSkin skin_;
 };
 
-StepTool run_out_pocket(const coil::GrooveEnd& end, const coil::RunOutSizes& sizes) {
+StepTool run_out_pocket(const helical_solid::GrooveEnd& end, const helical_solid::RunOutSizes& sizes) {
   constexpr double k_outside = 1.0;
   const auto z = [&](double in) { return end.face - end.outward * in; };
   Polygon section{{0, z(-k_outside)}, {sizes.pocket_radius, z(-k_outside)}};
-  const std::vector<Vec2> profile = coil::pocket_profile(end, sizes);
+  const std::vector<Vec2> profile = helical_solid::pocket_profile(end, sizes);
   for (const Vec2& corner : profile) section.emplace_back(corner.x(), z(corner.y()));
   section.emplace_back(0, z(profile.back().y()));
-  return {{StepTurned{coil::pocket_place(end, sizes), std::move(section), 0, k_two_pi}}};
+  return {{StepTurned{helical_solid::pocket_place(end, sizes), std::move(section), 0, k_two_pi}}};
 }
 
 }  // namespace
@@ -782,11 +782,11 @@ StepTool run_out_pocket(const coil::GrooveEnd& end, const coil::RunOutSizes& siz
 StepSkin helical_skin(const Product& product) { return SkinBuilder(product).build(); }
 
 std::vector<StepTool> run_out_cuts(const Product& product) {
-  const coil::HelicalPlan& plan = *product.helix->pulley.plan;
+  const helical_solid::HelicalPlan& plan = *product.helix->pulley.plan;
   std::vector<StepTool> tools;
   for (std::size_t i = 0; i < plan.ends.size(); ++i) {
     StepChannel channel;
-    for (const coil::ChannelRing& ring : coil::channel_rings(plan.ends[i], plan.run_outs[i], 0))
+    for (const helical_solid::ChannelRing& ring : helical_solid::channel_rings(plan.ends[i], plan.run_outs[i], 0))
       channel.rings.push_back({ring.middle, ring.level, ring.up, ring.radius, ring.gap, ring.ridge});
     tools.push_back({{std::move(channel)}});
     tools.push_back(run_out_pocket(plan.ends[i], plan.run_outs[i]));

@@ -1,4 +1,5 @@
 /// \file
+/// Internal: the faces of a multi-turn pulley for its STEP file.
 #pragma once
 
 #include "export/step/groove_section.h"

@@ -57,7 +57,7 @@ double floor_error(const profile::Outline& outline, double tendon_diameter, doub
 /// Places on the floors of helical grooves under the tendons: half a tendon inside every row of the spirals.
 std::vector<Vec3> floor_places(const HelixProduct& helix, double tendon_diameter, double scale) {
   std::vector<Vec3> places;
-  const coil::SpiralPlace* const lies[] = {&helix.pulley.p1, &helix.pulley.p2};
+  const helical_solid::SpiralPlace* const lies[] = {&helix.pulley.p1, &helix.pulley.p2};
   for (std::size_t k = 0; k < 2; ++k) {
     const helix::Spiral& spiral = helix.synthesis.sides[k].spiral;
     for (std::size_t i = spiral.first_used; i <= spiral.last_used; ++i) {
@@ -91,9 +91,9 @@ StepInspection inspect_step(const fs::path& path, const Product& product, double
   if (product.helix) {
     question.places = floor_places(*product.helix, d, scale);
     question.grounds = [&inspection, scale](const solid::TriangleMesh& mesh) {
-      inspection.helical = coil::helical_floors(mesh, scale);
+      inspection.helical = helical_solid::helical_floors(mesh, scale);
       std::vector<Vec3> places;
-      for (const coil::FloorLine& line : inspection.helical) {
+      for (const helical_solid::FloorLine& line : inspection.helical) {
         for (const Vec3& place : line) places.push_back(scale * place);
       }
       return places;
@@ -120,7 +120,7 @@ StepInspection inspect_step(const fs::path& path, const Product& product, double
   }
   inspection.checks.push_back(at_most("floor_error", error, k_floor_limit, "mm"));
   auto ground = found.grounds.begin();
-  for (coil::FloorLine& line : inspection.helical) {
+  for (helical_solid::FloorLine& line : inspection.helical) {
     for (Vec3& place : line) {
       if (ground != found.grounds.end()) place = *ground++ / scale;
     }

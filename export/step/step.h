@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "fusee/base.h"
-#include "fusee/coil.h"
 #include "fusee/export.h"
+#include "fusee/helical_solid.h"
 
 namespace fusee::formats {
 
@@ -30,7 +30,7 @@ StepFile step_file(const Product& product);
 struct StepInspection {
   std::vector<Check> checks;
   Polygon floor1, floor2;
-  std::vector<coil::FloorLine> helical;
+  std::vector<helical_solid::FloorLine> helical;
 };
 /// `tolerance`: of the mesh that the volume is compared with, mm.
 StepInspection inspect_step(const std::filesystem::path& path, const Product& product, double tolerance);

@@ -1,4 +1,5 @@
 /// \file
+/// Internal: a pulley as the plain values that the OpenCASCADE module converts.
 #pragma once
 
 #include "export/step/step_part.h"

@@ -150,7 +150,7 @@ void take_knots_of(const Handle(Geom_BSplineCurve) & curve, const Handle(Geom_BS
   curve->InsertKnots(values, times, 1e-12, false);
 }
 
-/// A surface through rows of poles over one knot vector; one row more than the degree across.
+/// A surface with rows of poles over one knot vector. Across the rows its degree is their number minus one.
 Handle(Geom_BSplineSurface)
     surface_through(const std::vector<Handle(Geom_BSplineCurve)>& rows, const std::vector<double>& weights) {
   const int across = static_cast<int>(rows.size()), along = rows.front()->NbPoles();
@@ -491,8 +491,8 @@ class ToolMaker {
   }
 
  private:
-  /// The circle from the left foot of the peaked ceiling down and round to its right foot, both sides of the ceiling,
-  /// and the line between its feet.
+  /// Edges of a section with a peaked ceiling: the arc below it, both sides of the ceiling, and the chord between the
+  /// ceiling's feet.
   struct RingEdges {
     TopoDS_Edge circle, right, left, chord;
   };
@@ -575,8 +575,8 @@ TopoDS_Solid only_solid(const TopoDS_Shape& shape) {
   return TopoDS::Solid(solids(1));
 }
 
-/// If a cut meets a face with an uneven parameter, the kernel walks in steps of microns. Replaces such curves by equal
-/// ones with fewer poles, except isoparametric ones.
+/// Replaces curves of many poles by equal ones with fewer poles, except isoparametric ones. The kernel makes them where a
+/// cut meets a face with an uneven parameter, because it steps by microns there.
 void shorten_curves(const TopoDS_Shape& shape) {
   constexpr int k_many_poles = 30, k_most_pieces = 20;
   constexpr double k_near = 1e-6;
@@ -618,7 +618,7 @@ const Zone& zone_of(const TopoDS_Face& face, const StepPart& part) {
   return 0.5 * (low + high) < part.z_mate ? zones[0] : zones[1];
 }
 
-/// Names of the faces, by shape. A file is written from a document of shapes with attributes.
+/// The STEP file of a solid, with the name and colour of each face.
 std::string written(const TopoDS_Solid& solid, const StepPart& part) {
   const Handle(TDocStd_Document) document = new TDocStd_Document("XmlXCAF");
   const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
@@ -647,7 +647,7 @@ std::string written(const TopoDS_Solid& solid, const StepPart& part) {
   if (!writer.Transfer(document, STEPControl_AsIs)) throw std::runtime_error("the solid cannot be written");
   const Handle(XSControl_WorkSession) session = writer.ChangeWriter().WS();
   const Handle(StepData_StepModel) model = Handle(StepData_StepModel)::DownCast(session->Model());
-  // Without date and machine, so that equal parts give equal bytes.
+  // The header has neither date nor machine, so that equal parts give equal bytes.
   APIHeaderSection_MakeHeader header(model);
   header.SetName(new TCollection_HAsciiString("pulley.step"));
   header.SetTimeStamp(new TCollection_HAsciiString("1970-01-01T00:00:00"));
@@ -665,10 +665,10 @@ std::string written(const TopoDS_Solid& solid, const StepPart& part) {
 }
 
 /// Suppresses the kernel's messages. Errors are reported by return values only.
-void be_silent() { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream)); }
+void silence_kernel() { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream)); }
 
 std::string write(const StepPart& part, std::string& complaint) {
-  be_silent();
+  silence_kernel();
   try {
     TopoDS_Shape shape = part.skin ? SkinMaker(*part.skin).solid() : BodyMaker(part).solid();
     shape = combined<BRepAlgoAPI_Cut>(shape, part.cuts);
@@ -729,7 +729,8 @@ bool mesh_closes(const TopoDS_Face& face) {
   return boundary == along_edges;
 }
 
-/// `finely`: fine enough to find grooves in the mesh, and the wall of 0.02 mm that a channel leaves of a groove's end.
+/// Number of faces whose mesh is not closed. `finely`: the mesh must show grooves, and the wall of 0.02 mm between a
+/// channel and the end of a groove.
 int open_faces(const TopoDS_Shape& shape, bool finely) {
   const double sagitta = finely ? 0.01 : 0.05, turn = finely ? 0.2 : 0.3;
   BRepMesh_IncrementalMesh(shape, sagitta, false, turn, false);
@@ -761,7 +762,7 @@ double area_of(const Polygon& points) {
   return area;
 }
 
-/// The loop of the section with the largest area. Its curves are `smooth`, or chords.
+/// The loop of the section with the largest area. `smooth`: curves instead of chords.
 Polygon floor_at(const TopoDS_Shape& shape, double z, bool smooth) {
   BRepAlgoAPI_Section section(shape, gp_Pln(about_axis(z)), false);
   section.Approximation(smooth);
@@ -782,7 +783,8 @@ Polygon floor_at(const TopoDS_Shape& shape, double z, bool smooth) {
   return largest;
 }
 
-/// If no smooth curve is found, as between the halves of elbow_idlers, chords are accurate enough for its size.
+/// The floor with smooth curves. The kernel finds none between the halves of elbow_idlers; for a part of that size chords
+/// are accurate enough.
 Polygon floor_at(const TopoDS_Shape& shape, double z) {
   Polygon floor = floor_at(shape, z, true);
   return floor.empty() ? floor_at(shape, z, false) : floor;
@@ -834,12 +836,12 @@ class Nearest {
   /// Distance from the surfaces that have a node nearby; infinite if there is none.
   double distance(const gp_Pnt& point) const {
     double best = std::numeric_limits<double>::infinity();
-    for (const auto& [surface, start] : beside(point)) best = std::min(best, descended(point, *start.second));
+    for (const auto& [surface, start] : beside(point)) best = std::min(best, foot_distance(point, *start.second));
     return best;
   }
 
-  /// The surface point nearby in the same half-plane through the axis that is nearest to the axis; the middle of a
-  /// level ground. The point itself if there is none.
+  /// The lowest point of the groove near `point`: of the surface points nearby in its half-plane through the axis, that
+  /// with the smallest radius. For a level floor, its middle. `point` itself if there is none.
   gp_Pnt ground(const gp_Pnt& point) const {
     // The ends of walls are as low as the level ground between them.
     constexpr double k_level = 1e-5;
@@ -952,7 +954,7 @@ class Nearest {
   }
 
   /// Gauss-Newton iteration to the perpendicular foot on the surface.
-  double descended(const gp_Pnt& point, const Node& start) const {
+  double foot_distance(const gp_Pnt& point, const Node& start) const {
     constexpr int k_steps = 12;
     const Geom_Surface& surface = *surfaces_[start.surface];
     double u1, u2, v1, v2, u = start.u, v = start.v, best = std::numeric_limits<double>::infinity();
@@ -978,7 +980,7 @@ class Nearest {
 };
 
 StepReading read(const std::string& path, const StepQuestion& question) {
-  be_silent();
+  silence_kernel();
   StepReading reading;
   try {
     STEPControl_Reader reader;
@@ -1000,7 +1002,7 @@ StepReading read(const std::string& path, const StepQuestion& question) {
     reading.unpaired_edges = unpaired_edges(shape);
     reading.is_valid = BRepCheck_Analyzer(shape).IsValid();
     GProp_GProps volume, area;
-    // Its default Gauss points are 2 % off on long trimmed splines.
+    // With the default tolerance the volume is off by 2 % on long trimmed splines.
     BRepGProp::VolumeProperties(shape, volume, 1e-5);
     BRepGProp::SurfaceProperties(shape, area);
     reading.volume = volume.Mass();

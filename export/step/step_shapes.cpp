@@ -113,7 +113,7 @@ void add_set_screw(std::vector<StepTool>& tools, const solid::BodyLayout& layout
 
 // ---- tie-offs ----
 
-/// From the groove's plane upwards in print orientation to the position in the part.
+/// Heights above the groove's plane in print orientation, as z in the part.
 struct Upwards {
   double plane = 0;
   double up = 1;

@@ -69,7 +69,7 @@ struct UnmodelledAlternative {
 };
 
 /// Member of a group with its parameters.
-struct MemberBeside {
+struct GroupMember {
   std::string name;
   std::vector<FittedParameter> parameters;
 };
@@ -82,9 +82,9 @@ struct FoundEffect {
   ChainPlace place = ChainPlace::joint;
   std::vector<FittedParameter> parameters;
   /// Members of `group` with which held-out runs are predicted better when added to the found set.
-  std::vector<MemberBeside> beside;
+  std::vector<GroupMember> beside;
   /// Members of `group` that can replace the effect, with the parameters that they have there.
-  std::vector<MemberBeside> instead;
+  std::vector<GroupMember> alternatives;
   double rms_drop = 0;  ///< reduction of the held-out residual, rad; at least 0
   /// True if effects that move no row explained the data equally well in its place: then an unmodelled cause may, too.
   bool idle_did_as_well = false;
@@ -215,7 +215,7 @@ struct LikelyInputError {
   std::vector<double> declared;  ///< values in the file, in its unit; 1 for a column of data
   std::vector<double> would_be;  ///< corrected values; for a column of data the factor on the logged angle
   std::string question;          ///< question to the user: "is the sign right?"
-  /// true if the pulley was made from the file as it is, and the joint is as corrected
+  /// true if the pulley was made from the file as declared, and the joint is as corrected
   bool pulley_as_declared = false;
   std::vector<std::string> beside = {};  ///< names of effects found beside it
   double rms = 0;                        ///< held-out rms after the correction, rad
@@ -226,7 +226,7 @@ struct LikelyInputError {
 std::vector<LikelyInputError> find_input_errors(const DeclaredMechanism& declared,
                                                 const measurement::Measurement& as_read, const Calibration& found);
 
-/// True if the file as it is leaves far more than noise, and one corrected input error, with nothing fitted, leaves
+/// True if the declared file leaves far more than noise, and one corrected input error, with nothing fitted, leaves
 /// noise or at most a fault beside it. Effects fitted to such a file describe nothing, so the search is omitted.
 bool is_input_error_obvious(const DeclaredMechanism& declared, const measurement::Measurement& as_read);
 

@@ -13,8 +13,8 @@
 #include "fusee/analysis.h"
 #include "fusee/base.h"
 #include "fusee/calibration.h"
-#include "fusee/coil.h"
 #include "fusee/correction.h"
+#include "fusee/helical_solid.h"
 #include "fusee/helix.h"
 #include "fusee/joint.h"
 #include "fusee/kit.h"
@@ -33,13 +33,13 @@ namespace fusee::formats {
 /// Additional data of a multi-turn pulley, whose curves are no outlines and whose grooves lie in no plane.
 struct HelixProduct {
   helix::HelixSynthesis synthesis;
-  coil::HelicalPulley pulley;  ///< its mesh and conditions are in Product::pulley
-  coil::HelicalRewind as_built;
+  helical_solid::HelicalPulley pulley;  ///< its mesh and conditions are in Product::pulley
+  helical_solid::HelicalRewind as_built;
 
   /// Heights above the part's lower face of the tendons' ends on the joint, or of their guides' collars.
-  coil::TendonsLaid laid(bool collar) const {
-    return coil::tendons_laid(pulley, synthesis.sides[0].spiral, synthesis.sides[1].spiral,
-                              synthesis.sides[0].attachment_z, synthesis.sides[1].attachment_z, collar);
+  helical_solid::TendonsLaid laid(bool collar) const {
+    return helical_solid::tendons_laid(pulley, synthesis.sides[0].spiral, synthesis.sides[1].spiral,
+                                       synthesis.sides[0].attachment_z, synthesis.sides[1].attachment_z, collar);
   }
 };
 
@@ -177,7 +177,7 @@ struct KitCut {
   transmission::Side side = transmission::Side::left;
   double between_knots = 0;  ///< from the pulley's knot to its fastening at the joint, taut, at home, mm
   double cut = 0;            ///< including both ends, in whole 5 mm
-  double longer = 0;         ///< than the cut without the rig, whose tensioner and post use that much, mm
+  double longer = 0;         ///< additional length that the rig's tensioner and post use, mm
 };
 /// The lengths of both tendons. mm.
 std::vector<KitCut> kit_cuts(const KitProduct& product);
@@ -289,7 +289,8 @@ struct CauseRow {
   std::string corrected_by;  ///< "pulley", "table" or "–"
 
   /// Titles of the columns, in the order of the members.
-  static constexpr std::array<const char*, 5> k_titles = {"cause", "size", "95 % if alone", "share", "corrected by"};
+  static constexpr std::array<const char*, 5> k_titles = {"cause", "size", "95 % if only cause", "share",
+                                                          "corrected by"};
 };
 /// The table of causes, in the order of Calibration::effects.
 std::vector<CauseRow> cause_rows(const CalibrationProduct& product);
@@ -370,7 +371,7 @@ struct SimulationColumn {
   std::string name;
   std::vector<double> values;
 };
-/// In the order of the table, which ends with `status`. theta_deg: reading of the joint's sensor. joint_deg: true joint
+/// The columns of the table, which ends with `status`, in its order. theta_deg: reading of the joint's sensor. joint_deg: true joint
 /// angle. loose_deg: range about it without a restoring torque. tension1_N and tension2_N: between pulley and pin;
 /// tension1_joint_N and tension2_joint_N: between pin and joint. The motor's torque is positive towards +α. time_s,
 /// temperature_C and the encoder offsets appear if they were logged. A joint declared by a ratio has no tensions and no

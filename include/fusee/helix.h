@@ -86,7 +86,7 @@ struct HelixSynthesis {
 /// mm
 using MinLead = std::function<double(double step)>;
 
-/// The cross-section of a mechanism's helical grooves, which the module `coil` defines.
+/// The cross-section of a mechanism's helical grooves, which the module `helical_solid` defines.
 struct HelixGroove {
   double groove_edge = 0;  ///< height of the groove edge over the floor, mm
   double room_at_groove_edge =
@@ -96,9 +96,9 @@ struct HelixGroove {
 
 /// The largest number of turns, spare turns excluded.
 constexpr double k_most_turns = 12;
-/// Fleet angles above which a note or a warning is given. rad
+/// Fleet angle above which a note is given. rad
 constexpr double k_noted_fleet = radians(1.5);
-/// As k_noted_fleet, for a warning. rad
+/// Fleet angle above which a warning is given. rad
 constexpr double k_warned_fleet = radians(2.0);
 
 /// The accuracy of the curves: as they will be built, or coarse and some ten times faster. The conditions of coarse

@@ -262,11 +262,11 @@ struct IdentifiedJoint {
   /// The mounted mechanism with its identified weight. [pulley], range and shrinkage describe the pulley to make:
   /// deflected by the mean load, the joint follows the declared θ(α), and scale errors of making are compensated.
   Mechanism mechanism;
-  /// Further errors of making; draw_for_making() draws the opposite.
+  /// Further manufacturing errors, which draw_for_making() compensates.
   OutlineError outline;
 };
-/// Accuracy of the compensating law of a compliant joint: that of the part to make, or about twenty times as fast with
-/// 0.1° accuracy, for searches over hundreds of mechanisms.
+/// Accuracy of the compensating law of a compliant joint. whole: for the part to make. brief: 0.1°, about twenty times as
+/// fast, for searches over hundreds of mechanisms.
 enum class LawSearch { whole, brief };
 /// Returns the declared mechanism when nothing relevant was identified.
 IdentifiedJoint identified_joint(const DeclaredMechanism& declared, LawSearch search = LawSearch::whole);
@@ -274,7 +274,7 @@ IdentifiedJoint identified_joint(const DeclaredMechanism& declared, LawSearch se
 /// The joint that a measurement is compared with: identified, with the pulley made for it, and with empty `identified`.
 DeclaredMechanism expected_joint(const DeclaredMechanism& declared);
 
-/// A curve point displaced so that it comes out of making in its place.
+/// A curve point, displaced so that the manufacturing errors move it to its intended place.
 profile::OutlinePoint drawn_for_making(profile::OutlinePoint point, const OutlineError& outline);
 /// Displaces all points of both curves.
 void draw_for_making(profile::SynthesisResult& synthesis, const OutlineError& outline);
@@ -282,12 +282,12 @@ void draw_for_making(profile::SynthesisResult& synthesis, const OutlineError& ou
 /// affected pulley.
 std::vector<profile::Condition> turns_inward_as_drawn(const profile::SynthesisResult& drawn,
                                                       const OutlineError& outline);
-/// Inverse of draw_for_making(): a closed floor as it comes out of making.
+/// Inverse of draw_for_making(): a closed floor with the manufacturing errors.
 Polygon as_made(Polygon drawn, const OutlineError& outline);
 /// Inverse of draw_for_making() for an open line. Normals are averaged over `beside` points on either side.
 Polygon line_as_made(Polygon drawn, const OutlineError& outline, std::size_t beside);
-/// The joint with a thicker tendon and thinner pins, in which the tendon lies on a displaced floor as the real one lies
-/// on the made floor.
+/// An equivalent joint for a floor with an offset error: the tendon is thicker and the pins thinner by it, so that all
+/// centre lines are those of the real joint.
 Mechanism with_inset(const IdentifiedJoint& joint);
 
 /// Assembly angle: position of the motor at which the tendons are tied, with the unloaded joint at home, so that the
@@ -324,13 +324,13 @@ Readings predict(const Mechanism& declared, const Imperfections& imperfections, 
 Readings predict(const Mechanism& declared, const Imperfections& imperfections, const BenchLog& log,
                  const std::optional<EarlierState>& earlier);
 
-/// State of the joint at a row of a log. Unknown values are NaN; for a joint declared by a ratio all but its angles.
+/// State of the joint at a row of a log. Unknown values are NaN. A joint declared by a ratio has only angles.
 struct JointState {
   EquilibriumStatus status = EquilibriumStatus::held;
   double theta = std::numeric_limits<double>::quiet_NaN();  ///< true joint angle, rad; NaN without an equilibrium
   /// Reading of the joint's sensor, rad, as predict() returns it.
   double shown = std::numeric_limits<double>::quiet_NaN();
-  double loose = 0;              ///< possible deviation from there within the play, rad
+  double loose = 0;              ///< largest deviation from theta within the play, rad
   TendonState t1 = {}, t2 = {};  ///< left, right; N, mm
   double motor_torque = std::numeric_limits<double>::quiet_NaN();  ///< towards +α, N·mm
 };

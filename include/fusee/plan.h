@@ -22,7 +22,7 @@ namespace fusee::plan {
 // Measurements that a person can make at the bench: runs to drive and dimensions to read by hand. `fusee plan` and the
 // next measurements of `fusee calibrate` share these types.
 
-/// Over less than this motor angle, rad, an error of period one turn is indistinguishable from a linear one.
+/// Motor angle, rad, below which an error of period one turn is indistinguishable from a linear one.
 inline constexpr double k_full_turn = radians(150.0);
 
 /// A change on the bench before a run, undone after it.

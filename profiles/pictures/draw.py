@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the pictures of profiles/README.md and docs: each profile's part as its report shows it, the report's page, and the test model.
+"""Draws the pictures of profiles/README.md and docs: each profile's part as its report shows it, the report's page, and the test rig.
 
     profiles/pictures/draw.py build/release/fusee [folder, this one without it]
 
@@ -25,7 +25,7 @@ alpha.value = 0.6 * alpha.max;
 alpha.dispatchEvent(new Event("input"));
 //]]></script>"""
 
-# The last step of the kit's page: the whole test model.
+# The last step of the kit's page: the whole test rig.
 ASSEMBLED = """<style>header,.warnings,main section:not(#assembly),#assembly h2,#assembly .lead,.pictures>*:not(:last-child),.pictures h3,.pictures ol,footer{display:none!important}
 section{border:0!important}.pictures{display:block!important}.pictures svg{width:760px;max-width:none}</style>"""
 

@@ -45,14 +45,14 @@ Mechanism exact(Mechanism mechanism) {
 ErrorSource pin_radius_ignored(const Mechanism& mechanism) {
   Mechanism drawn = exact(mechanism);
   drawn.guides.radius = 0;
-  return ignoring("pin_radius_ignored", "pulley drawn for pins without a radius", mechanism, joint::MadePulleys(drawn));
+  return ignoring("pin_radius_ignored", "pin radius, if the pulley ignored it", mechanism, joint::MadePulleys(drawn));
 }
 
 /// The groove's floor is placed where the centre line should be.
 ErrorSource thickness_ignored(const Mechanism& mechanism) {
   Mechanism drawn = exact(mechanism);
   drawn.tendon.diameter = 0;
-  return ignoring("tendon_thickness_ignored", "pulley drawn for a tendon without thickness", mechanism,
+  return ignoring("tendon_thickness_ignored", "tendon thickness, if the pulley ignored it", mechanism,
                   joint::MadePulleys(drawn).offset_by(0.5 * mechanism.tendon.diameter));
 }
 

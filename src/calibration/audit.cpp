@@ -284,7 +284,7 @@ bool Auditor::is_group_member(const SyntheticDataset& data, const Set& found, st
     return score_of(evidence_model_.best(sums(data, set), data.start, k_rounds + 2), set);
   };
   return reached(instead) >
-         reached(found) - k_thresholds.temperature * std::log(1.0 / k_thresholds.complete_group_doubt);
+         reached(found) - k_thresholds.temperature * std::log(1.0 / k_thresholds.complete_group_absence);
 }
 
 AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {
@@ -313,13 +313,13 @@ AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {
     if (true_cause[i] != nullptr) count(true_cause[i], causes);
   }
   std::stable_sort(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  int doubtful = audited.counts.false_positives;
+  int unattributed = audited.counts.false_positives;
   for (const auto& [joints, effect] : causes) {
-    if (doubtful <= k_thresholds.most_false_positives * audited.counts.data_sets ||
+    if (unattributed <= k_thresholds.most_false_positives * audited.counts.data_sets ||
         audited.true_causes.size() == k_thresholds.most_true_causes)
       break;
     audited.true_causes.push_back(effect);
-    doubtful -= joints;
+    unattributed -= joints;
   }
   return audited;
 }

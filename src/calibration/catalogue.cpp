@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "joint/joint_effects.h"
-#include "measurement/seen_span.h"
+#include "measurement/value_range.h"
 
 namespace fusee::calibration {
 namespace {
@@ -30,7 +30,7 @@ bool has_load(const Mechanism& declared, const measurement::Measurement& measure
 
 bool has_warming(const measurement::Measurement& measurement) {
   return all(measurement, &measurement::Run::has_temperature) &&
-         measurement::seen_span(measurement, &measurement::Sample::temperature_C).size() > k_least_warming;
+         measurement::value_range(measurement, &measurement::Sample::temperature_C).size() > k_least_warming;
 }
 
 bool can_be_seen(const Needs& needs, const Mechanism& declared, const measurement::Measurement& measurement) {

@@ -4,7 +4,7 @@
 #include "base/text.h"
 #include "calibration/thresholds.h"
 #include "fusee/calibration.h"
-#include "measurement/seen_span.h"
+#include "measurement/value_range.h"
 
 // The earlier joint is identified from its own runs. Then all runs are explained together, the earlier ones by that
 // joint, the later ones by that joint with changes, both beside one discrepancy. An error of the identified joint is
@@ -57,7 +57,7 @@ StateChange change_of(const FoundEffect& effect, const DeclaredMechanism& declar
   return change;
 }
 
-std::string range_words(const measurement::SeenSpan& span) {
+std::string range_words(const measurement::ValueRange& span) {
   return rounded(degrees(span.least), 3) + "° … " + rounded(degrees(span.most), 3) + "°";
 }
 
@@ -73,8 +73,8 @@ std::string why_not_comparable(const ComparedRuns& runs) {
     return std::string("The runs ") + (refused_before ? "before" : "after") +
            " cannot be compared with the others: " + (refused_before ? runs.before : runs.after).not_testable.front() +
            one_of_both;
-  const measurement::SeenSpan before = measurement::seen_span(runs.before, &measurement::Sample::alpha),
-                              after = measurement::seen_span(runs.after, &measurement::Sample::alpha);
+  const measurement::ValueRange before = measurement::value_range(runs.before, &measurement::Sample::alpha),
+                                after = measurement::value_range(runs.after, &measurement::Sample::alpha);
   if (!before.any() || !after.any()) return "";
   const double shared = std::min(before.most, after.most) - std::max(before.least, after.least);
   if (shared < k_thresholds.least_shared_way * std::min(before.size(), after.size()))

@@ -9,7 +9,7 @@
 #include "base/decompositions.h"
 #include "calibration/row_facts.h"
 #include "calibration/thresholds.h"
-#include "measurement/seen_span.h"
+#include "measurement/value_range.h"
 
 // A Gaussian process over place is represented by its eigenfunctions. Two length scales are combined, for smooth errors
 // (a pin's radius) and local ones, and each has its own columns. All other factors multiply these functions: a

@@ -8,8 +8,8 @@
 #include "base/text.h"
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
-#include "measurement/seen_span.h"
 #include "measurement/strokes.h"
+#include "measurement/value_range.h"
 
 namespace fusee::calibration {
 namespace {
@@ -119,7 +119,7 @@ bool has_course(Factor factor) {
 
 /// Draws the largest value of a component at each place.
 void draw(const Angles& angles, const Eigen::VectorXd& part, DiscrepancyComponent& component) {
-  measurement::SeenSpan span;
+  measurement::ValueRange span;
   for (const double alpha : angles.motor) span.take(alpha);
   if (!span.any()) return;
   const measurement::Bins bins{span, k_places};
@@ -188,14 +188,14 @@ void find_harmonic(const Angles& angles, const Eigen::VectorXd& residual, double
 
 namespace {
 
-/// Discrepancy of a few factors, added one by one while the data require them: several can replace one another, and the
-/// description contains the one that explains most.
+/// Discrepancy of a few factors, added one by one while the data require them. Of factors that can replace one another,
+/// the description contains the one that explains most.
 struct FactorSelection {
   Posterior posterior;
   std::vector<std::pair<const FactorWords*, double>> factors;  ///< with the evidence that each added, nats
 };
 
-/// Amplitudes of none of the factors; the model's own error as it is fixed, unless it is not considered.
+/// Amplitudes without any factor. A considered error of the model itself keeps its fixed amplitude.
 Amplitudes no_discrepancy(const EvidenceModel& evidence_model, bool (*is_considered)(Factor)) {
   Amplitudes amplitudes = evidence_model.without_discrepancy();
   const std::vector<Family>& families = evidence_model.discrepancy().families;

@@ -5,7 +5,7 @@
 
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
-#include "measurement/seen_span.h"
+#include "measurement/value_range.h"
 
 // The curve is the posterior mean of the discrepancy's families of place and direction, beside all other factors of its
 // description. It is validated on held-out data, run by run and level by level.
@@ -32,7 +32,7 @@ double widest_gap(const Way& way) {
 }
 
 /// Means over half a segment of the curve, far below its length scale.
-Way smoothed(const Way& way, const measurement::SeenSpan& seen) {
+Way smoothed(const Way& way, const measurement::ValueRange& seen) {
   const measurement::Bins bins{seen, 2 * k_pieces};
   Way means;
   int last = -1;
@@ -83,15 +83,15 @@ BothWays ways_of(const Evidence& evidence, const Eigen::VectorXd& curve) {
 }
 
 /// Range measured in both directions.
-measurement::SeenSpan seen_both_ways(const BothWays& ways) {
-  measurement::SeenSpan span;
+measurement::ValueRange seen_both_ways(const BothWays& ways) {
+  measurement::ValueRange span;
   if (ways.up.size() < 2 || ways.down.size() < 2) return span;
   span.least = std::max(ways.up.front().first, ways.down.front().first);
   span.most = std::min(ways.up.back().first, ways.down.back().first);
   return span;
 }
 
-void draw(const BothWays& ways, const measurement::SeenSpan& seen, EmpiricalCurve& curve) {
+void draw(const BothWays& ways, const measurement::ValueRange& seen, EmpiricalCurve& curve) {
   const measurement::Bins pieces{seen, k_pieces};
   const Way up = smoothed(ways.up, seen), down = smoothed(ways.down, seen);
   for (int i = 0; i <= k_pieces; ++i) {
@@ -110,7 +110,7 @@ struct Gain {
 };
 
 /// Gain over a fold of several blocks; that of a single block is chance.
-Gain gain_in(const Evidence& evidence, const HeldOutBeside& held, const Fold& fold) {
+Gain gain_in(const Evidence& evidence, const HeldOutWithDiscrepancy& held, const Fold& fold) {
   Gain gain;
   for (const std::size_t block : fold) {
     const double before = held.effects.by_block[block];
@@ -133,7 +133,7 @@ Fold all_blocks(const Evidence& evidence) {
 }
 
 /// True if the curve worsens a level of load or speed by more than it improves all.
-bool harms_a_level(const Evidence& evidence, const HeldOutBeside& held, const Gain& all) {
+bool harms_a_level(const Evidence& evidence, const HeldOutWithDiscrepancy& held, const Gain& all) {
   return std::any_of(evidence.factor_folds.begin(), evidence.factor_folds.end(),
                      [&](const Fold& fold) { return gain_in(evidence, held, fold).mean < -all.mean; });
 }
@@ -144,7 +144,8 @@ double error_of(const Evidence& evidence, const Gain& gain, double curve_rms) {
   return 2.0 * curve_rms * left / std::sqrt(std::max(1.0, gain.rows * evidence.evidence_model->independent_share()));
 }
 
-std::string why_not(const Evidence& evidence, const HeldOutBeside& by_factor, const Gain& gain, double curve_rms) {
+std::string why_not(const Evidence& evidence, const HeldOutWithDiscrepancy& by_factor, const Gain& gain,
+                    double curve_rms) {
   if (gain.mean < std::pow(k_thresholds.least_residual * evidence.floor, 2) ||
       gain.mean < k_sure * error_of(evidence, gain, curve_rms))
     return "on held-out data it corrects no more than chance would";
@@ -228,15 +229,15 @@ EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const D
   }
   const Eigen::VectorXd at_rows = sum_of_families(discrepancy, unmodelled.posterior.coefficients, is_of_place);
   const BothWays ways = ways_of(evidence, at_rows);
-  const measurement::SeenSpan seen = seen_both_ways(ways),
-                              all = measurement::seen_span(evidence.measurement, &measurement::Sample::alpha);
+  const measurement::ValueRange seen = seen_both_ways(ways),
+                                all = measurement::value_range(evidence.measurement, &measurement::Sample::alpha);
   if (!seen.any() || std::max(widest_gap(ways.up), widest_gap(ways.down)) > k_widest_gap * all.size()) {
     curve.why = "parts of the range were not measured in both directions";
     return curve;
   }
   const Amplitudes amplitudes = amplitudes_beside(evidence, fit, unmodelled);
-  const HeldOutBeside by_run = hold_out_beside(evidence, fit, amplitudes, evidence.run_folds);
-  const HeldOutBeside by_factor = hold_out_beside(evidence, fit, amplitudes, evidence.factor_folds);
+  const HeldOutWithDiscrepancy by_run = hold_out_with_discrepancy(evidence, fit, amplitudes, evidence.run_folds);
+  const HeldOutWithDiscrepancy by_factor = hold_out_with_discrepancy(evidence, fit, amplitudes, evidence.factor_folds);
   const Gain gain = gain_in(evidence, by_run, all_blocks(evidence));
   curve.why = why_not(evidence, by_factor, gain, at_rows.norm() / std::sqrt(static_cast<double>(at_rows.size())));
   curve.used = curve.why.empty();

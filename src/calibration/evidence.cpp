@@ -8,8 +8,8 @@
 
 #include "calibration/evidence_model.h"
 #include "calibration/thresholds.h"
-#include "measurement/seen_span.h"
 #include "measurement/strokes.h"
+#include "measurement/value_range.h"
 #include "transmission/target_motion.h"
 
 namespace fusee::calibration {
@@ -23,9 +23,9 @@ constexpr std::size_t k_cheaper = 5;
 constexpr std::size_t k_least_rows_a_block = 6;
 /// Least rows of a dwell in a run of many dwells.
 constexpr std::size_t k_rows_a_dwell = 3;
-/// Segments repeat one another only if their α end points agree within this share of the range of α. Levels of a load
-/// that varies with the motion divide strokes into segments at different places, whose difference is θ(α) and no noise
-/// (the jaw of docs/background/real-joint.md).
+/// Segments repeat one another only if their α end points agree within this share of the range of α. A load that varies
+/// with the motion divides strokes into segments at different places; their difference is θ(α), not noise (the jaw of
+/// docs/background/real-joint.md).
 constexpr double k_one_way = 0.1;
 
 /// Selects whole cycles, evenly spread, so that each keeps enough rows; of other strokes the ends are kept as history.
@@ -183,14 +183,14 @@ std::vector<bool> have_their_own_load(const Evidence& evidence) {
   std::vector<double> loads;
   for (const Block& block : evidence.blocks) loads.push_back(block.load);
   const double tolerance = load_tolerance(loads);
-  std::map<std::pair<std::size_t, int>, measurement::SeenSpan> spans;
+  std::map<std::pair<std::size_t, int>, measurement::ValueRange> spans;
   const auto key = [&](const Block& block) {
     return std::pair(block.run, evidence.measurement.runs[block.run].strokes[block.stroke].direction);
   };
   for (const Block& block : evidence.blocks) spans[key(block)].take(block.load);
   std::vector<bool> own;
   for (const Block& block : evidence.blocks) {
-    const measurement::SeenSpan& span = spans[key(block)];
+    const measurement::ValueRange& span = spans[key(block)];
     const double largest = std::max(std::abs(span.least), std::abs(span.most));
     own.push_back(span.any() && span.size() > std::max(2 * tolerance, 0.1 * largest));
   }
@@ -373,8 +373,8 @@ class BlockMaker {
   BlockMaker(const Evidence& evidence, const std::vector<bool>& counted)
       : evidence_(evidence),
         counted_(counted),
-        alphas_(measurement::seen_span(evidence.measurement, &measurement::Sample::alpha)) {
-    measurement::SeenSpan loads;
+        alphas_(measurement::value_range(evidence.measurement, &measurement::Sample::alpha)) {
+    measurement::ValueRange loads;
     for (const measurement::Run& run : evidence.measurement.runs) {
       for (const measurement::Sample& sample : run.samples) loads.take(run.has_load ? sample.load : 0.0);
     }
@@ -470,7 +470,7 @@ class BlockMaker {
 
   const Evidence& evidence_;
   const std::vector<bool>& counted_;
-  measurement::SeenSpan alphas_;
+  measurement::ValueRange alphas_;
   double load_tolerance_ = 0;
   Eigen::VectorXd residual_;  ///< residual of the declared joint
   std::size_t offset_ = 0;

@@ -6,8 +6,8 @@
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
 
-// With known sizes alone an effect of four numbers would be penalised for all joints on which it is large, and lose to
-// an effect of one number on a joint where both are small.
+// The known size of a number comes from all joints, also those with large errors. On a joint with a small error it
+// penalises each number of an effect, so that an effect of four numbers would lose to an effect of one.
 
 namespace fusee::calibration {
 namespace {

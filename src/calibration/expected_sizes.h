@@ -9,8 +9,8 @@
 
 namespace fusee::calibration {
 
-/// For numbers whose known size would move the reading by more than that, the size that would not, in steps of the
-/// parameter (Evidence::sizes).
+/// Prior sizes, in steps of the parameter (Evidence::sizes), of the numbers whose known size would move the reading by
+/// more than k_thresholds.most_expected and least_expected permit.
 std::map<const EffectParameter*, double> expected_sizes(const EffectSet& catalogue, const Evidence& evidence,
                                                         FitterPool& pool);
 

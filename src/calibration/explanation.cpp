@@ -69,7 +69,7 @@ double rms_drop(const Selection& selection, std::size_t place) {
   return std::max(0.0, std::sqrt(before.by_factor.mean_square) - std::sqrt(selection.best.by_factor.mean_square));
 }
 
-/// That reduction as a share of the mean square that the declared joint leaves.
+/// Reduction of the held-out mean square by the effect at `place`, as a share of that of the declared joint.
 double share(const Selection& selection, std::size_t place) {
   const double all = selection.none.by_factor.mean_square, best = selection.best.by_factor.mean_square;
   const Fit& others = selection.without[place];
@@ -77,7 +77,7 @@ double share(const Selection& selection, std::size_t place) {
   return all > 0 ? std::clamp((without_it - best) / all, 0.0, 1.0) : 0.0;
 }
 
-/// True if `effect`, as fitted, moves the rows in use by less than noise would, fitted with as many numbers.
+/// True if the fitted `effect` moves the rows by no more than a fit of its numbers to noise alone would.
 bool moves_nothing(const Evidence& evidence, const Fit& fit, const fusee::Effect& effect) {
   const std::vector<Eigen::Index> places = places_of(fit, effect);
   const Eigen::VectorXd moved = fit.J(evidence.rows(), places) * fit.x(places);
@@ -144,7 +144,8 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
       const bool in_group = std::count(found.group.begin(), found.group.end(), rival.rival->name) > 0;
       if (rival.accepted != effect || !in_group) continue;
       const std::vector<ConfidenceInterval> own = intervals(rival.fit, selection.temperature);
-      found.instead.push_back({rival.rival->name, fitted_parameters(evidence, rival.fit, {own, own}, *rival.rival)});
+      found.alternatives.push_back(
+          {rival.rival->name, fitted_parameters(evidence, rival.fit, {own, own}, *rival.rival)});
     }
     found.rms_drop = rms_drop(selection, all.size());
     found.share = share(selection, all.size());

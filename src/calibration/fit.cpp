@@ -448,7 +448,7 @@ Fit Fitter::with_evidence(Fit fit) const {
 /// out would leave none of them, so runs are left out one by one.
 void Fitter::hold_out_of(Fit& fit) const {
   if (evidence().earlier) {
-    fit.by_run = hold_out_beside(evidence(), fit, fit.posterior.amplitudes, evidence().run_folds).with_all;
+    fit.by_run = hold_out_with_discrepancy(evidence(), fit, fit.posterior.amplitudes, evidence().run_folds).with_all;
     fit.by_factor = fit.by_run;
     return;
   }

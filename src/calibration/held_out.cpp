@@ -188,8 +188,8 @@ std::vector<Eigen::VectorXd> numbers_without(const Evidence& evidence, const Fit
   return numbers;
 }
 
-HeldOutBeside hold_out_beside(const Evidence& evidence, const Fit& fit, const Amplitudes& amplitudes,
-                              const std::vector<Fold>& folds) {
+HeldOutWithDiscrepancy hold_out_with_discrepancy(const Evidence& evidence, const Fit& fit, const Amplitudes& amplitudes,
+                                                 const std::vector<Fold>& folds) {
   const Scaled used = scaled(evidence, amplitudes);
   const Fitted fitted = effects_beside(evidence, fit, used);
   Mask effects = Mask::Zero(fitted.x.size());

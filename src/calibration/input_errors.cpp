@@ -69,7 +69,7 @@ bool is_within(const Trial& trial, double floors) { return trial.left <= floors 
 
 /// Errors that a hypothesis must reduce, rad.
 struct Baseline {
-  double declared = 0;    ///< held-out rms of the file as it is
+  double declared = 0;    ///< held-out rms of the declared file
   double by_effects = 0;  ///< held-out rms of the effects found in it
   bool is_explained = false;
 };

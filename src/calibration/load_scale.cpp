@@ -69,16 +69,16 @@ double score_under(const Evidence& evidence, const Fit& without, double times) {
 /// Score −infinity if the logged loads are best.
 LoadScaleFit best_under(const Evidence& evidence, const Fit& without) {
   LoadScaleFit best{1.0, score_under(evidence, without, 1.0)};
-  const auto look = [&](double times) {
+  const auto try_scale = [&](double times) {
     const double score = score_under(evidence, without, times);
     if (score > best.score) best = {times, score};
   };
-  for (const double times : k_ladder) look(times);
+  for (const double times : k_ladder) try_scale(times);
   double step = std::sqrt(k_ladder.back() / k_ladder[k_ladder.size() - 2]);
   for (int i = 0; i < k_halvings; ++i, step = std::sqrt(step)) {
     const double middle = best.times;
-    look(middle * step);
-    look(middle / step);
+    try_scale(middle * step);
+    try_scale(middle / step);
   }
   if (best.times == 1.0) best.score = -std::numeric_limits<double>::infinity();
   return best;

@@ -9,7 +9,7 @@
 #include "fusee/joint.h"
 #include "fusee/plan.h"
 #include "joint/joint_effects.h"
-#include "measurement/seen_span.h"
+#include "measurement/value_range.h"
 
 // Each proposal is simulated with the found effects and with each alternative, as fitted. Proposals produce inputs of
 // calibrate only: a run with its columns, or a number with a key of [prior].
@@ -48,7 +48,7 @@ double largest_load(const Evidence& evidence) {
 /// The measured strokes, without load.
 plan::PlannedRun as_before(const measurement::Measurement& measurement) {
   const measurement::Run& run = longest(measurement);
-  const measurement::SeenSpan seen = measurement::seen_span(measurement, &measurement::Sample::alpha);
+  const measurement::ValueRange seen = measurement::value_range(measurement, &measurement::Sample::alpha);
   plan::PlannedRun before{.from = seen.least, .to = seen.most};
   before.speed = run.has_time && run.speed > 0 ? run.speed : seen.size() / k_slow_stroke;
   return before;
@@ -271,7 +271,7 @@ struct Sides {
 };
 
 std::vector<Sides> held_points(const measurement::Measurement& measurement) {
-  const measurement::SeenSpan seen = measurement::seen_span(measurement, &measurement::Sample::alpha);
+  const measurement::ValueRange seen = measurement::value_range(measurement, &measurement::Sample::alpha);
   std::vector<Sides> points;
   for (const measurement::Run& run : measurement.runs) {
     if (!measurement::is_from_point_to_point(run)) continue;
@@ -292,14 +292,14 @@ std::vector<Sides> held_points(const measurement::Measurement& measurement) {
 }
 
 /// Range that a run sweeps in both directions; empty without one.
-measurement::SeenSpan swept_both_ways(const measurement::Run& run) {
+measurement::ValueRange swept_both_ways(const measurement::Run& run) {
   const auto goes = [&](int direction) {
     return std::any_of(run.strokes.begin(), run.strokes.end(), [&](const measurement::Stroke& stroke) {
       return !stroke.partial && stroke.direction == direction;
     });
   };
   if (measurement::is_from_point_to_point(run) || !goes(1) || !goes(-1)) return {};
-  return measurement::seen_span(run.samples, &measurement::Sample::alpha);
+  return measurement::value_range(run.samples, &measurement::Sample::alpha);
 }
 
 void ask(const std::string& words, std::vector<plan::NextMeasurement>& next) {
@@ -312,7 +312,7 @@ void ask(const std::string& words, std::vector<plan::NextMeasurement>& next) {
 void ask_for_both_sides(const measurement::Measurement& measurement, std::vector<plan::NextMeasurement>& next) {
   std::vector<Sides> points = held_points(measurement);
   for (const measurement::Run& run : measurement.runs) {
-    const measurement::SeenSpan swept = swept_both_ways(run);
+    const measurement::ValueRange swept = swept_both_ways(run);
     std::erase_if(points, [&](const Sides& p) { return p.alpha >= swept.least && p.alpha <= swept.most; });
   }
   const auto both = std::count_if(points.begin(), points.end(), [](const Sides& p) { return p.rising && p.falling; });

@@ -13,16 +13,17 @@ bool shares(const EffectSet& one, const EffectSet& other) {
 namespace {
 
 /// Weights relative to the likeliest set.
-std::vector<double> weights_of(const std::vector<Weighed>& sets) {
+std::vector<double> weights_of(const std::vector<WeightedSet>& sets) {
   double most = -std::numeric_limits<double>::infinity();
-  for (const Weighed& set : sets) most = std::max(most, set.log_weight);
+  for (const WeightedSet& set : sets) most = std::max(most, set.log_weight);
   std::vector<double> weights;
-  for (const Weighed& set : sets) weights.push_back(std::exp(set.log_weight - most));
+  for (const WeightedSet& set : sets) weights.push_back(std::exp(set.log_weight - most));
   return weights;
 }
 
 /// Share of the weight of sets without any of these members.
-double doubt_of(const std::vector<Weighed>& sets, const std::vector<double>& weights, const EffectSet& members) {
+double absence_probability_of(const std::vector<WeightedSet>& sets, const std::vector<double>& weights,
+                              const EffectSet& members) {
   double without = 0, all = 0;
   for (std::size_t i = 0; i < sets.size(); ++i) {
     all += weights[i];
@@ -32,7 +33,7 @@ double doubt_of(const std::vector<Weighed>& sets, const std::vector<double>& wei
 }
 
 /// Effect outside `best` with the most weight among sets without `members`; null without one.
-const fusee::Effect* in_their_place(const std::vector<Weighed>& sets, const std::vector<double>& weights,
+const fusee::Effect* in_their_place(const std::vector<WeightedSet>& sets, const std::vector<double>& weights,
                                     const EffectSet& members, const EffectSet& best) {
   std::vector<std::pair<const fusee::Effect*, double>> others;
   for (std::size_t i = 0; i < sets.size(); ++i) {
@@ -55,18 +56,18 @@ const fusee::Effect* in_their_place(const std::vector<Weighed>& sets, const std:
 
 }  // namespace
 
-CredibleGroup credible_group(const std::vector<Weighed>& sets, const EffectSet& best, const fusee::Effect& named,
-                             double most_doubt, double least_gain) {
+CredibleGroup credible_group(const std::vector<WeightedSet>& sets, const EffectSet& best, const fusee::Effect& named,
+                             double most_absence, double least_gain) {
   const std::vector<double> weights = weights_of(sets);
-  CredibleGroup group{{&named}, doubt_of(sets, weights, {&named})};
-  while (group.doubt > most_doubt) {
+  CredibleGroup group{{&named}, absence_probability_of(sets, weights, {&named})};
+  while (group.absence_probability > most_absence) {
     const fusee::Effect* other = in_their_place(sets, weights, group.members, best);
     if (other == nullptr) break;
     EffectSet wider = group.members;
     wider.push_back(other);
-    const double doubt = doubt_of(sets, weights, wider);
-    if (!(doubt < (1.0 - least_gain) * group.doubt)) break;
-    group = {std::move(wider), doubt};
+    const double absence_probability = absence_probability_of(sets, weights, wider);
+    if (!(absence_probability < (1.0 - least_gain) * group.absence_probability)) break;
+    group = {std::move(wider), absence_probability};
   }
   return group;
 }

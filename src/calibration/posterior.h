@@ -12,22 +12,22 @@ namespace fusee::calibration {
 /// True if the sets have a common effect.
 bool shares(const EffectSet& one, const EffectSet& other);
 
-/// Visited set; the larger weight is the likelier.
-struct Weighed {
+/// Visited set of effects, weighted by its posterior probability up to a constant.
+struct WeightedSet {
   EffectSet effects;
   double log_weight = 0;
 };
 
-/// Effects of which at least one is present, with probability 1 − `doubt`.
+/// Effects of which at least one is present, with posterior probability 1 − `absence_probability`.
 struct CredibleGroup {
   EffectSet members;  ///< members, the reported effect first
-  double doubt = 0;
+  double absence_probability = 0;
 };
 
-/// Group of the effect `named` of the set `best`: effects in its place are added until the doubt is at most
-/// `most_doubt`, or the remaining sets have nothing in its place. `least_gain`: share of the doubt that each further
-/// member must remove.
-CredibleGroup credible_group(const std::vector<Weighed>& sets, const EffectSet& best, const fusee::Effect& named,
-                             double most_doubt, double least_gain = 0);
+/// Group of the effect `named` of the set `best`: effects in its place are added until the absence probability is at
+/// most `most_absence`, or the remaining sets have nothing in its place. `least_gain`: share of the absence probability
+/// that each further member must remove.
+CredibleGroup credible_group(const std::vector<WeightedSet>& sets, const EffectSet& best, const fusee::Effect& named,
+                             double most_absence, double least_gain = 0);
 
 }  // namespace fusee::calibration

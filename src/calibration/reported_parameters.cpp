@@ -32,7 +32,7 @@ bool is_better(const HeldOutErrors& one, const HeldOutErrors& than) {
 
 HeldOutErrors held_out_errors_of_mode(const Evidence& evidence, const Estimate& mode, bool with_curve) {
   const auto left = [&](const std::vector<Fold>& folds) {
-    const HeldOutBeside held = hold_out_beside(evidence, mode.fit, *mode.beside, folds);
+    const HeldOutWithDiscrepancy held = hold_out_with_discrepancy(evidence, mode.fit, *mode.beside, folds);
     return (with_curve ? held.with_place : held.effects).mean_square;
   };
   return {left(evidence.run_folds), left(evidence.factor_folds)};

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fusee/joint.h"
-#include "measurement/seen_span.h"
+#include "measurement/value_range.h"
 
 namespace fusee::calibration {
 namespace {
@@ -49,7 +49,7 @@ std::vector<std::vector<SessionProgress>> session_progress(const Evidence& evide
 int place_bin(const RowFacts& row, int count) { return measurement::Bins{{0, 1}, count}.bin(row.place); }
 
 std::vector<RowFacts> row_facts(const Evidence& evidence) {
-  const measurement::SeenSpan span = measurement::seen_span(evidence.measurement, &measurement::Sample::alpha);
+  const measurement::ValueRange span = measurement::value_range(evidence.measurement, &measurement::Sample::alpha);
   const std::vector<std::vector<SessionProgress>> gone = session_progress(evidence);
   double most_load = 0;
   double most_speed = 0;
@@ -86,7 +86,7 @@ std::vector<RowFacts> row_facts(const Evidence& evidence) {
 }
 
 bool varies(const std::vector<RowFacts>& facts, double RowFacts::*number, double least) {
-  measurement::SeenSpan span;
+  measurement::ValueRange span;
   for (const RowFacts& row : facts) span.take(row.*number);
   return span.size() > least;
 }

@@ -142,14 +142,14 @@ class Selector {
                                                          const Amplitudes& amplitudes, std::size_t most) const;
   const std::vector<LinearizedCandidate>& candidates_beside_best();
   bool test_rivals();
-  std::vector<Weighed> weigh_sets();
+  std::vector<WeightedSet> weigh_sets();
   std::optional<std::size_t> find_trading_member(const Fit& wider) const;
   void add_companions();
   std::optional<double> square_deviation(const Fit& fit, Eigen::Index place) const;
   void estimate_variance();
   bool is_unsupported(const fusee::Effect& effect, const Fit& others) const;
-  CredibleGroup group_of(const std::vector<Weighed>& sets, const fusee::Effect& effect) const;
-  bool is_certain_with_group(const std::vector<Weighed>& sets, const fusee::Effect& effect) const;
+  CredibleGroup group_of(const std::vector<WeightedSet>& sets, const fusee::Effect& effect) const;
+  bool is_certain_with_group(const std::vector<WeightedSet>& sets, const fusee::Effect& effect) const;
   std::vector<Fit> reduce_best() const;
   std::vector<CandidatePair> pairs_beside(const Fit& base, const Amplitudes& amplitudes,
                                           const std::vector<LinearizedCandidate>& candidates) const;
@@ -158,8 +158,8 @@ class Selector {
   void refit_without_each();
   bool leaves_unexplained(const Fit& fit) const;
   bool is_completed_beside(const Fit& others) const;
-  bool drop_doubtful();
-  void drop_all_doubtful();
+  bool drop_uncertain();
+  void drop_all_uncertain();
   void drop_unpredictive();
   void record_candidates();
 
@@ -681,11 +681,11 @@ bool predicts(const Evidence& evidence, const Fit& with, const Fit& without) {
 
 /// All visited sets, each by its score over the temperature. Wider sets of `best` that were not fitted count by their
 /// predicted score. If the noise exceeds the floor, the model is wrong by as much, and the temperature rises.
-std::vector<Weighed> Selector::weigh_sets() {
+std::vector<WeightedSet> Selector::weigh_sets() {
   const Fit& best = selection_.best;
   const double misfit = std::max(1.0, best.posterior.amplitudes.noise / evidence_.floor);
   selection_.temperature = k_thresholds.temperature * misfit;
-  std::vector<Weighed> sets;
+  std::vector<WeightedSet> sets;
   for (const auto& [key, fit] : seen_) sets.push_back({fit.effects, score(fit) / selection_.temperature});
   if (best.effects.empty()) return sets;
   for (const LinearizedCandidate& linearized : candidates_beside_best()) {
@@ -705,15 +705,15 @@ bool Selector::is_unsupported(const fusee::Effect& effect, const Fit& others) co
   return score(others) > score(best) || !predicts(evidence_, best, others) || is_at_bound(best, effect);
 }
 
-/// Credible group of an effect. Members that remove hardly any doubt are left out.
-CredibleGroup Selector::group_of(const std::vector<Weighed>& sets, const fusee::Effect& effect) const {
-  return credible_group(sets, selection_.best.effects, effect, k_thresholds.complete_group_doubt,
+/// Credible group of an effect. Members that hardly reduce the absence probability are left out.
+CredibleGroup Selector::group_of(const std::vector<WeightedSet>& sets, const fusee::Effect& effect) const {
+  return credible_group(sets, selection_.best.effects, effect, k_thresholds.complete_group_absence,
                         k_thresholds.least_gain);
 }
 
 /// True if it, or any effect of the catalogue in its place, is as certain as a reported effect must be.
-bool Selector::is_certain_with_group(const std::vector<Weighed>& sets, const fusee::Effect& effect) const {
-  return credible_group(sets, selection_.best.effects, effect, k_thresholds.most_false_positives).doubt <=
+bool Selector::is_certain_with_group(const std::vector<WeightedSet>& sets, const fusee::Effect& effect) const {
+  return credible_group(sets, selection_.best.effects, effect, k_thresholds.most_false_positives).absence_probability <=
          k_thresholds.most_false_positives;
 }
 
@@ -730,26 +730,28 @@ bool Selector::is_completed_beside(const Fit& others) const {
          !is_unexplained(candidates_beside_best, evidence_.floor);
 }
 
-/// Drops the most doubtful effect that is not certain with its group or predicts nothing. True if one was dropped.
-bool Selector::drop_doubtful() {
-  const std::vector<Weighed> sets = weigh_sets();
+/// Drops an effect that is not certain even with its group, or predicts nothing: that with the highest absence
+/// probability. True if one was dropped.
+bool Selector::drop_uncertain() {
+  const std::vector<WeightedSet> sets = weigh_sets();
   refit_without_each();
   selection_.groups.clear();
-  std::vector<std::size_t> doubtful;
+  std::vector<std::size_t> uncertain;
   for (const fusee::Effect* effect : selection_.best.effects) {
     const std::size_t place = selection_.groups.size();
     CredibleGroup& group = selection_.groups.emplace_back(group_of(sets, *effect));
-    if (is_unsupported(*effect, selection_.without[place])) group.doubt = 1;
-    if (group.doubt > k_thresholds.most_false_positives) doubtful.push_back(place);
+    if (is_unsupported(*effect, selection_.without[place])) group.absence_probability = 1;
+    if (group.absence_probability > k_thresholds.most_false_positives) uncertain.push_back(place);
   }
-  std::stable_sort(doubtful.begin(), doubtful.end(), [&](std::size_t a, std::size_t b) {
-    return selection_.groups[a].doubt > selection_.groups[b].doubt;
+  std::stable_sort(uncertain.begin(), uncertain.end(), [&](std::size_t a, std::size_t b) {
+    return selection_.groups[a].absence_probability > selection_.groups[b].absence_probability;
   });
-  for (const std::size_t place : doubtful) {
+  for (const std::size_t place : uncertain) {
     const fusee::Effect& effect = *selection_.best.effects[place];
     const Fit& others = selection_.without[place];
-    const double doubt = others.usable ? selection_.groups[place].doubt : 1.0;
-    if (doubt < k_thresholds.most_doubtful && (is_certain_with_group(sets, effect) || is_completed_beside(others)))
+    const double absence = others.usable ? selection_.groups[place].absence_probability : 1.0;
+    if (absence < k_thresholds.most_absence_probability &&
+        (is_certain_with_group(sets, effect) || is_completed_beside(others)))
       continue;
     set_best(others);
     return true;
@@ -757,10 +759,10 @@ bool Selector::drop_doubtful() {
   return false;
 }
 
-/// Drops all doubtful effects, and tests rivals of the others.
-void Selector::drop_all_doubtful() {
+/// Drops all uncertain effects, and tests rivals of the others.
+void Selector::drop_all_uncertain() {
   bool dropped = false;
-  while (drop_doubtful()) dropped = true;
+  while (drop_uncertain()) dropped = true;
   if (dropped) test_rivals();
 }
 
@@ -841,8 +843,8 @@ std::optional<double> Selector::square_deviation(const Fit& fit, Eigen::Index pl
   return apart * apart + selection_.temperature * std::max(0.0, fit.posterior.covariance(k, k));
 }
 
-/// Variance of each number over all sets that contain it by their weight, at least that with any companion, and larger
-/// beside an unexplained residual.
+/// Variance of each number: the weighted mean over all sets that contain it, and at least its variance with any
+/// companion. An unexplained residual enlarges it.
 void Selector::estimate_variance() {
   const Fit& best = selection_.best;
   const double wider = leaves_unexplained(best) ? std::pow(k_thresholds.interval_factor, 2) : 1.0;
@@ -898,7 +900,7 @@ Selection Selector::run() {
   do {
     widen_fully();
   } while (test_rivals() || exchange_members());
-  drop_all_doubtful();
+  drop_all_uncertain();
   drop_unpredictive();
   add_companions();
   estimate_variance();

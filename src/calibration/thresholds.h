@@ -3,7 +3,8 @@
 ///
 /// docs/development/calibration-ablation.md reports which of them were switched off on joints that nothing was tuned
 /// on, and the cost. *Rig data* are the six joints of tests/data/rig. "Joints" without a place are joints of
-/// tests/rig/known_truth. A false positive is a group without a true cause. Evidence is in natural logarithms (nats).
+/// tests/rig/known_truth. An effect is held if a reported group contains it. A false positive is a group without a true
+/// cause. Evidence is in natural logarithms (nats).
 #pragma once
 
 #include <cstddef>
@@ -32,8 +33,8 @@ struct Thresholds {
   /// Prior scale of a discrepancy's family, in noise floors: one in two is larger. 150 joints: without this prior 50 %
   /// of the effects are held, with it 75 %; false positives beside an unmodelled cause are 18 % and 25 %.
   double usual_discrepancy = 0.5;
-  /// The prior size of a number is narrowed until it moves the reading by at most so many times the observed error, or
-  /// so many noise floors if the error is small.
+  /// Limits of the prior size of a number: it moves the reading by at most `most_expected` times the observed error, or
+  /// `least_expected` noise floors if those are larger.
   double most_expected = 2.0;
   double least_expected = 10.0;
   /// Divisor of log odds, since evidence is overstated if the model is slightly wrong. 296 joints: at 1.0, 1.5, 2.2 and
@@ -55,21 +56,21 @@ struct Thresholds {
   double most_false_positives = 0.02;
   /// Members that an audit adds to a group: the most frequent true causes of its false positives.
   std::size_t most_true_causes = 6;
-  /// Doubt above which an effect is not reported. Between the false-positive rate and this its group contains
-  /// `unmodelled`. 48 joints: of 10 effects that were lost 6 were in the likeliest set.
-  double most_doubtful = 0.3;
-  /// Share to which an effect as doubtful must lower the unexplained residual to be reported nevertheless. Joint
+  /// Absence probability above which an effect is not reported. Between the false-positive rate and this, its group
+  /// contains `unmodelled`. 48 joints: of 10 effects that were lost 6 were in the likeliest set.
+  double most_absence_probability = 0.3;
+  /// Share to which an effect that uncertain must lower the unexplained residual to be reported nevertheless. Joint
   /// 950018: without this rule an offset is dropped, 4.4 noise floors remain in place of 2, and the held-out error is
   /// 2.0 times as large.
   double residual_share = 0.8;
-  /// Share of the remaining doubt that each further member of a group must remove. Without it groups of 9 joints from
-  /// seed 950001 have 7.2 members in place of 5.7.
+  /// Share of the absence probability that each further member of a group must remove. Without it groups of 9 joints
+  /// from seed 950001 have 7.2 members in place of 5.7.
   double least_gain = 0.1;
-  /// Doubt at which a group is complete.
-  double complete_group_doubt = 0.005;
-  /// Noise floors rms that an effect beside the best set must trade with a member to join its group, and the number of
-  /// effects that are tested. Without this step 8 of 10 effects of the same joints are held in place of 10; without the
-  /// limit groups of the first six grow from 7.1 to 7.7.
+  /// Absence probability at which a group is complete.
+  double complete_group_absence = 0.005;
+  /// An effect beside the best set joins a member's group if both can exchange at least this much, rms in noise floors.
+  /// At most `most_companions` effects are tested. Without this step 8 of 10 effects of the same joints are held in place
+  /// of 10. Without the limit groups of the first six grow from 7.1 to 7.7.
   double least_shared = 1.5;
   std::size_t most_companions = 10;
   /// Log odds of an effect against the best unmodelled cause in its place (unmodelled_alternatives.h) below which its group contains
@@ -124,14 +125,14 @@ struct Thresholds {
 
   // ---- likely input errors ----
 
-  /// Noise floors that the file as it is must leave for an input error to be likely before any search. Known faults
+  /// Noise floors that the declared file must leave for an input error to be likely before any search. Known faults
   /// leave 15, one of them 27. The corrected file must leave less, if effects are sought beside the error.
   double input_error_large = 15.0;
   /// Noise floors that the corrected file may leave to explain the data alone. A pulley made for the other sign of OE
   /// leaves 1.8 where a tendon goes slack.
   double input_error_alone = 2.0;
   /// Otherwise the corrected file, nothing fitted, must leave this many times less than all identified effects. Rig data:
-  /// errors leave 3 to 7 times less (signs of a nearly symmetric joint) to 700 times less; no right file is doubted.
+  /// errors leave 3 to 7 times less (signs of a nearly symmetric joint) to 700 times less; no right file is reported.
   double input_error_gain = 3.0;
   /// Ratio from which an input error is reported although another cause stays unexplained beside it. Rig data
   /// f_not_in_any_catalogue with the sign of OE turned: 26.

@@ -16,11 +16,11 @@
 #include "calibration/unmodelled_effects.h"
 #include "calibration/words.h"
 
-// The discrepancy is smooth: a kink, a step, a bump or a short wave requires many of its columns, so that an absent
-// effect with a bend at about that place would be likelier. Shapes of few parameters complete it here, each with the
-// prior of an effect with a searched number. The data are explained with and without the effect, and both models may
-// add shapes. The remaining difference in score is the evidence for the effect itself. Wrong loads are no shape: each
-// effect is tested against them by refits (load_scale.h).
+// The discrepancy is smooth: a kink, a step, a bump or a short wave requires many of its columns. An absent effect with
+// a bend near that place would be likelier. Shapes of few parameters complete the discrepancy here, each with the prior
+// of an effect with a searched number. The data are explained with and without the effect, and both models may add
+// shapes. The remaining difference in score is the evidence for the effect itself. Wrong loads are no shape: each effect
+// is tested against them by refits (load_scale.h).
 
 namespace fusee::calibration {
 namespace {
@@ -489,7 +489,7 @@ void add_unmodelled(bool beside_unmodelled, const Selection& selection, std::vec
     std::vector<std::string>& group = effects[i].group;
     const double least = is_sure ? required_log_odds(*selection.best.effects[i], group, selection.catalogue)
                                  : std::numeric_limits<double>::infinity();
-    if (selection.groups[i].doubt > k_thresholds.most_false_positives || effects[i].idle_did_as_well ||
+    if (selection.groups[i].absence_probability > k_thresholds.most_false_positives || effects[i].idle_did_as_well ||
         effects[i].unmodelled.log_odds < least)
       group.emplace_back(k_unmodelled);
   }

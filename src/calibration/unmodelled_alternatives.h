@@ -1,5 +1,5 @@
 /// \file
-/// UnmodelledAlternative alternatives to reported effects: localised shapes of few parameters. Smooth ones are in the discrepancy.
+/// Unmodelled alternatives to reported effects: localised shapes of few parameters. Smooth ones are in the discrepancy.
 #pragma once
 
 #include <string>

@@ -11,13 +11,13 @@
 
 // A curve beside the readings has no moment arms and tensions. Two kinds of unmodelled causes act through them:
 //
-// - Geometry. Under load a path whose length deviates by a curve turns the joint further where its moment arm is
-// smaller, as every geometric effect does. Without such paths effects of geometry exceeded all unmodelled alternatives
-// (held-out seeds 241038 and 241092: the wandering centre of a flexure, as a runout, by 52 and 206 nats; by 4 at most
-// with them). So the set without the effect is refitted with a linear, a quadratic and a cubic term of the angle for
-// each tendon: a tendon that leaves its drum at an angle has all three (251083, 251117: 173 and 27 nats without the
-// linear one). Large deviations of both paths may end at a wrong mode from zero (241041: 39 nats below; 241063: 30), so
-// curves of both signs are starts too.
+// - Geometry. A deviation of a path's length turns the joint further where its moment arm is smaller, as every geometric
+// effect does. Without such paths effects of geometry exceeded all unmodelled alternatives (held-out seeds 241038 and
+// 241092: the wandering centre of a flexure, as a runout, by 52 and 206 nats; by 4 at most with them). So the set
+// without the effect is refitted with a linear, a quadratic and a cubic term of the angle for each tendon. A tendon that
+// leaves its drum at an angle has all three (251083, 251117: 173 and 27 nats without the linear one). From zero, large
+// deviations of both paths may end at a wrong mode (241041: 39 nats below; 241063: 30). Curves of both signs are
+// therefore further starts.
 //
 // - Friction by another law. It holds the joint within the tendons' compliance, as every friction does, but in
 // proportion neither to their tension, as on pins, nor to a constant, as in a bearing (held-out seeds 271100, 271143,
@@ -25,16 +25,17 @@
 // other).
 //
 // Effects that only completed the replaced effect are not required beside an unmodelled one (241096: a drum's radius,
-// 21 nats): they are removed one by one as long as the score rises. Each kind is tested only if the effect's
-// contribution is of that kind, geometry by the part that is equal at a place, friction by the part that is odd in
-// direction: the fits took a quarter of a calibration's time.
+// 21 nats). They are removed one by one as long as the score rises. To save fits, which took a quarter of a
+// calibration's time, each kind is tested only if the effect contributes to it: to geometry by the part that is equal at
+// a place, to friction by the part that is odd in direction.
 
 namespace fusee::calibration {
 namespace {
 
-/// mm at 57 degrees, a quarter of it at 29: pins, levers and pulleys are off by as much.
+/// Usual deviation of a path at 57 degrees, mm; a quarter of it at 29 degrees. Errors of pins, levers and pulleys cause
+/// as much.
 constexpr double k_usual_path = 2.0;
-/// N·mm: friction of a bearing, and more for pins.
+/// Usual friction, N·mm: that of a bearing; pins have more.
 constexpr double k_usual_rubbing = 100.0;
 /// Nats that removals may gain: 3 to 9 on seven joints, once 21.
 constexpr double k_most_by_idle_effects = 25.0;
@@ -161,7 +162,7 @@ Fit fit_with_unmodelled(const Fitter& fitter, const Fit& others, const fusee::Ef
   return fitter.fit(effects, at);
 }
 
-/// UnmodelledAlternative effect in the place of an effect: a fit from each of its starts.
+/// Unmodelled effect in the place of an effect: a fit from each of its starts.
 struct Substitute {
   std::size_t effect = 0;
   const UnmodelledEffect* unmodelled = nullptr;

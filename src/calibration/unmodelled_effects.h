@@ -1,5 +1,5 @@
 /// \file
-/// UnmodelledAlternative effects in the mechanism itself, outside the catalogue: they move angles and tensions together, which a
+/// Unmodelled effects in the mechanism itself, outside the catalogue: they move angles and tensions together, which a
 /// curve beside the readings cannot.
 #pragma once
 

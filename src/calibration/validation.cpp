@@ -43,7 +43,7 @@ Estimate declared_estimate(FitterPool& pool, const Selection& selection) {
 }
 
 HeldOut hold_out(const Evidence& evidence, const Estimate& estimate, const std::vector<Fold>& folds) {
-  if (estimate.beside) return hold_out_beside(evidence, estimate.fit, *estimate.beside, folds).effects;
+  if (estimate.beside) return hold_out_with_discrepancy(evidence, estimate.fit, *estimate.beside, folds).effects;
   return hold_out(evidence, estimate.fit, folds);
 }
 

@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "calibration/statistics.h"
 #include "calibration/unmodelled_alternatives.h"
-#include "measurement/seen_span.h"
+#include "measurement/value_range.h"
 
 namespace fusee::calibration {
 namespace {
@@ -32,7 +32,8 @@ std::string list(const std::vector<std::string>& names) {
 class Places {
  public:
   explicit Places(const measurement::Measurement& measurement)
-      : alpha_(alphas(measurement)), bins_{measurement::seen_span(measurement, &measurement::Sample::alpha), k_bins} {}
+      : alpha_(alphas(measurement)),
+        bins_{measurement::value_range(measurement, &measurement::Sample::alpha), k_bins} {}
 
   void add(std::size_t row, int direction, double residual) {
     Mean& mean = means_[{bins_.bin(alpha_[static_cast<Eigen::Index>(row)]), direction}];

@@ -27,7 +27,7 @@ std::string line(const std::string& title, const std::string& text) { return tit
 std::string tension_line(const analysis::AnalysisResult& result, const Mechanism& mechanism) {
   const analysis::TensionExtreme& most = result.largest_tension;
   return line("largest tension", rounded(most.tension) + " N, " + analysis::place_words(most, mechanism) + ", " +
-                                     alpha_text(most.alpha) + (most.rising ? ", rising" : ", falling")) +
+                                     alpha_text(most.alpha) + (most.rising ? " and rising" : " and falling")) +
          line("", "(paper: T_b " + rounded(result.largest_paper_tension.value) + " N, " +
                       alpha_text(result.largest_paper_tension.alpha) + ")");
 }
@@ -193,27 +193,27 @@ Json tolerances_json(const std::vector<analysis::ToleranceEffect>& effects) {
 // ---- findings -------------------------------------------------------------------------------------------------------
 
 void add_findings(const analysis::AnalysisResult& result, const std::string& file, Reply& reply) {
-  const auto say = [&](Severity severity, const std::string& message, const std::string& hint) {
+  const auto report = [&](Severity severity, const std::string& message, const std::string& hint) {
     Diagnostic diagnostic = about_file(severity, file, message);
     diagnostic.hint = hint;
     reply.diagnostics.push_back(diagnostic);
     if (severity == Severity::error) reply.exit = Exit::check_failed;
   };
-  if (const auto lost = analysis::no_equilibrium(result)) say(lost->severity, lost->message, lost->hint);
+  if (const auto lost = analysis::no_equilibrium(result)) report(lost->severity, lost->message, lost->hint);
   if (result.breaks_at) {
     const auto breaks = analysis::tendon_breaks({result.largest_tension, result.largest_at_joint}, *result.strength);
-    say(breaks->severity, breaks->message, breaks->hint);
+    report(breaks->severity, breaks->message, breaks->hint);
   }
   const bool declared_loose = result.largest_tension.tension < 1e-6;
   if (!result.untensioned.empty()) {
-    say(declared_loose ? Severity::warning : Severity::error,
-        "both tendons are slack " + slack_text(result, result.untensioned) + ": nothing holds the joint",
-        result.taut_pretension ? "tendon.pretension_N >= " + rounded(*result.taut_pretension, 3) + " keeps both taut"
-                               : "raise tendon.pretension_N");
+    report(declared_loose ? Severity::warning : Severity::error,
+           "both tendons are slack " + slack_text(result, result.untensioned) + ": nothing holds the joint",
+           result.taut_pretension ? "tendon.pretension_N >= " + rounded(*result.taut_pretension, 3) + " keeps both taut"
+                                  : "raise tendon.pretension_N");
   }
   for (const profile::Condition& condition : result.obstacles) {
-    say(Severity::warning, "forces are known, but the pulley is infeasible: " + condition.message,
-        "'fusee build' lists helpful changes");
+    report(Severity::warning, "forces are known, but the pulley is infeasible: " + condition.message,
+           "'fusee build' lists helpful changes");
   }
 }
 

@@ -119,7 +119,7 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
-/// With a sign; plus and minus may stand apart from the digits.
+/// Takes a signed number. Blanks may separate the sign from the digits.
 std::optional<double> take_signed(std::string_view& text, bool comma = true) {
   skip_blanks(text);
   std::string_view rest = text;
@@ -187,7 +187,7 @@ std::optional<double> take_length(std::string_view& text) {
   }
 }
 
-/// Without the last digits of a conversion: 1 3/4 in is 44.45 mm.
+/// Rounds off the last digits of a conversion: 1 3/4 in is 44.45 mm.
 double in_micrometres(double length) {
   const double written = std::round(1e6 * length) / 1e6;
   return written > 0 ? written : length;

@@ -80,7 +80,7 @@ std::string tendons_text(const formats::Product& product) {
   for (const formats::KitCut& cut : formats::rig_cuts(product, *product.rig))
     rig += (rig.empty() ? "" : ", ") + std::string(cut.side == transmission::Side::left ? "1" : "2") + " +" +
            fixed(cut.longer, 0) + " mm";
-  return text + titled("", rig + " for the tensioner and post of fusee kit's rig");
+  return text + titled("", rig + " for the test rig of fusee kit");
 }
 
 std::string size_text(const solid::Pulley& pulley) {

@@ -80,8 +80,8 @@ std::vector<std::string> effect_texts(const calibration::Calibration& c, const s
   if (texts.empty()) texts.push_back("none accepted");
   if (!c.unexplained_where.empty())
     texts.push_back("unexplained: " + deg(c.unexplained_rms) + " deg rms beyond the noise, " + c.unexplained_where);
-  for (const calibration::DiscrepancyComponent& unknown : c.discrepancy)
-    texts.push_back("unmodelled: " + formats::unknown_words(unknown));
+  for (const calibration::DiscrepancyComponent& part : c.discrepancy)
+    texts.push_back("unmodelled: " + formats::discrepancy_words(part));
   return texts;
 }
 

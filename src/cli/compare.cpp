@@ -32,7 +32,7 @@ std::string difference_text(const calibration::Comparison& comparison) {
   const auto deg = [](double value) { return fixed(degrees(value), 4); };
   return "\n" + table({{"deg at the joint, rms"}, {"", Align::right}},
                       {{"  difference between the states", deg(comparison.difference.before)},
-                       {"  the same with the changes", deg(comparison.difference.after)},
+                       {"  unexplained by the changes", deg(comparison.difference.after)},
                        {"  noise floor", deg(comparison.changes.noise.rms)}});
 }
 

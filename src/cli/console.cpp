@@ -53,7 +53,7 @@ Console::Console() : terminal_(::isatty(STDERR_FILENO) == 1), color_(terminal_ &
 
 Console::~Console() { end_progress(); }
 
-void Console::say(const Diagnostic& diagnostic) {
+void Console::report(const Diagnostic& diagnostic) {
   if (options_.quiet && diagnostic.severity != Severity::error) return;
   end_progress();
   std::string text = cleaned(to_text(diagnostic));

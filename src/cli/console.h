@@ -26,7 +26,7 @@ class Console {
   void set_options(ConsoleOptions options) { options_ = options; }
   bool verbose() const { return options_.verbose; }
   /// Writes a diagnostic to stderr; with --quiet only errors.
-  void say(const Diagnostic& diagnostic);
+  void report(const Diagnostic& diagnostic);
   /// Shows the present step: a line that is overwritten on a terminal, elsewhere a plain line with --verbose, else
   /// nothing.
   void progress(std::string_view step);

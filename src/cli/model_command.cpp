@@ -121,7 +121,7 @@ std::string model_summary(const pipeline::ModelResult& made, const pipeline::Mod
   const model::JointTable& table = product.table;
   std::string text = product.mechanism.name + ": the joint for other programs\n";
   text += std::string("  table             ") +
-          (product.curves.sensed.source == model::CurveSource::law ? "of the declared law"
+          (product.curves.sensed.source == model::CurveSource::law ? "of the target motion"
            : product.curves.sensed.source == model::CurveSource::identified
                ? "of the identified joint, in both directions"
                : "of " + product.compensation + ", in both directions") +

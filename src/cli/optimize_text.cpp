@@ -68,7 +68,7 @@ void add_value(const pipeline::OptimizeResult& result, Reply& reply) {
   reply.fields["theta_deg"] = degrees(result.theta);
   if (now.possible) reply.fields["value_before"] = now.value;
   reply.fields["design"] = design_json(result.problem, result.design);
-  const std::string before = now.possible ? "; the file as it is: " + value_text(objective, now.value) : "";
+  const std::string before = now.possible ? "; as declared: " + value_text(objective, now.value) : "";
   reply.text += titled(
       std::string(optimize::info(objective).name),
       value_text(objective, result.value) + " at theta = " + rounded(degrees(result.theta), 4) + " deg" + before);

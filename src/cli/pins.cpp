@@ -5,7 +5,7 @@
 namespace fusee::cli {
 
 std::string pins_text(const Mechanism& mechanism) {
-  return mechanism.has_point_pins() ? "points (the paper's equations)" : "with their radius and the tendon's";
+  return mechanism.has_point_pins() ? "points (the paper's equations)" : "cylinders, and tendons with thickness";
 }
 
 Json pins_json(const Mechanism& mechanism) {

@@ -193,7 +193,7 @@ std::optional<std::string> put(Console& console, std::size_t number, Answers& an
       if (*understood != answer) console.tell("      → " + *understood + "\n");
       return *understood;
     }
-    console.say({Severity::error, {}, std::get<Refusal>(taken).reason, {}});
+    console.report({Severity::error, {}, std::get<Refusal>(taken).reason, {}});
   }
   throw InputError(Diagnostic{Severity::error,
                               {},
@@ -390,7 +390,7 @@ AskedMechanism ask_for_mechanism(Console& console, const std::vector<Setting>& s
     }
     asked.others = layouts.others(answers);
     if (asked.others.empty()) return asked;
-    console.say({Severity::error, {}, "no layout fits these answers: " + asked.search.obstacle, {}});
+    console.report({Severity::error, {}, "no layout fits these answers: " + asked.search.obstacle, {}});
     const OtherAnswer& other = asked.others.front();
     const auto number = static_cast<std::size_t>(other.question - 1);
     if (!put(console, number, answers, other.answer)) return asked;

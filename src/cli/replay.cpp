@@ -213,14 +213,14 @@ std::string files_text(const Bundle& bundle) {
 void say_version(const Bundle& bundle, Reply& reply) {
   Bundle own;
   sign(own);
-  const auto say = [&](Severity severity, const std::string& what, std::string Bundle::*of) {
+  const auto report = [&](Severity severity, const std::string& what, std::string Bundle::*of) {
     if (bundle.*of == own.*of) return;
     const std::string words = "the bundle was made by " + what + bundle.*of + ", but this is " + what + own.*of;
     reply.diagnostics.push_back(note(severity, cleaned_line(words)));
   };
-  say(Severity::warning, "fusee ", &Bundle::version);
-  say(Severity::note, "a fusee built with ", &Bundle::built_with);
-  say(Severity::note, "a machine with ", &Bundle::runs_on);
+  report(Severity::warning, "fusee ", &Bundle::version);
+  report(Severity::note, "a fusee built with ", &Bundle::built_with);
+  report(Severity::note, "a machine with ", &Bundle::runs_on);
 }
 
 std::string summary(const Bundle& bundle, const BundledOutcome& now, const Json& differences) {

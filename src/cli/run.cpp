@@ -221,10 +221,10 @@ int run(const std::vector<std::string>& given) {
   };
   const Ending ending = ended();
   const Reply& reply = ending.reply;
-  for (const Diagnostic& diagnostic : reply.diagnostics) console.say(diagnostic);
+  for (const Diagnostic& diagnostic : reply.diagnostics) console.report(diagnostic);
   console.end_progress();
   if (!write_result(ending.result())) {
-    console.say(
+    console.report(
         note(Severity::error, std::string("the result could not be written to stdout: ") + std::strerror(errno)));
     return static_cast<int>(reply.exit == Exit::done ? Exit::cannot_write : reply.exit);
   }

@@ -7,7 +7,7 @@
 #include "calibration/evidence.h"
 #include "fusee/joint.h"
 #include "fusee/transmission.h"
-#include "measurement/seen_span.h"
+#include "measurement/value_range.h"
 #include "mechanism/effect.h"
 #include "transmission/target_motion.h"
 
@@ -121,7 +121,7 @@ double removed_rms(double all, double rest) { return std::sqrt(std::max(0.0, all
 
 /// Piecewise linear function of α at even distances, constant beyond its ends.
 struct Curve {
-  measurement::SeenSpan seen;
+  measurement::ValueRange seen;
   std::vector<double> values;
 
   double at(double alpha) const {
@@ -135,7 +135,7 @@ struct Curve {
 /// Mean in bins of α; empty bins take their nearest neighbour's value.
 class BinnedMean {
  public:
-  explicit BinnedMean(const measurement::SeenSpan& seen)
+  explicit BinnedMean(const measurement::ValueRange& seen)
       : bins_{seen, k_places}, sums_(k_places + 1, 0), weights_(k_places + 1, 0) {}
 
   /// Distributes the value over the two bins next to `alpha`.
@@ -176,7 +176,7 @@ struct DirectionalCurves {
 };
 
 DirectionalCurves directional_curves(const measurement::Measurement& measurement, const Angles& error, double play) {
-  const measurement::SeenSpan seen = measurement::seen_span(measurement, &measurement::Sample::alpha);
+  const measurement::ValueRange seen = measurement::value_range(measurement, &measurement::Sample::alpha);
   BinnedMean up(seen), down(seen);
   for_each_known(measurement, [&](std::size_t r, std::size_t i, const measurement::Stroke& stroke) {
     const std::vector<measurement::Sample>& samples = measurement.runs[r].samples;
@@ -207,7 +207,7 @@ double alpha_at(const std::vector<LawRow>& rows, double theta) {
 struct JointDeviation {
   const DirectionalCurves& effects;
   const calibration::EmpiricalCurve* curve;  ///< null if there is none
-  measurement::SeenSpan seen;                ///< range in which both are known
+  measurement::ValueRange seen;              ///< range in which both are known
 
   double at(double alpha, bool rising) const {
     const double known = (rising ? effects.up : effects.down).at(alpha);
@@ -215,8 +215,8 @@ struct JointDeviation {
   }
 };
 
-measurement::SeenSpan common_span(const DirectionalCurves& effects, const calibration::EmpiricalCurve* curve) {
-  measurement::SeenSpan seen = effects.up.seen;
+measurement::ValueRange common_span(const DirectionalCurves& effects, const calibration::EmpiricalCurve* curve) {
+  measurement::ValueRange seen = effects.up.seen;
   if (curve == nullptr) return seen;
   seen.least = std::max(seen.least, curve->alpha.front());
   seen.most = std::min(seen.most, curve->alpha.back());
@@ -382,7 +382,7 @@ Correction correct(const DeclaredMechanism& declared, const measurement::Measure
   if (is_compliant && !declared.transmission)
     correction.identified.joint.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
   const transmission::TargetMotion law(declared);
-  if (!measurement::seen_span(measurement, &measurement::Sample::alpha).any() || !law.exists()) {
+  if (!measurement::value_range(measurement, &measurement::Sample::alpha).any() || !law.exists()) {
     fill_reasons(calibration, correction);
     return correction;
   }

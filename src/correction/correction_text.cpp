@@ -31,7 +31,7 @@ std::string found_text(const calibration::FoundEffect& effect) {
     if (rival != effect.name) text += " " + rival;
   }
   text += ": these data do not distinguish them";
-  for (const calibration::MemberBeside& member : effect.beside) {
+  for (const calibration::GroupMember& member : effect.beside) {
     text += "; perhaps with " + member.name + "";
     for (const calibration::FittedParameter& parameter : member.parameters) text += number_text(parameter);
   }

@@ -8,7 +8,7 @@
 
 namespace fusee::joint {
 
-/// The joint with identified geometry and statics, and the declared law's keys.
+/// The joint with identified geometry and statics, and the keys of the target motion.
 Mechanism identified_mechanism(const DeclaredMechanism& declared);
 
 /// The law of the pulley in the identified joint.

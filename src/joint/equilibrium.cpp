@@ -46,7 +46,7 @@ constexpr double k_newton_range = 0.02;  // rad
 /// Relative tolerance of dry friction that depends on tension, and the maximum number of iterations for it.
 constexpr double k_friction_tolerance = 1e-4;
 constexpr int k_friction_rounds = 6;
-/// Tension below which a tendon holds nothing: the rounding error of one that just pushed a loose joint. N
+/// Tension below which a tendon counts as slack: the rounding error after a tendon has pushed a loose joint. N
 constexpr double k_min_tension = 1e-4;
 /// Distance before the lift-off angle at which the tendon still lies on the drum. rad
 constexpr double k_before_lift_off = 1e-9;
@@ -55,8 +55,8 @@ constexpr double k_rounding = 1e-6;
 
 double energy_per_material(double tension, double EA) { return 0.5 * tension * tension / EA; }
 
-/// Number of places at which a sheath holds, each in the middle of its part (threaded_balance.h). Without friction one
-/// place suffices.
+/// Number of points at which the friction of a sheath acts, each in the middle of its section (threaded_balance.h).
+/// Without friction one point suffices.
 std::size_t bends_of(const transmission::SheathLoad& sheath) {
   return sheath.log_ratio > 0 ? ThreadedSpans::k_bends : 1;
 }
@@ -64,15 +64,15 @@ std::size_t bends_of(const transmission::SheathLoad& sheath) {
 double end_share(const transmission::SheathLoad& sheath) { return 0.5 / static_cast<double>(bends_of(sheath)); }
 
 /// Share of a sheath's compliance that belongs to one span, relative to its length when mounted at home. A spring of c
-/// N⁻¹ equals a tendon of length EA c without temperature and creep (see PinCompliance).
+/// mm/N equals a tendon of length EA c without temperature and creep (see PinCompliance).
 struct SheathShare {
   double length = 0;
-  double unseen = 0;
+  double virtual_length = 0;
   double mounted = 0;  ///< elongation of the spring at home relative to zero tension
 
   SheathShare(const transmission::SheathLoad& sheath, double share, double EA, double home)
       : length(share * sheath.length),
-        unseen(share * sheath.compliance * EA),
+        virtual_length(share * sheath.compliance * EA),
         mounted(share * sheath.compliance * home) {}
 };
 
@@ -112,21 +112,21 @@ struct PinDirections {
   Vec2 push(double upper, double lower) const { return upper * up + lower * down; }
 };
 
-/// A pin of compliance c N⁻¹ shortens the two parts of the path by up·d and down·d, d = c (push − home_push): to first
+/// A pin of compliance c mm/N shortens the two parts of the path by up·d and down·d, d = c (push − home_push): to first
 /// order, with the moment arms of the undisplaced pin. The effect of a span's own tension is a spring in series, equal
-/// to an additional length of tendon EA c, and no equation changes: both spans get an `unseen` length of path and
-/// material. The other span's tension enters by its ratio to this one's, which the step iterates.
+/// to an additional length of tendon EA c, and no equation changes: path and material of each span get the same
+/// virtual length. The other span's tension enters by its ratio to this one's, which the step iterates.
 struct PinCompliance {
-  double upper_unseen = 0;
-  double lower_unseen = 0;
+  double upper_virtual = 0;
+  double lower_virtual = 0;
   double upper_length = 0;  ///< change due to the force at home, which the declared path includes
   double lower_length = 0;
 
   PinCompliance() = default;
   PinCompliance(const PinDirections& at, const TendonHistory& tendon, double per_newton, double EA) {
     const double across = at.up.dot(at.down);
-    upper_unseen = per_newton * EA * (1.0 + across * tendon.ratio);
-    lower_unseen = per_newton * EA * (1.0 + across / tendon.ratio);
+    upper_virtual = per_newton * EA * (1.0 + across * tendon.ratio);
+    lower_virtual = per_newton * EA * (1.0 + across / tendon.ratio);
     upper_length = per_newton * at.up.dot(tendon.home_push);
     lower_length = per_newton * at.down.dot(tendon.home_push);
   }
@@ -174,25 +174,25 @@ TendonAtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, const
 }
 
 void add_compliance(Spans& spans, const SheathShare& sheath) {
-  spans.upper_length += sheath.unseen + sheath.mounted;
-  spans.upper_material += sheath.unseen;
-  spans.lower_length += sheath.unseen + sheath.mounted;
-  spans.lower_material += sheath.unseen;
+  spans.upper_length += sheath.virtual_length + sheath.mounted;
+  spans.upper_material += sheath.virtual_length;
+  spans.lower_length += sheath.virtual_length + sheath.mounted;
+  spans.lower_material += sheath.virtual_length;
 }
 
 void add_compliance(Spans& spans, const PinCompliance& pin) {
-  spans.upper_length += pin.upper_unseen + pin.upper_length;
-  spans.upper_material += pin.upper_unseen;
-  spans.lower_length += pin.lower_unseen + pin.lower_length;
-  spans.lower_material += pin.lower_unseen;
+  spans.upper_length += pin.upper_virtual + pin.upper_length;
+  spans.upper_material += pin.upper_virtual;
+  spans.lower_length += pin.lower_virtual + pin.lower_length;
+  spans.lower_material += pin.lower_virtual;
 }
 
 /// A span of a tendon whose waves straighten, linearized at the tension `pull`: a spring of compliance
 /// waves.slope(pull), equal to a tendon of length EA times that without temperature (see PinCompliance).
 Spans with_waves(Spans spans, const CableStiffening& waves, double pull, double home) {
-  const double slope = waves.slope(pull), unseen = slope * spans.EA;
-  spans.upper_length += unseen + slope * pull + waves.gained(home) - waves.gained(pull);
-  spans.upper_material += unseen;
+  const double slope = waves.slope(pull), virtual_length = slope * spans.EA;
+  spans.upper_length += virtual_length + slope * pull + waves.gained(home) - waves.gained(pull);
+  spans.upper_material += virtual_length;
   return spans;
 }
 
@@ -220,8 +220,8 @@ bool update_slide(TendonAtAlpha& at, const WoundProfile& wound, double now, doub
   if (swings) by *= 0.5;
   at.moved = by;
   at.slide = wound.slide(at.turned, strain + by, at.swelling);
-  const double said = length * (1.0 / (1.0 + strain) - 1.0 / (1.0 + at.slide.strain));
-  const double missed = std::abs(at.swelling * (at.slide.freed - freed) - said);
+  const double expected = length * (1.0 / (1.0 + strain) - 1.0 / (1.0 + at.slide.strain));
+  const double missed = std::abs(at.swelling * (at.slide.freed - freed) - expected);
   return same || (!swings && missed <= model.last_step * at.path.p);
 }
 
@@ -257,13 +257,13 @@ ThreadedSpans threaded(const Spans& spans, const TendonHistory& tendon, const Jo
   ThreadedSpans all;
   all.EA = spans.EA;
   all.holds.fill(model.sheath.log_ratio / ThreadedSpans::k_bends);
-  all.length.fill(piece.length + piece.unseen + piece.mounted);
+  all.length.fill(piece.length + piece.virtual_length + piece.mounted);
   all.length.front() = spans.upper_length;
   all.length.back() = spans.lower_length;
   all.material.front() = spans.upper_material;
   all.material.back() = spans.lower_material;
   for (std::size_t i = 0; i < tendon.sheath.material.size(); ++i)
-    all.material[i + 1] = swelling * tendon.sheath.material[i] + piece.unseen;
+    all.material[i + 1] = swelling * tendon.sheath.material[i] + piece.virtual_length;
   return all;
 }
 

@@ -53,14 +53,14 @@ std::array<double, 2> both_ways(double x) {
 
 struct SlidContent {
   WoundContent held;
-  double length = 0;  ///< as Slide::length
+  double length = 0;  ///< length of the equivalent span (Slide::length)
 };
 
 /// Content between `from` and `to` for the strain ε e^{fall (turn_to − turn)}, where ε = `strain` is that at `to`.
 ///
 /// With q = e^{fall (turn_to − ψ)}, integration by parts gives
-///   ∫ f(q) ds = f(1) (s_to − s_from) + fall ∫ (s − s_from) q f'(q) dψ,
-/// of which the last integral is computed by Gauss quadrature. It vanishes for fall = 0.
+///   ∫ f(q) ds = f(1) (s_to − s_from) + fall ∫ (s − s_from) q f'(q) dψ.
+/// Gauss quadrature computes the last integral. For fall = 0 this term vanishes.
 SlidContent sliding(const GrooveArc& groove, const GroovePlace& from, const GroovePlace& to, double strain, double fall,
                     double swelling) {
   const double arc = to.arc - from.arc;
@@ -130,9 +130,10 @@ struct Bound {
   double fall = 0;
   bool pulls = true;  ///< true: a higher strain pulls the tendon out; false: a lower one lets it slip back
 
-  /// Log ratio of the bound at the turn `at` to a stored strain of logarithm `there`; positive if the tendon slides.
-  double beyond(double at, double there) const {
-    const double by = log_strain + fall * (turn - at) - there;
+  /// Logarithm of bound / stored strain at the turn `at`; `log_stored`: logarithm of the stored strain. Positive if the
+  /// tendon slides.
+  double beyond(double at, double log_stored) const {
+    const double by = log_strain + fall * (turn - at) - log_stored;
     return pulls ? by : -by;
   }
 };

@@ -75,13 +75,13 @@ Cell read_number(std::string_view text, double& value) {
 
 void NumberReader::settle_mark(const std::vector<std::string_view>& row) {
   if (mark_ != 0) return;
-  bool doubtful = false;
+  bool ambiguous = false;
   for (const std::string_view cell : row) {
     mark_ = decimal_mark_of(cell);
     if (mark_ != 0) return;
-    doubtful = doubtful || is_grouped(cell, ',');
+    ambiguous = ambiguous || is_grouped(cell, ',');
   }
-  if (doubtful) mark_ = ',';  // only commas: three decimals
+  if (ambiguous) mark_ = ',';  // only commas: three decimals
 }
 
 Cell NumberReader::read(std::string_view text, double& value) const {

@@ -191,7 +191,7 @@ class ColumnFinder {
                                  ? " (in degrees, or its name ends in its unit: _rad, _turns, _counts)"
                                  : "";
     problem(
-        "there is no column " + shown_plainly(wanted),
+        "there is no column " + quoted_if_required(wanted),
         nearest.empty()
             ? "the columns are " + list_of(names_) + "; select one with --column " + role + "=NAME" + unit
             : "the nearest is " + shown(nearest) + ": --column " + role + "=" + argument(nearest) + " takes it" + unit);
@@ -212,7 +212,7 @@ class ColumnFinder {
             "give one of these as --column " + role + "=NAME: " + list);
   }
 
-  static std::string shown_plainly(const std::string& name) {
+  static std::string quoted_if_required(const std::string& name) {
     return argument(name) == name ? shown(name).substr(1, shown(name).size() - 2) : shown(name);
   }
 

@@ -149,7 +149,7 @@ std::vector<std::string> run_names(const std::vector<std::filesystem::path>& fil
   return names;
 }
 
-/// Sources in the same words are told once, with the names of their runs.
+/// Merges equal sources into one, with the names of their runs.
 void merge_sources(std::vector<std::string>& sources) {
   constexpr std::string_view k_mark = ": ";
   std::vector<std::pair<std::string, std::vector<std::string>>> runs_by_words;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "fusee/measurement.h"
-#include "measurement/seen_span.h"
 #include "measurement/strokes.h"
+#include "measurement/value_range.h"
 
 // Strokes of equal direction, load and speed are repeats. The scatter of a row is (2θ − θbefore − θafter)/√6, with θ of
 // the neighbouring repeats at the same α; a steady drift cancels. Further influences:
@@ -55,7 +55,7 @@ class Scatter {
   /// α at which the differences have the largest mean square.
   double largest_at() const {
     constexpr int k_places = 12;
-    SeenSpan span;
+    ValueRange span;
     for (const double place : places_) span.take(place);
     if (!span.any() || places_.size() != values_.size()) return 0;
     const Bins bins{span, k_places};
@@ -255,7 +255,7 @@ struct RepeatTolerance {
 };
 
 RepeatTolerance repeat_tolerance(const Measurement& measurement, bool across_runs) {
-  const SeenSpan alphas = seen_span(measurement, &Sample::alpha);
+  const ValueRange alphas = value_range(measurement, &Sample::alpha);
   return {load_tolerance(measurement),
           std::max(2e-3 * (alphas.any() ? alphas.size() : 0.0), 3 * measurement.alpha_quantum), across_runs};
 }
@@ -303,7 +303,7 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
     std::vector<double> differences, places;
     const Run& run = *group[k].run;
     const Segment& rows = group[k].rows;
-    const auto look = [&](const Pass& pass, std::size_t row) {
+    const auto angle_of = [&](const Pass& pass, std::size_t row) {
       const Sample& sample = run.samples[row];
       const double share =
           static_cast<double>(row - rows.first) / static_cast<double>(std::max<std::size_t>(1, rows.last - rows.first));
@@ -316,14 +316,14 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
     for (std::size_t i = rows.first; i <= rows.last; ++i) {
       const Sample& sample = run.samples[i];
       if (!rows.is_dwell && !is_inner(run, rows, sample.alpha)) continue;
-      const InterpolatedAngle before = look(group[k - 1], i);
+      const InterpolatedAngle before = angle_of(group[k - 1], i);
       if (!before.inside) continue;
       if (!triples) {
         places.push_back(sample.alpha);
         differences.push_back((sample.theta - before.theta) / std::sqrt(1 + before.weight));
         continue;
       }
-      const InterpolatedAngle after = look(group[k + 1], i);
+      const InterpolatedAngle after = angle_of(group[k + 1], i);
       if (!after.inside) continue;
       places.push_back(sample.alpha);
       differences.push_back((2 * sample.theta - before.theta - after.theta) /

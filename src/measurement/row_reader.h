@@ -34,7 +34,7 @@ struct LoggedRows {
 };
 
 /// Rows of a CSV text. Throws InputError (name:line:column) with all faults, up to a readable number. `name` and
-/// `options` are referred to.
+/// `options` must outlive the reader.
 class CsvReader {
  public:
   CsvReader(const std::string& name, const MeasurementOptions& options, std::size_t most_samples);

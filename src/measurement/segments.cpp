@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "measurement/seen_span.h"
 #include "measurement/strokes.h"
+#include "measurement/value_range.h"
 
 // A point-to-point log has few rows, or none, during motion. In place of a stroke's shape it shows the level of θ at
 // each dwell, approached from one side, under one load. Thresholds are shares of the run's own span and scatter;
@@ -44,7 +44,7 @@ std::size_t count_of(const RowRange& rows) { return rows.last - rows.first + 1; 
 /// Rows from `first`, before or at `end`, whose values lie within `width`.
 RowRange within(const std::vector<Sample>& samples, double Sample::*value, std::size_t first, std::size_t end,
                 double width) {
-  SeenSpan span;
+  ValueRange span;
   std::size_t last = first;
   for (std::size_t i = first; i <= end; ++i) {
     span.take(samples[i].*value);
@@ -68,14 +68,14 @@ void add_or_join(std::vector<RowRange>& dwells, const RowRange& next, const std:
 
 /// Suspected step of the motor's sensor; 0 if steps are as wide as between dwells.
 double sensor_step(const std::vector<Sample>& samples, double quantum) {
-  return k_steps_of_a_sensor * quantum < seen_span(samples, &Sample::alpha).size() ? quantum : 0;
+  return k_steps_of_a_sensor * quantum < value_range(samples, &Sample::alpha).size() ? quantum : 0;
 }
 
 std::vector<RowRange> dwells_among(const std::vector<Sample>& samples, double step, double noise) {
   double way = 0;
   for (std::size_t i = 1; i < samples.size(); ++i) way += std::abs(samples[i].alpha - samples[i - 1].alpha);
   const double width =
-      std::max({k_drift * seen_span(samples, &Sample::alpha).size(), 1.5 * step, 2 * k_beyond_noise * noise});
+      std::max({k_drift * value_range(samples, &Sample::alpha).size(), 1.5 * step, 2 * k_beyond_noise * noise});
   // Noise adds to the path length: 2/√π of its standard deviation from row to row.
   const double rows = static_cast<double>(samples.size());
   const double pace = way / rows - 1.13 * noise;
@@ -115,7 +115,7 @@ struct Levels {
 /// Empty if the load changes by less than a tenth of itself, or than its noise.
 std::optional<Levels> levels_of(const Run& run) {
   if (!run.has_load || run.samples.empty()) return std::nullopt;
-  const SeenSpan span = seen_span(run.samples, &Sample::load);
+  const ValueRange span = value_range(run.samples, &Sample::load);
   const double largest = std::max(std::abs(span.least), std::abs(span.most));
   const double width = std::max(k_one_level * span.size(), 2 * k_beyond_noise * noise_of(run.samples, &Sample::load));
   if (span.size() <= 0.1 * largest || span.size() <= 1.5 * width) return std::nullopt;
@@ -124,7 +124,7 @@ std::optional<Levels> levels_of(const Run& run) {
 
 /// True if half of the load's change happens within three rows.
 bool is_stepped(const Run& run, const RowRange& rows) {
-  SeenSpan span;
+  ValueRange span;
   double step = 0;
   for (std::size_t i = rows.first; i <= rows.last; ++i) {
     span.take(run.samples[i].load);
@@ -156,7 +156,7 @@ std::vector<RowRange> pieces_of(const Run& run, const RowRange& rows, double wid
 /// Mean load of a stroke in eight bins of α; empty where there are no rows.
 using LoadByPlace = std::array<std::optional<double>, 8>;
 
-LoadByPlace load_by_place(const Run& run, const Stroke& stroke, const SeenSpan& alphas) {
+LoadByPlace load_by_place(const Run& run, const Stroke& stroke, const ValueRange& alphas) {
   LoadByPlace loads;
   std::array<double, 8> counts{};
   const Bins bins{alphas, 8};
@@ -173,7 +173,7 @@ LoadByPlace load_by_place(const Run& run, const Stroke& stroke, const SeenSpan& 
 
 /// True if all strokes of a direction have the same load at the same place: a spring, or a weight on a link.
 bool is_bound_to_place(const Run& run, const Levels& levels) {
-  const SeenSpan alphas = seen_span(run.samples, &Sample::alpha);
+  const ValueRange alphas = value_range(run.samples, &Sample::alpha);
   std::array<std::optional<LoadByPlace>, 2> first;
   for (const Stroke& stroke : run.strokes) {
     const LoadByPlace loads = load_by_place(run, stroke, alphas);
@@ -273,7 +273,7 @@ std::vector<RowRange> dwells_in(const std::vector<Sample>& samples, double alpha
 
 double sensor_quantum(const std::vector<RowRange>& dwells, const std::vector<Sample>& samples, double Sample::*angle,
                       double quantum) {
-  return dwells.empty() || k_steps_of_a_sensor * quantum < seen_span(samples, angle).size() ? quantum : 0;
+  return dwells.empty() || k_steps_of_a_sensor * quantum < value_range(samples, angle).size() ? quantum : 0;
 }
 
 std::vector<Sample> settled(std::vector<Sample> samples, const std::vector<RowRange>& dwells) {

@@ -149,8 +149,8 @@ struct Departure {
   }
 };
 
-/// True if the first stroke differs from at least two repeats where it begins, by three times their range, and by half
-/// of that or less where it ends: play or friction was in another state before the log.
+/// True if play or friction was in another state before the log. Then the first stroke begins apart from at least two
+/// repeats, by three times their range, and ends at most half as far apart.
 bool begins_in_another_state(const std::vector<Sample>& samples, const std::vector<Stroke>& strokes) {
   constexpr int thirds = 3, places_a_third = 8;
   constexpr double ranges = 3.0, decayed = 0.5;

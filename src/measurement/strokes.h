@@ -9,13 +9,15 @@
 
 namespace fusee::measurement {
 
-/// Strokes by direction of α, robust to noise and quantisation. A reversal counts once α has returned from its extreme
-/// by more than both and by 1 % of the run's span. A time gap over which α moved begins a `partial` stroke, whose play
-/// state is unknown; so does a run whose first stroke departs from its repeats at the beginning alone. Between dwells there are no gaps. Empty if α only jitters.
+/// Strokes by direction of α. A reversal counts once α has returned from its extreme by more than noise, quantisation and
+/// 1 % of the run's span. A stroke is `partial`, with an unknown state of play, after a time gap over which α moved. So
+/// is a first stroke that departs from its repeats only at its beginning. Between dwells there are no gaps. Empty if α
+/// only jitters.
 std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std::vector<RowRange>& dwells,
                                   double alpha_quantum, bool has_time);
 
-/// Rows before which α moved unlogged: after a pause, faster than ever in the log, or at a restart of the log.
+/// Rows before which α moved without being logged: after a pause, after a step larger than any speed in the log explains,
+/// or at a restart of the log.
 std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_time);
 
 /// Median; 0 for an empty list.
@@ -25,8 +27,8 @@ double median_of(std::vector<double> values);
 double white_noise_of(std::vector<double> second_differences);
 /// Noise of a logged number that changes steadily between dwells.
 double noise_of(const std::vector<Sample>& samples, double Sample::*value);
-/// Noise of a logged number that mostly stands. With three rows a dwell, two of three second differences contain a
-/// step.
+/// Noise of a logged number that is constant in most rows. With three rows per dwell, two of three second differences
+/// contain a step.
 double noise_of_dwells(const std::vector<Sample>& samples, double Sample::*value);
 
 }  // namespace fusee::measurement

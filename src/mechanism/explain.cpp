@@ -102,7 +102,7 @@ std::string catalogue_text(const Field& field) {
 }
 
 constexpr std::string_view k_length_words =
-    "or a text with its unit: \"45 mm\", \"4.5 cm\", \"3 1/2 in\"; with units = \"inch\" a number is in inches";
+    "or a text with its unit: \"45 mm\", \"4.5 cm\", \"3 1/2 in\". Numbers are in inches with units = \"inch\"";
 
 std::string field_text(const Field& field) {
   std::string text = field.name();

@@ -27,34 +27,34 @@ class Faults {
   }
 
  private:
-  void say(std::string_view key, std::string message, std::string hint) {
+  void report(std::string_view key, std::string message, std::string hint) {
     faults_.push_back({key, std::move(message), std::move(hint)});
   }
   void lacks(std::string_view key, std::string_view reason) {
-    say(key, "horn." + std::string(key) + " is missing or 0",
-        "add " + std::string(key) + " under [horn]: " + std::string(reason));
+    report(key, "horn." + std::string(key) + " is missing or 0",
+           "add " + std::string(key) + " under [horn]: " + std::string(reason));
   }
 
   void check_spline() {
     if (horn_.spline_teeth < k_min_teeth) {
-      say("spline_teeth", "horn.spline_teeth = " + std::to_string(horn_.spline_teeth) + " is too small",
-          "at least " + std::to_string(k_min_teeth) + "; 0: no toothed shaft");
+      report("spline_teeth", "horn.spline_teeth = " + std::to_string(horn_.spline_teeth) + " is too small",
+             "at least " + std::to_string(k_min_teeth) + "; 0: no toothed shaft");
     }
     if (horn_.spline_diameter <= 0) lacks("spline_diameter_mm", "over the shaft's teeth, for example 5.92");
     if (horn_.spline_depth <= 0) lacks("spline_depth_mm", "of the shaft's teeth, for example 0.3");
     // Teeth deeper than wide have flanks steeper than any serration (DIN 5481: 60° between them).
     const double pitch = k_pi * horn_.spline_diameter / horn_.spline_teeth;
     if (horn_.spline_diameter > 0 && horn_.spline_depth > pitch) {
-      say("spline_depth_mm",
-          "horn.spline_depth_mm = " + shortest(horn_.spline_depth) + " mm exceeds the width of the teeth, " +
-              rounded(pitch, 3) + " mm",
-          "make horn.spline_depth_mm smaller, or horn.spline_teeth");
+      report("spline_depth_mm",
+             "horn.spline_depth_mm = " + shortest(horn_.spline_depth) + " mm exceeds the width of the teeth, " +
+                 rounded(pitch, 3) + " mm",
+             "make horn.spline_depth_mm smaller, or horn.spline_teeth");
     }
     if (horn_.spline_length > 0 && horn_.centre_hole <= 0)
       lacks("centre_hole_mm", "the screw that holds the pulley on the shaft passes through it");
     if (horn_.spline_length <= 0 && horn_.centre_hole > 0) {
-      say("centre_hole_mm", "horn.centre_hole_mm conflicts with teeth that go through",
-          "add spline_length_mm, the length of the shaft in the pulley, or leave out centre_hole_mm");
+      report("centre_hole_mm", "horn.centre_hole_mm conflicts with teeth that go through",
+             "add spline_length_mm, the length of the shaft in the pulley, or leave out centre_hole_mm");
     }
   }
 
@@ -63,10 +63,10 @@ class Faults {
     const bool boss = horn_.boss_diameter > 0 || horn_.boss_height > 0;
     const bool bolts = horn_.bolt_count > 0 || horn_.bolt_circle > 0 || horn_.bolt_hole > 0;
     if (!boss && !bolts) return;
-    say("spline_teeth",
-        std::string("horn.spline_teeth is for the servo's bare shaft, ") +
-            (boss ? "horn.boss_diameter_mm" : "horn.bolt_circle_mm") + " for a horn",
-        "leave out the keys spline_..., or those of the horn");
+    report("spline_teeth",
+           std::string("horn.spline_teeth is for the servo's bare shaft, ") +
+               (boss ? "horn.boss_diameter_mm" : "horn.bolt_circle_mm") + " for a horn",
+           "leave out the keys spline_..., or those of the horn");
   }
 
   void check_no_spline() {

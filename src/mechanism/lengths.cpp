@@ -130,7 +130,7 @@ std::string text_of_digits(double value, double mm, int digits, Read read) {
   return {};
 }
 
-/// Digits that exceed the accuracy of any workshop.
+/// Enough digits for every length that is made or measured.
 constexpr int k_short = 6;
 constexpr int k_all_digits = 17;
 
@@ -184,7 +184,7 @@ std::string length_value_text(double mm, LengthUnit unit) {
   if (const std::string few = text_of_digits(inches, mm, k_short, as_number); !few.empty()) return few;
   if (const std::string few = text_of_digits(mm, mm, k_short, number_in); !few.empty()) return "\"" + few + " mm\"";
   if (const std::string all = text_of_digits(inches, mm, k_all_digits, as_number); !all.empty()) return all;
-  return "\"" + shortest(mm) + " mm\"";  // between two numbers of inches
+  return "\"" + shortest(mm) + " mm\"";  // no number of inches reads back as this length
 }
 
 }  // namespace fusee

@@ -53,7 +53,7 @@ JointTable table_of(const JointCurve& curve, const Mechanism& mechanism, const M
   return table;
 }
 
-/// As in the generated header, in 32-bit arithmetic throughout.
+/// Interpolates as the generated header does, in 32-bit arithmetic throughout.
 float read_at(const std::vector<float>& entries, float value, float first, float last) {
   const float per_step = static_cast<float>((static_cast<double>(entries.size()) - 1) / (double(last) - double(first)));
   return interpolated(entries, (value - first) * per_step);

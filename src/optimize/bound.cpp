@@ -40,7 +40,7 @@ struct NumberSlot {
   bool angle = false;
 };
 
-/// In the order of FileNumbers, then of WideFileNumbers.
+/// All variables, in the order of FileNumbers, then of WideFileNumbers.
 constexpr std::array<NumberSlot, 26> k_slots{{{"joint.length_mm"},
                                               {"guides.EB_mm"},
                                               {"guides.ED_mm"},
@@ -399,16 +399,16 @@ void BoundCalculator::add_tightest_places(const DesignNumbers<double>& middle, s
     const int places = which < k_basic_conditions ? k_places : k_places_of_drawing, step = places / 12;
     int tightest = 0;
     double least = k_infinite;
-    const auto look = [&](int place) {
+    const auto test_place = [&](int place) {
       if (place < 0 || place > places) return;
       const double here = value(which, place, places);
       if (here < least) least = here, tightest = place;
     };
-    for (int place = 0; place <= places; place += step) look(place);
+    for (int place = 0; place <= places; place += step) test_place(place);
     for (int by = step / 2; by > 0; by /= 2) {
       const int around = tightest;
-      look(around - by);
-      look(around + by);
+      test_place(around - by);
+      test_place(around + by);
     }
     query.push_back({Query::Kind::needed, static_cast<double>(tightest) / places, static_cast<DesignCondition>(which)});
   }
@@ -583,7 +583,7 @@ Design BoundCalculator::lowest_around(const Design& design, double size) const {
   const transmission::Jet whole = at(transmission::Jet::variable({low, high}, 0, 1));
   transmission::Interval value = whole.value;
   if (whole.count == 0) return value;
-  // From the end towards which it does not decrease, or from the middle.
+  // The mean value form starts from the end towards which the function does not decrease, or from the middle.
   const transmission::Interval slope = whole.slope[0];
   const double from = slope.lower() >= 0 ? high : slope.upper() <= 0 ? low : 0.5 * (low + high);
   const transmission::Interval centred =

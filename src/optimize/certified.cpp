@@ -238,8 +238,8 @@ class BranchAndBound {
     for (std::size_t i = 0; i < count_; ++i) {
       const double range = root_.upper[i] - root_.lower[i];
       const double relative = range > 0 ? (box.upper[i] - box.lower[i]) / range : 0.0;
-      // Without slopes, or if they are uninformative, the widest variable; otherwise that with the largest error of the
-      // bound.
+      // Halves the variable with the largest error of the bound, or the widest one if slopes are missing or
+      // uninformative.
       const double gain = bound.lowest.empty() ? relative : bound.loss[i] + 1e-3 * relative * std::abs(bound.bound);
       if (relative > 0 && gain > most) most = gain, cut = static_cast<int>(i);
     }
@@ -351,7 +351,7 @@ class BranchAndBound {
   /// Halves per batch: enough for eight threads, and few compared with a search. The search does not depend on the
   /// number of threads.
   static constexpr std::size_t k_batch = 32;
-  static constexpr std::size_t k_mended = 4;  ///< number of the most promising boxes of a batch
+  static constexpr std::size_t k_mended = 4;  ///< number of boxes of a batch with the lowest bounds
 
   const Problem& problem_;
   std::size_t count_;

@@ -18,7 +18,7 @@
 
 namespace fusee::optimize {
 
-// Unqualified in the formulas, so that other kinds of numbers can have their own.
+// The formulas call these functions unqualified: each scalar type may have its own overload.
 using transmission::direction;
 using transmission::hypot;
 using transmission::larger;
@@ -38,7 +38,7 @@ struct WideKind {
 
 WideKind wide_kind(const Mechanism& mechanism);
 
-/// The numbers of these features as in the file, except that angles are in rad. mm.
+/// The keys of these features, in mm and rad.
 template <typename S>
 struct WideFileNumbers {
   S drum_radius, across1, along1, across2, along2, bearing_radius, bearing_friction;
@@ -52,10 +52,10 @@ template <typename S>
 struct TendonEnd {
   S away;                   ///< distance from O, mm
   S twist;                  ///< angle at home, clockwise from OC, rad
-  bool is_on_drum = false;  ///< on its pitch circle, in the whole box
+  bool is_on_drum = false;  ///< true if it lies on the drum's pitch circle in the whole box
 };
 
-/// The sheath of each tendon, from its pin, which the tendon leaves straight down, to its exit at the motor, a point.
+/// The sheath of each tendon. It begins straight below the pin and ends at a point beside the motor.
 template <typename S>
 struct SheathNumbers {
   S length, bend, mu;
@@ -69,7 +69,7 @@ template <typename S>
 struct WideNumbers {
   TendonEnd<S> end1, end2;
   std::optional<S> drum;  ///< ρ0: drum radius to the tendon's centre line
-  /// For idlers: friction of the bearing times its radius, divided by the idler's radius to the centre line.
+  /// Idlers only: bearing friction × bearing radius / radius of the tendon's centre line on the idler.
   std::optional<S> turning;
   std::optional<SheathNumbers<S>> sheath;
   transmission::Domain domain;  ///< of the ends

@@ -5,7 +5,7 @@
 namespace fusee::paper {
 namespace {
 
-/// Between a value where it holds and one where it does not: the last that holds, to a ten-thousandth of the step.
+/// The last value at which `holds` is true, between `good` (true) and `bad` (false), to 1/4096 of their distance.
 double border(const std::function<bool(double)>& holds, double good, double bad) {
   constexpr int k_halvings = 12;
   for (int i = 0; i < k_halvings; ++i) {

@@ -19,7 +19,7 @@ void wind_several_times(analysis::AnalysisResult& result) {
 
 /// Advice of build() on a motor that does not suffice; none if no pulley can be made.
 profile::Advice advice_on_motor(const MechanismFile& file, const RunContext& context) {
-  context.begin_step("looking for what would suit the motor");
+  context.begin_step("searching for changes that suit the motor");
   const BuildOptions options;
   formats::Product product;
   product.file = file;

@@ -25,8 +25,8 @@
 namespace fusee::pipeline {
 namespace {
 
-// Limit of outline points for the full builds of advice. A build of the usual 200 points takes a quarter of a second,
-// in proportion to the points (campaign of seed 210002).
+// Limit of the outline points of all full builds of one advice together. A build takes a quarter of a second with the
+// usual 200 points, and proportionally more with more points (campaign of seed 210002).
 constexpr double k_points_for_advice = 1600;
 
 constexpr const char* k_step = "pulley.step";
@@ -378,7 +378,7 @@ class FeasibilityCheck {
     return obstacles(curves);
   }
 
-  /// Number of full builds for which the largest variant leaves time.
+  /// Number of full builds that keep within k_points_for_advice, estimated from the largest variant.
   int max_builds() const {
     const double turn = std::min(radians(2.0), std::sqrt(8.0 * options_.chord_error_mm / largest_));
     const double points = std::max(k_two_pi / turn, own_points_);
@@ -424,7 +424,7 @@ class FeasibilityCheck {
   const BuildOptions& options_;
   const RunContext& context_;
   Curves own_;
-  double own_points_;  ///< of an outline as it would be made, 0 where there is none
+  double own_points_;  ///< points of the refused design's outline; 0 without an outline
   /// Largest distance of an outline from the axis among the trials with room for a body, mm.
   mutable std::atomic<double> largest_ = 0;
 };
@@ -470,7 +470,7 @@ void compare_with_motor(BuildContext& context) {
   formats::Product& product = context.result.product;
   if (!product.under_load.motor || product.under_load.motor->ok()) return;
   if (context.options.advice) {
-    context.step("looking for what would suit the motor");
+    context.step("searching for changes that suit the motor");
     product.under_load.motor->advice = motor_advice(product, context.options, context.run.without_progress());
   }
   for (Diagnostic& warning : analysis::motor_warnings(*product.under_load.motor, product.file))
@@ -492,7 +492,7 @@ void demand_other_place(const MechanismFile& file, const BuildOptions& options) 
                     "choose another folder with -o");
 }
 
-/// Additional lengths of the tendons in a rig that holds them in a way of its own.
+/// Additional tendon lengths for the test rig, which has a tensioner and a post. Empty for drilling templates.
 std::optional<std::array<kit::KitTendon, 2>> rig_of(const formats::Product& product) {
   if (product.helix) return std::nullopt;
   const kit::KitPlan plan = kit::plan_kit(product.joint.mechanism, product.synthesis, product.pulley.layout);
@@ -591,7 +591,7 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options, const 
   if (!is_possible) {
     result.status = BuildStatus::infeasible;
     if (!options.advice) return result;
-    context.begin_step("looking for what would make it possible");
+    context.begin_step("searching for changes that make it possible");
     result.advice = advice_for(result.product, options, context.without_progress());
     result.advice.layout = drum_advice(file, options, context.without_progress());
     return result;
@@ -604,7 +604,7 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options, const 
       std::vector<profile::Condition>& conditions = result.product.pulley.conditions;
       conditions.insert(conditions.end(), motor.conditions.begin(), motor.conditions.end());
       if (!options.advice) return result;
-      context.begin_step("looking for what would suit the motor");
+      context.begin_step("searching for changes that suit the motor");
       result.advice = motor.advice = motor_advice(result.product, options, context.without_progress());
       return result;
     }

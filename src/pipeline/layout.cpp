@@ -37,12 +37,12 @@ constexpr double k_widest_drum = 0.5;
 constexpr double k_longest_lever = 5000.0;
 // Full builds of candidates for one search.
 constexpr int k_max_layout_builds = 6;
-constexpr int k_max_trial_builds = 3;  // where any layout suffices
+constexpr int k_max_trial_builds = 3;  // if LayoutRequirements::any
 
-/// The number that stands in the file: three digits.
+/// The value as it is written to the file, with three digits.
 double tidy(double value) { return std::stod(rounded(value, 3)); }
 
-/// The torque of the declared load about the joint, at most. N·mm
+/// The largest torque of the declared load about the joint, N·mm.
 double torque_of(const Mechanism& mechanism) {
   const Load& load = mechanism.load;
   return std::abs(load.tip_force) * mechanism.joint.R + std::abs(load.torque) + transmission::weight_moment(load);
@@ -63,7 +63,7 @@ void put_drum(Mechanism& mechanism, double rho, double reach) {
   mechanism.pulley.EF = tidy(guides.radius + flange + std::max(3.0, 0.4 * flange));
   const Vec2 pin(guides.ED, -guides.OE);
   const double normal = std::atan2(pin.y(), pin.x()) + std::acos((rho - guide) / pin.norm());
-  // Between the drum's surface and the circle of the centre lines: taken onto that circle.
+  // Ends between the drum's surface and its pitch circle are moved onto the pitch circle when the file is read.
   const double end = rho - 0.25 * d;
   const auto written = [end](double angle) {
     return Attachment{std::stod(fixed(end * std::cos(angle), 3)), std::stod(fixed(end * std::sin(angle), 3))};
@@ -84,7 +84,7 @@ void put_lever(Mechanism& mechanism, double r1) {
 struct Candidate {
   DeclaredMechanism mechanism;
   std::string words;
-  bool is_spare = false;  ///< only if nothing else builds: the motor would need more torque than the joint
+  bool is_spare = false;  ///< used only if no other candidate builds: the motor needs more torque than the joint
 };
 
 /// The candidates for one set of requirements, in order of preference.
@@ -268,7 +268,7 @@ LayoutSearch choose_layout(const LayoutRequirements& requirements, const Candida
     context.begin_step("trying " + candidate.words);
     ChosenLayout layout{file_of(candidate.mechanism), candidate.words, {}, 0, 0, 0};
     if (std::optional<std::string> obstacle = quick_obstacle(layout.file.mechanism)) {
-      if (builds == 0) search.obstacle = std::move(*obstacle);  // of the last candidate: it has the most room
+      if (builds == 0) search.obstacle = std::move(*obstacle);  // the last candidate's: it has the most space
       continue;
     }
     if (builds++ == (requirements.any ? k_max_trial_builds : k_max_layout_builds)) break;
@@ -296,7 +296,7 @@ LayoutSearch choose_layout(const LayoutRequirements& requirements, const Candida
 
 namespace {
 
-/// A lever whose tendon loses its moment arm or its pin within the range, but not within a tenth of it.
+/// True for a lever whose tendon loses its moment arm or its pin within the range, but not within a tenth of the range.
 bool is_range_the_obstacle(const Mechanism& mechanism) {
   if (mechanism.transmission || !mechanism.joint.is_plain() || mechanism.sheath.is_there()) return false;
   const std::optional<profile::Condition> obstacle = profile::obstacle_but_one_turn(mechanism);

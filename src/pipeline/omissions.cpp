@@ -173,7 +173,7 @@ class OmissionSearch {
     for (const std::string& feature : built) {
       if (!has(omitted_, feature)) lost += (lost.empty() ? "" : ", ") + words_of(feature);
     }
-    return lost.empty() ? text : text + ", which costs " + lost;
+    return lost.empty() ? text : text + ", which omits " + lost;
   }
 
   const formats::Product& product_;

@@ -7,7 +7,7 @@
 
 #include "analysis/plausibility.h"
 #include "base/text.h"
-#include "fusee/coil.h"
+#include "fusee/helical_solid.h"
 #include "fusee/helix.h"
 #include "fusee/joint.h"
 #include "fusee/mechanism_file.h"
@@ -21,18 +21,18 @@ namespace fusee::pipeline {
 namespace {
 
 helix::HelixGroove groove_of(const Mechanism& mechanism) {
-  const coil::HelicalSection section = coil::helical_section(mechanism);
+  const helical_solid::HelicalSection section = helical_solid::helical_section(mechanism);
   const double d = mechanism.tendon.diameter;
   // A later turn lies below the one before.
   return {
       section.depth,
       std::min(solid::room_at_groove_edge(section.walls.below, d), solid::room_at_groove_edge(section.walls.above, d)),
-      [section](double step) { return coil::least_lead(section, -step); }};
+      [section](double step) { return helical_solid::least_lead(section, -step); }};
 }
 
 /// Properties of several turns that the body's tables do not contain.
 std::vector<std::string> notes_of(const Mechanism& mechanism, const formats::HelixProduct& helix) {
-  const coil::TendonsLaid ends = helix.laid(mechanism.guides.collar);
+  const helical_solid::TendonsLaid ends = helix.laid(mechanism.guides.collar);
   const std::string where = mechanism.guides.collar ? "the guides' collars hold the tendons at the heights "
                                                     : "the tendons end on the joint at the heights ";
   const double left = std::exp(-mechanism.pulley.mu * k_two_pi * mechanism.body.spare_turns);
@@ -54,9 +54,10 @@ std::vector<std::string> notes_of(const Mechanism& mechanism, const formats::Hel
 }
 
 /// A body is refused, with no file, if its tie-offs do not fit or need support.
-std::vector<profile::Condition> faults_of(const Mechanism& mechanism, const coil::HelicalPulley& pulley,
+std::vector<profile::Condition> faults_of(const Mechanism& mechanism, const helical_solid::HelicalPulley& pulley,
                                           const solid::TriangleMesh& mesh) {
-  std::vector<Check> checks = coil::check_helical_pulley(mesh, pulley, coil::helical_section(mechanism));
+  std::vector<Check> checks =
+      helical_solid::check_helical_pulley(mesh, pulley, helical_solid::helical_section(mechanism));
   if (!mechanism.print.supports) {
     solid::PrintLimits limits;
     limits.overhang = mechanism.print.overhang;
@@ -126,7 +127,7 @@ void draw_for_making(helix::Spiral& spiral, const OutlineError& outline) {
   }
 }
 
-coil::FloorLine as_made(coil::FloorLine drawn, const OutlineError& outline) {
+helical_solid::FloorLine as_made(helical_solid::FloorLine drawn, const OutlineError& outline) {
   Polygon plan;
   for (const Vec3& point : drawn) plan.push_back(point.head<2>());
   // Half-planes meet each side of the floor's polygon several times, so a normal averages several sides.
@@ -193,8 +194,8 @@ bool design_several_turns(formats::Product& product, double chord_error_mm, cons
   if (!helix.synthesis.made()) return false;
   for (helix::HelixSide& side : helix.synthesis.sides) draw_for_making(side.spiral, product.joint.outline);
   context.begin_step("building the body");
-  helix.pulley = coil::make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral,
-                                           chord_error_mm, search);
+  helix.pulley = helical_solid::make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral,
+                                                    helix.synthesis.sides[1].spiral, chord_error_mm, search);
   solid::Pulley& pulley = product.pulley;
   pulley = {};
   pulley.status = helix.pulley.made ? solid::PulleyStatus::made : solid::PulleyStatus::impossible;
@@ -245,21 +246,23 @@ bool design_any(formats::Product& product, double chord_error_mm, const AsBuiltL
   return false;
 }
 
-coil::HelicalRewind rewind_several_turns(const formats::Product& product, const solid::TriangleMesh& mesh) {
-  return rewind_several_turns(product, coil::helical_floors(mesh, product.pulley.layout.scale));
+helical_solid::HelicalRewind rewind_several_turns(const formats::Product& product, const solid::TriangleMesh& mesh) {
+  return rewind_several_turns(product, helical_solid::helical_floors(mesh, product.pulley.layout.scale));
 }
 
-coil::HelicalRewind rewind_several_turns(const formats::Product& product, const std::vector<coil::FloorLine>& floors) {
+helical_solid::HelicalRewind rewind_several_turns(const formats::Product& product,
+                                                  const std::vector<helical_solid::FloorLine>& floors) {
   if (floors.size() != 2)
     throw InputError("", "it has " + std::to_string(floors.size()) + " grooves of several turns instead of 2");
   const joint::IdentifiedJoint& joint = product.joint;
-  return coil::rewind_floors(as_made(floors[0], joint.outline), as_made(floors[1], joint.outline),
-                             joint::with_inset(joint), product.synthesis.stroke,
-                             product.helix->laid(joint.mechanism.guides.collar));
+  return helical_solid::rewind_floors(as_made(floors[0], joint.outline), as_made(floors[1], joint.outline),
+                                      joint::with_inset(joint), product.synthesis.stroke,
+                                      product.helix->laid(joint.mechanism.guides.collar));
 }
 
 std::vector<Check> check_several_turns(const formats::Product& product, const solid::TriangleMesh& mesh) {
-  return coil::check_helical_pulley(mesh, product.helix->pulley, coil::helical_section(product.joint.mechanism));
+  return helical_solid::check_helical_pulley(mesh, product.helix->pulley,
+                                             helical_solid::helical_section(product.joint.mechanism));
 }
 
 namespace {
@@ -286,7 +289,7 @@ helix::HelixSynthesis trial_curves(const Mechanism& mechanism, double chord_erro
 std::vector<profile::Condition> obstacles_of(const Mechanism& mechanism, const helix::HelixSynthesis& made,
                                              double chord_error_mm) {
   if (!made.made()) return profile::failed_of(made.conditions);
-  return coil::helical_obstacles(mechanism, made.sides[0].spiral, made.sides[1].spiral, chord_error_mm);
+  return helical_solid::helical_obstacles(mechanism, made.sides[0].spiral, made.sides[1].spiral, chord_error_mm);
 }
 
 /// The first bend of a tendon that is tighter than tendon.bend_ratio allows.
@@ -389,7 +392,7 @@ profile::Advice advice_for_several_turns(const formats::Product& product, const 
 kit::TendonHeights tendon_heights(const formats::Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const double rho = mechanism.guide_pitch_radius();
-  const coil::TendonsLaid laid = product.helix->laid(mechanism.guides.collar);
+  const helical_solid::TendonsLaid laid = product.helix->laid(mechanism.guides.collar);
   kit::TendonHeights heights;
   heights.ends = {laid.z1, laid.z2};
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
@@ -402,7 +405,7 @@ kit::TendonHeights tendon_heights(const formats::Product& product) {
     }
     const transmission::Side side = i == 0 ? transmission::Side::left : transmission::Side::right;
     const transmission::PinPlace place = transmission::pin_place(mechanism, side, rho);
-    const coil::SpiralPlace& lies = i == 0 ? product.helix->pulley.p1 : product.helix->pulley.p2;
+    const helical_solid::SpiralPlace& lies = i == 0 ? product.helix->pulley.p1 : product.helix->pulley.p2;
     const std::vector<helix::HelixPoint>& stroke = product.helix->synthesis.sides.at(i).stroke;
     for (std::size_t k = 0; k < stroke.size(); ++k) {
       const transmission::TransmissionPoint& at = product.synthesis.stroke.at(k);

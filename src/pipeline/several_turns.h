@@ -37,9 +37,10 @@ bool design_any(formats::Product& product, double chord_error_mm, const AsBuiltL
 kit::TendonHeights tendon_heights(const formats::Product& product);
 
 /// Winds tendons in space on the grooves of a mesh.
-coil::HelicalRewind rewind_several_turns(const formats::Product& product, const solid::TriangleMesh& mesh);
+helical_solid::HelicalRewind rewind_several_turns(const formats::Product& product, const solid::TriangleMesh& mesh);
 /// Winds tendons on the given groove floors. Throws InputError unless there are two.
-coil::HelicalRewind rewind_several_turns(const formats::Product& product, const std::vector<coil::FloorLine>& floors);
+helical_solid::HelicalRewind rewind_several_turns(const formats::Product& product,
+                                                  const std::vector<helical_solid::FloorLine>& floors);
 /// Checks of a mesh that was read back.
 std::vector<Check> check_several_turns(const formats::Product& product, const solid::TriangleMesh& mesh);
 

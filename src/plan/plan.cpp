@@ -142,7 +142,7 @@ class Planner {
     double sum = 0;
     for (const std::vector<double>& row : margins_of(known)) {
       double rivals = 0;
-      for (const double told : row) rivals += std::min(1.0, told);
+      for (const double reached : row) rivals += std::min(1.0, reached);
       const double nearest = *std::min_element(row.begin(), row.end());
       sum += 0.5 * rivals / static_cast<double>(row.size()) + 0.5 * std::min(1.0, nearest);
     }
@@ -255,9 +255,9 @@ class Planner {
     double least = seen;
     for (const Cause& rival : causes_) {
       if (&rival == &cause) continue;
-      const double told = margin(signatures_, known, cause, &rival);
-      least = std::min(least, told);
-      if (seen >= 1 && told < 1) described.rivals.push_back(rival.effect->name);
+      const double from_rival = margin(signatures_, known, cause, &rival);
+      least = std::min(least, from_rival);
+      if (seen >= 1 && from_rival < 1) described.rivals.push_back(rival.effect->name);
     }
     if (least >= 1) described.smallest_alone = described.usual / least;
     const fusee::EffectParameter& number = *cause.numbers.front();

@@ -2,10 +2,9 @@
 /// Separability of causes: normal equations in, margins out.
 ///
 /// Model: y = A x + noise, each element of x in units of its usual size, y in units of the noise. AᵀA is a sufficient
-/// statistic. Cause a is resolved from cause b if the residual of a's response exceeds the noise after b and the model
-/// error are fitted to it, and if that residual is larger than the share of a's response to which the model is
-/// accurate. The model error has a prior (Kennedy and O'Hagan 2001). For several numbers of one cause the margin is the
-/// expectation over their directions.
+/// statistic. To resolve cause a from cause b, b and the model error are fitted to the response of a. The residual must
+/// exceed both the noise and the model's accuracy, a share of a's response. The model error has a prior (Kennedy and
+/// O'Hagan 2001). For several numbers of one cause the margin is the expectation over their directions.
 #pragma once
 
 #include "plan/signatures.h"

@@ -10,7 +10,7 @@ struct PlanThresholds {
   double resolved_distance = 4.1;
   /// Accuracy of an effect's model: a rival within this share of a cause's response is not resolved from it.
   double model_share = 0.05;
-  /// Accuracy of the elastic deflection, as a share of it: error of the tendon model, smooth over the range.
+  /// Error of the tendon model, smooth over the range, as a share of the elastic deflection.
   double deflection_share = 0.03;
   /// Smallest share of a cause's usual size that is worth identifying. Half of all causes are below 2/3 of it.
   double worth_a_name = 1.0 / 3.0;

@@ -137,7 +137,7 @@ double taut_theta(const String& string, double alpha, double guess) {
 transmission::Transmission law_without_dead_centre(const Mechanism& mechanism) {
   transmission::Transmission declared(mechanism);
   if (const auto dead = declared.dead_centre()) {
-    throw InputError("", "the declared law ends at a dead centre, θ = " + rounded(degrees(*dead), 4) + "°",
+    throw InputError("", "the target motion ends at a dead centre, θ = " + rounded(degrees(*dead), 4) + "°",
                      "make the range smaller");
   }
   return declared;
@@ -163,7 +163,7 @@ RewindResult wind(const transmission::Transmission& declared, std::vector<String
     for (String& string : strings) string.turn_to(alpha);
   };
   RewindResult result;
-  // From home to one end and back through home to the other, so that turns are counted without jumps.
+  // The strings turn from home to one end and back through home to the other, so that turns are counted without jumps.
   for (int i = 0; i < steps; ++i) turn_to(declared.alpha_min() * i / steps);
   for (const double alpha : transmission::alphas_over_range(declared, steps)) {
     turn_to(alpha);

@@ -61,9 +61,9 @@ class AnchorSearch {
     AnchorPath path{station.position, station.normal, arc_.sense(), site_.fillet, turn, 0, 0,
                     station.lap,      station.wrap};
     const Vec2 outer = path.outer(), heading = path.heading();
-    double promising = 0;
+    double shortest = 0;
     for (double straight = 0.6 * site_.width; straight < longest; straight += step) {
-      if (straight < promising) continue;
+      if (straight < shortest) continue;
       const Vec2 pocket = path.start - path.fillet * path.normal + path.fillet * outer + straight * heading;
       const double depth = ground_.depth_of(pocket);
       if (depth < -site_.width) break;
@@ -74,7 +74,7 @@ class AnchorSearch {
       if (!(path.room >= k_least_room * site_.width) || (best_ && path.room <= best_->room)) {
         // The pocket grows no faster than the straight, and the depth has no dip on the way, because the floor is
         // convex.
-        promising = straight + (1.0 - k_skip_margin) * (least - path.room);
+        shortest = straight + (1.0 - k_skip_margin) * (least - path.room);
         continue;
       }
       if (!channel_fits(path)) break;

@@ -32,7 +32,7 @@ Polygon circle(double radius) {
   return points;
 }
 
-// True if every flat quad between two loops of equal normals is free of folds.
+// True if no quad of the flat band between two outlines of equal normals is folded.
 bool strictly_outside(const Polygon& outer, const Polygon& inner) {
   const std::size_t n = inner.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -64,8 +64,8 @@ Polygon around_both(const profile::Outline& p1, const profile::Outline& p2, doub
   return points;
 }
 
-// The first rim of increasing margin that is strictly outside. Coarse outlines require larger margins. Sets `outside`
-// to false if no margin suffices.
+// Widens a rim until it lies strictly outside `a` and `b`. Coarse outlines require larger margins. Sets `outside` to
+// false if no margin suffices.
 template <typename MakeRim>
 Polygon grown_until_outside(const MakeRim& make_rim, const Polygon& a, const Polygon& b, bool& outside) {
   double margin = k_rim_margin;
@@ -110,7 +110,8 @@ class StackBuilder {
     stack_.rings.push_back({z, std::move(points)});
   }
 
-  // Adds all rings up to the middle flange: to its bottom in one part, to the mating face with P2 in two.
+  // Adds all rings of P1: up to the bottom of the middle flange if the pulley is one part, otherwise up to the face that
+  // meets P2.
   void add_p1() {
     if (apart()) {
       add(0.0, rims_.lower);
@@ -141,7 +142,7 @@ class StackBuilder {
     add(layout_.z_top, rims_.upper);
   }
 
-  // Chamfers the edge on the bed by the width to which a first layer spreads.
+  // Chamfers the edge on the bed, because a first layer spreads beyond its outline.
   void add_foot(double bed, const Polygon& rim) {
     add(bed, foot_of(rim));
     add(bed + rise_of(layout_, layout_.elephant_foot), rim);

@@ -193,7 +193,7 @@ double winding_number(const TriangleMesh& solid, const Vec3& point) {
 // Parity of the surface crossings straight up from the point. Empty if the ray passes through or close to a facet's
 // edge.
 std::optional<bool> is_inside_seen_upwards(const TriangleMesh& solid, const Vec3& point) {
-  constexpr double k_doubt = 1e-9;
+  constexpr double k_rounding = 1e-9;
   const Vec2 at = point.head<2>();
   bool inside = false;
   for (const auto& [ia, ib, ic] : solid.triangles) {
@@ -205,11 +205,11 @@ std::optional<bool> is_inside_seen_upwards(const TriangleMesh& solid, const Vec3
     const Vec2 to_a = a.head<2>() - at, to_b = b.head<2>() - at, to_c = c.head<2>() - at;
     const double of_a = cross(to_b, to_c), of_b = cross(to_c, to_a), of_c = cross(to_a, to_b);
     const auto [least, most] = std::minmax({of_a, of_b, of_c});
-    const double size = k_doubt * std::max({to_a.squaredNorm(), to_b.squaredNorm(), to_c.squaredNorm()});
+    const double size = k_rounding * std::max({to_a.squaredNorm(), to_b.squaredNorm(), to_c.squaredNorm()});
     if (least < -size && most > size) continue;
     if (least < size && most > -size) return std::nullopt;
     const double height = (of_a * a.z() + of_b * b.z() + of_c * c.z()) / (of_a + of_b + of_c) - point.z();
-    if (std::abs(height) < k_doubt * (1.0 + std::abs(point.z()))) return std::nullopt;
+    if (std::abs(height) < k_rounding * (1.0 + std::abs(point.z()))) return std::nullopt;
     if (height > 0) inside = !inside;
   }
   return inside;
@@ -218,9 +218,9 @@ std::optional<bool> is_inside_seen_upwards(const TriangleMesh& solid, const Vec3
 // Empty if the point is too close to the surface to decide.
 std::optional<bool> is_inside_of(const TriangleMesh& solid, const Vec3& point) {
   if (const auto inside = is_inside_seen_upwards(solid, point)) return inside;
-  constexpr double k_doubt = 1e-3;
+  constexpr double k_rounding = 1e-3;
   const double turns = winding_number(solid, point);
-  if (!(std::abs(turns - std::round(turns)) < k_doubt)) return std::nullopt;
+  if (!(std::abs(turns - std::round(turns)) < k_rounding)) return std::nullopt;
   return std::lround(turns) != 0;
 }
 

@@ -36,7 +36,7 @@ struct WorstPlace {
   int places = 0;
   double area = 0;
 
-  void look(double candidate, const Vec3& place) {
+  void consider(double candidate, const Vec3& place) {
     if (candidate > value) std::tie(value, at) = std::pair(candidate, place);
   }
   void count(const OverhangPatch& patch) {
@@ -57,9 +57,9 @@ bool measurable(const TriangleMesh& mesh) {
 }
 
 Check island_check(const TriangleMesh& mesh, const PrintLimits& limits) {
-  const std::vector<Vec3> islands = find_islands(mesh, limits.first_layer);
-  return exactly("island", static_cast<double>(islands.size()), 0, "1",
-                 islands.empty() ? std::string() : "begins in mid-air at " + place_of(islands.front()));
+  const std::vector<Vec3> regions = find_unsupported_regions(mesh, limits.first_layer);
+  return exactly("island", static_cast<double>(regions.size()), 0, "1",
+                 regions.empty() ? std::string() : "begins in mid-air at " + place_of(regions.front()));
 }
 
 std::vector<Check> checks_within(const PrintLimits& limits, const TriangleMesh& mesh) {
@@ -74,12 +74,12 @@ std::vector<Check> checks_within(const PrintLimits& limits, const TriangleMesh& 
   WorstPlace flatness{-overhangs.flattest_other, overhangs.flattest_other_at}, step, bridge;
   for (const OverhangPatch& patch : overhangs.patches) {
     const SupportGaps reach = support_gaps_of(patch, limits);
-    step.look(reach.step, reach.step_at);
-    bridge.look(reach.bridge, reach.bridge_at);
+    step.consider(reach.step, reach.step_at);
+    bridge.consider(reach.bridge, reach.bridge_at);
     if (reach.step > limits.step) step.count(patch);
     if (reach.bridge > limits.bridge) bridge.count(patch);
     if (reach.within(limits)) continue;
-    flatness.look(-patch.flattest, patch.flattest_at);
+    flatness.consider(-patch.flattest, patch.flattest_at);
     flatness.count(patch);
   }
   return {at_least("overhang", degrees(-flatness.value), degrees(limits.overhang), "deg", flatness.where()),

@@ -106,7 +106,7 @@ class GrooveGauge {
   struct Deviation {
     double value = 0;
     Vec2 where = Vec2::Zero();
-    void look(double deviation, const Vec2& point) {
+    void consider(double deviation, const Vec2& point) {
       // NaN counts as a deviation too.
       if (!(deviation <= value)) *this = {deviation, point};
     }
@@ -119,11 +119,11 @@ class GrooveGauge {
     const NearestSegment to_floor({floor_}), to_section(outlines_);
     for (const Polygon& outline : outlines_) {
       for (const Vec2& point : outline) {
-        if (!is_at_entry(point)) worst.look(to_floor.distance(point), point);
+        if (!is_at_entry(point)) worst.consider(to_floor.distance(point), point);
       }
     }
     for (std::size_t i = 0; i < floor_.size(); ++i) {
-      if (outline_.is_active(i) || !is_at_entry(floor_[i])) worst.look(to_section.distance(floor_[i]), floor_[i]);
+      if (outline_.is_active(i) || !is_at_entry(floor_[i])) worst.consider(to_section.distance(floor_[i]), floor_[i]);
     }
     worst.value += largest_sagitta();
     return worst;

@@ -1,4 +1,5 @@
 /// \file
+/// Internal: cuts two surfaces along their intersection line.
 #pragma once
 
 #include <optional>
@@ -13,8 +14,8 @@ struct Corefined {
   std::vector<TriangleMesh> first, second;
 };
 
-/// By CGAL's corefinement, with exact predicates. Both surfaces must not intersect themselves and may have borders.
-/// Empty where one is no manifold.
+/// Cuts both surfaces by CGAL's corefinement, with exact predicates. They must not intersect themselves and may have
+/// borders. Empty if one of them is not manifold.
 std::optional<Corefined> corefined(const TriangleMesh& a, const TriangleMesh& b);
 
 }  // namespace fusee::solid

@@ -33,8 +33,8 @@ class PlacesInPlan {
 
 /// For each layer but the first, the places with a flat downward feature between the layer below and this one: a face
 /// whose slope has a tangent below `steepness`, a ridge as flat, or a lowest point. Each is widened by the run of a
-/// face of that slope between two layers. From any other point of a layer's outline the layer below is reached within
-/// that distance: straight down through the part, then down the steepest way along its surface.
+/// face of that slope between two layers. Any other point of a layer's outline is within that run of the layer below,
+/// because the surface beneath it is steeper.
 std::vector<PlacesInPlan> flat_downward_faces(const TriangleMesh& welded, const std::vector<double>& heights,
                                               double steepness);
 

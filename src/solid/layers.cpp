@@ -105,8 +105,8 @@ class LayerWalk {
     const double length = (to - from).norm();
     const bool may_stand_out = downward_faces_.may_meet(from, to);
     within_ = within_ && may_stand_out && below_.stays_within(from, to);
-    if (!may_stand_out || within_ || length < held_ || follows(from, to)) {
-      held_ = std::max(0.0, held_ - length);
+    if (!may_stand_out || within_ || length < supported_ahead_ || follows(from, to)) {
+      supported_ahead_ = std::max(0.0, supported_ahead_ - length);
     } else {
       step_along(from, to, length);
     }
@@ -117,18 +117,18 @@ class LayerWalk {
     double at = 0;
     for (int k = 0; k < steps; ++k) {
       const double next = length * k / steps;
-      if (next - at < held_) continue;
+      if (next - at < supported_ahead_) continue;
       const Vec2 point = from + (to - from) * k / steps;
       at = next;
-      held_ = look(point);
+      supported_ahead_ = supported_ahead(point);
       within_ = within_ && below_.stays_within(point, to);
       if (within_) break;
     }
-    held_ = std::max(0.0, held_ - (length - at));
+    supported_ahead_ = std::max(0.0, supported_ahead_ - (length - at));
   }
 
   // Distance ahead within which everything is supported.
-  double look(const Vec2& point) {
+  double supported_ahead(const Vec2& point) {
     const WidenedLayer::Support hold = below_.support_of(point);
     beside_ = hold.segment;
     within_ = hold.inside;
@@ -161,9 +161,9 @@ class LayerWalk {
 
   const WidenedLayer& below_;
   const PlacesInPlan& downward_faces_;
-  std::size_t beside_ = 0;  ///< the last line of the layer below that was found near
-  double held_ = 0;         ///< distance ahead within which everything is supported
-  bool within_ = false;     ///< the current place is certainly inside the layer below
+  std::size_t beside_ = 0;      ///< the last line of the layer below that was found near
+  double supported_ahead_ = 0;  ///< distance ahead within which everything is supported
+  bool within_ = false;         ///< the current place is certainly inside the layer below
   std::optional<Vec2> furthest_;
   double most_ = 0;
 };

@@ -1,4 +1,5 @@
 /// \file
+/// Internal: rounding of coordinates to float, as mesh formats store them.
 #pragma once
 
 namespace fusee::solid {

@@ -1,4 +1,5 @@
 /// \file
+/// Internal: distances from points to closed loops.
 #pragma once
 
 #include <cstdint>

@@ -171,7 +171,7 @@ class PatchFinder {
   std::vector<std::uint32_t> index_;  // index of a facet within its patch
 };
 
-// ---- islands ------------------------------------------------------------------------------------------------
+// ---- unsupported regions --------------------------------------------------------------------------------------------
 
 // Vertices connected by level edges.
 struct Terrace {
@@ -284,14 +284,14 @@ Overhangs find_overhangs(const TriangleMesh& mesh, double steep_enough, double f
 
 // Half-way from a terrace without lower neighbours to the next vertex above, the facets around it are cut along one
 // loop. The loop surrounds a solid that begins there, or the bottom of a pit.
-std::vector<Vec3> find_islands(const TriangleMesh& mesh, double first_layer) {
+std::vector<Vec3> find_unsupported_regions(const TriangleMesh& mesh, double first_layer) {
   const TriangleMesh welded = weld(mesh);
   const double pressed_on = bounds(welded).low.z() + first_layer + k_float_grain;
-  std::vector<Vec3> islands = Terraces(welded).beginnings();
-  islands.erase(std::remove_if(islands.begin(), islands.end(),
+  std::vector<Vec3> regions = Terraces(welded).beginnings();
+  regions.erase(std::remove_if(regions.begin(), regions.end(),
                                [pressed_on](const Vec3& place) { return place.z() <= pressed_on; }),
-                islands.end());
-  return islands;
+                regions.end());
+  return regions;
 }
 
 }  // namespace fusee::solid

@@ -43,6 +43,6 @@ struct Overhangs {
 Overhangs find_overhangs(const TriangleMesh& mesh, double steep_enough, double first_layer);
 
 /// Local minima of the surface with solid above them, higher than `first_layer` above the lowest point.
-std::vector<Vec3> find_islands(const TriangleMesh& mesh, double first_layer);
+std::vector<Vec3> find_unsupported_regions(const TriangleMesh& mesh, double first_layer);
 
 }  // namespace fusee::solid

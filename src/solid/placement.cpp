@@ -45,7 +45,7 @@ const Polygon& floor_of(const GrooveFloors& floors, transmission::Side side) {
   return side == transmission::Side::left ? floors.p1 : floors.p2;
 }
 
-// ---- assignments of the mesh's grooves to those of the pulley ------------------------------------
+// ---- assignments of the mesh's grooves to those of the pulley -------------------------------------------------------
 
 /// A groove of the mesh that is assigned to one side.
 struct Match {
@@ -166,7 +166,7 @@ std::optional<FittedWay> best_of(const std::vector<Way>& ways, const GrooveFloor
   return best;
 }
 
-// ---- the bore ------------------------------------------------------------------------------------
+// ---- the bore -------------------------------------------------------------------------------------------------------
 
 /// The circle through the corners by least squares; empty if they are on no circle. A flat is a chord, whose ends are
 /// on the circle too.
@@ -205,7 +205,7 @@ std::optional<Vec2> bore_near(const TriangleMesh& mesh, double z, const Vec2& ax
   return nearest;
 }
 
-// ---- where it lies -------------------------------------------------------------------------------
+// ---- placement ------------------------------------------------------------------------------------------------------
 
 Vec2 flipped(const Vec2& point, bool is_flipped) { return is_flipped ? Vec2(point.x(), -point.y()) : point; }
 

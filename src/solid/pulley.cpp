@@ -428,7 +428,7 @@ struct BestCut {
   int variant = 0;
 };
 
-// From variant `first` on, the first cut of at least `enough` soundness, or the soundest one.
+// Tries variants from `first` on. Returns the first cut of at least `enough` soundness, or else the soundest one.
 BestCut best_cut(const PieceMaker& maker, bool marked, const AnchorVariants& anchors, int first, int variants,
                  int enough) {
   BestCut taken;

@@ -30,7 +30,7 @@ struct RingStack {
   std::vector<Ring> rings;
   std::optional<Shaft> hub;    ///< stands on the highest ring
   std::vector<Ring> recess;    ///< from the bottom face to its flat ceiling, or through the top; empty: none
-  std::vector<Shaft> through;  ///< up to the highest face, from the bottom or, within the recess, from its ceiling
+  std::vector<Shaft> through;  ///< from the bottom, or from the recess's ceiling, up to the highest face
 };
 
 /// True if the recess ends in the highest face and not in a ceiling.

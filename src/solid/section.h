@@ -1,4 +1,5 @@
 /// \file
+/// Internal: horizontal sections of a welded mesh.
 #pragma once
 
 #include <vector>

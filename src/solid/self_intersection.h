@@ -1,4 +1,5 @@
 /// \file
+/// Internal: self-intersections of a mesh.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,7 @@
 namespace fusee::solid {
 
 struct CrossingSearch {
-  /// Two facets that meet outside their shared corners and edges
+  /// Two facets that meet outside their shared corners and edges.
   std::optional<std::pair<std::size_t, std::size_t>> facets;
   bool gave_up = false;  ///< more pairs of facets lie close together than in any real part
 };

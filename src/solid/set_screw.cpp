@@ -56,8 +56,7 @@ SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compen
     result.nut_thickness = screw.nut_thickness + compensation;
     result.nut_distance = layout.bore.radius + nut_wall(wall) + 0.5 * result.nut_thickness;
   }
-  // In the middle of the hub, or lower so that the ceiling keeps a wall above it, or higher so that the nut has
-  // clearance below.
+  // The screw is in the middle of the hub. The wall above its ceiling may move it down, the nut's clearance up.
   const double middle = 0.5 * (layout.z_top + layout.z_hub), highest = layout.z_hub - teardrop_top(result) - wall;
   result.z = std::max(std::min(middle, highest), layout.z_top + below(result));
   return result;

@@ -22,7 +22,7 @@ struct Attribution {
   double gap = std::numeric_limits<double>::infinity();
   std::optional<Rejection> who;
 
-  void look(double candidate, const Rejection& rejection) {
+  void consider(double candidate, const Rejection& rejection) {
     if (candidate >= gap) return;
     gap = candidate;
     who = rejection;
@@ -38,9 +38,9 @@ Attribution attribution_of(const Vec3& place, const BodyPlan& plan) {
   for (const PlannedAnchor& anchor : plan.anchors) {
     if (anchor.side != side) continue;
     const Rejection itself{side, anchor.wound_end, anchor.wrap(), false};
-    for (const Bar& bar : anchor.bars(layout)) nearest.look(gap(at, bar), itself);
+    for (const Bar& bar : anchor.bars(layout)) nearest.consider(gap(at, bar), itself);
     if (anchor.tail) {
-      nearest.look(
+      nearest.consider(
           gap(at, {anchor.tail->from, anchor.tail->to, 0.5 * anchor.tail->width}) - anchor.pocket_radius(layout) * 0.1,
           {side, anchor.wound_end, anchor.wrap(), true});
     }
@@ -53,8 +53,8 @@ Attribution attribution_of(const Vec3& place, const BodyPlan& plan) {
 std::vector<Vec3> unprintable_places(const TriangleMesh& lying, Piece piece, const BodyLayout& layout, double overhang,
                                      Corners corners) {
   std::vector<Vec3> places = ledges_in_layers(lying, overhang, corners);
-  const std::vector<Vec3> islands = find_islands(lying, PrintLimits{}.first_layer);
-  places.insert(places.end(), islands.begin(), islands.end());
+  const std::vector<Vec3> regions = find_unsupported_regions(lying, PrintLimits{}.first_layer);
+  places.insert(places.end(), regions.begin(), regions.end());
   for (Vec3& place : places) {
     if (piece == Piece::p1) place.tail<2>() = -place.tail<2>();
     place /= layout.scale;

@@ -47,7 +47,7 @@ class TailPlacer {
     slot.ceiling = peaked ? 0.5 * slot.width * std::tan(ridge_slope(layout_)) : 0.0;
     slot.depth = std::max(k_peaked_ratio * d_, k_depth_ratio * d_ - slot.ceiling);
     const double deep = slot.depth + slot.ceiling;
-    // At the groove's plane only its floor and tie-offs are obstacles.
+    // Obstacles at the groove's plane are only its floor and tie-offs.
     if (to_plane(anchor.side) - deep < k_ground_of_slot) return std::nullopt;
     const bool over_channels = to_channels(anchor.side) - deep >= k_ground_of_slot;
     if (screw_ != nullptr && !add_screw(slot, anchor.side)) return std::nullopt;

@@ -56,8 +56,8 @@ double wound_on(const PinPlace& place, const DrumOffset& end, const DrumLine& li
 }
 
 // Tendon on a drum whose centre E moves round O at the distance e = OE. (P − E)·n = ρ0 − ρ is the free tendon's (C −
-// P)·n = ρ (free_span) with E for C and ρ − ρ0 for ρ. Normal and line therefore move as there, with k = e sin(θ + ε +
-// ψ) for the arm:
+// P)·n = ρ (free_span) with E for C and ρ − ρ0 for ρ. The derivatives of normal and line are therefore those of
+// free_span(), with k = e sin(θ + ε + ψ) for the arm:
 //
 //   m = ρ0 + k      a = e cos(θ + ε + ψ)      ψ' = −a/f      ω = 1 + ψ'      f' = −k − (ρ − ρ0)ψ'
 //   m' = aω         ψ'' = (kω − ψ'f')/f       m'' = −kω² + aψ''

@@ -131,7 +131,7 @@ Transmission::Transmission(const Mechanism& mechanism, double rho)
   const auto has_arms = [this](double theta) {
     return upper_span(left_, -theta).m > 0 && upper_span(right_, theta).m > 0;
   };
-  // From home outwards, so that the first failing angle is reported.
+  // The search runs from home outwards, so that the first failing angle is reported.
   constexpr int steps = 64;
   for (int i = 0; i <= steps && !dead_centre_; ++i) {
     for (const double end : {theta_min_, theta_max_}) {

@@ -55,7 +55,7 @@ MechanismFile file_of(const Mechanism& mechanism) {
 }
 
 /// All warnings as printed text.
-std::vector<std::string> said(const MechanismFile& file) {
+std::vector<std::string> texts_of(const MechanismFile& file) {
   std::vector<std::string> texts;
   for (const Diagnostic& warning : plausibility_warnings(file)) {
     EXPECT_EQ(warning.severity, Severity::warning);
@@ -63,9 +63,9 @@ std::vector<std::string> said(const MechanismFile& file) {
   }
   return texts;
 }
-std::vector<std::string> said(const std::vector<Setting>& settings) { return said(file_with(settings)); }
+std::vector<std::string> texts_of(const std::vector<Setting>& settings) { return texts_of(file_with(settings)); }
 
-// ---- where nothing is odd -------------------------------------------------------------------------------------------
+// ---- no warnings ----------------------------------------------------------------------------------------------------
 
 TEST(Plausibility, AcceptsProfiles) {
   int files = 0;
@@ -73,7 +73,7 @@ TEST(Plausibility, AcceptsProfiles) {
     if (entry.path().extension() != ".toml") continue;
     ++files;
     const MechanismFile file = read_mechanism(entry.path());
-    EXPECT_THAT(said(file), IsEmpty()) << entry.path();
+    EXPECT_THAT(texts_of(file), IsEmpty()) << entry.path();
     EXPECT_THAT(tight_bends(file), IsEmpty()) << entry.path();
   }
   EXPECT_GE(files, 7);
@@ -84,24 +84,24 @@ TEST(Plausibility, AcceptsRatioJoints) {
       parse_mechanism("schema = 1\nname = \"jaw\"\n[transmission]\nkind = \"ratio\"\nratio = -1.09\n", "jaw.toml");
   MechanismFile file;
   file.mechanism = jaw;
-  EXPECT_THAT(said(file), IsEmpty());
+  EXPECT_THAT(texts_of(file), IsEmpty());
   EXPECT_THAT(tight_bends(file), IsEmpty());
 }
 
 // OE lies between −0.5 R and 0.2 R. Warnings occur only for pins below the joint and a radius that varies fourfold and
 // more, at most 1.6-fold with pins above: 3 of 300, 13 of 2000.
 TEST(Plausibility, RarelyWarnsOfRandomJoints) {
-  int doubted = 0, cases = 0;
+  int warned = 0, cases = 0;
   testing::expect_law(300, [&](const Mechanism& mechanism) {
     ++cases;
     for (const Diagnostic& warning : plausibility_warnings(file_of(mechanism))) {
-      ++doubted;
+      ++warned;
       RC_ASSERT(warning.message.find("guides.OE_mm") == 0);
       RC_ASSERT(mechanism.guides.OE > 0);
     }
     return profile::synthesise(mechanism, {.advice = false}).made();
   });
-  EXPECT_LE(doubted, cases / 50);
+  EXPECT_LE(warned, cases / 50);
 }
 
 // Most input errors in random joints are detected.
@@ -147,7 +147,7 @@ TEST(Plausibility, DetectsErrorsInRandomJoints) {
 // ---- the sign of OE -------------------------------------------------------------------------------------------------
 
 TEST(SignOfOE, WarnsOfUnevenPulley) {
-  EXPECT_THAT(said({{"guides.OE_mm", "40"}}),
+  EXPECT_THAT(texts_of({{"guides.OE_mm", "40"}}),
               ElementsAre(AllOf(HasSubstr("guides.OE_mm = 40 mm: positive is below the joint"),
                                 HasSubstr("the radius of P2 varies 10-fold"), HasSubstr("did you mean -40 mm?"))));
 }
@@ -156,48 +156,48 @@ TEST(SignOfOE, WarnsIfOnlyOppositeIsFeasible) {
   MechanismFile file = read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/linear_wrist.toml");
   file.mechanism.guides.OE *= -1;
   ASSERT_FALSE(profile::synthesise(file.mechanism, {.advice = false}).made());
-  EXPECT_THAT(said(file),
+  EXPECT_THAT(texts_of(file),
               ElementsAre(AllOf(HasSubstr("no such pulley can be made"), HasSubstr("did you mean -37.5 mm?"))));
 }
 
 TEST(SignOfOE, AcceptsPinsBelow) {
-  EXPECT_THAT(said({{"guides.OE_mm", "10"}, {"joint.range_deg", "[-15, 15]"}}), IsEmpty());
-  EXPECT_THAT(said({{"guides.OE_mm", "0"}}), IsEmpty());
+  EXPECT_THAT(texts_of({{"guides.OE_mm", "10"}, {"joint.range_deg", "[-15, 15]"}}), IsEmpty());
+  EXPECT_THAT(texts_of({{"guides.OE_mm", "0"}}), IsEmpty());
   // No pulley exists with either sign: the sign is not the error.
-  EXPECT_THAT(said({{"guides.OE_mm", "40"}, {"pulley.r1_mm", "60"}}), IsEmpty());
+  EXPECT_THAT(texts_of({{"guides.OE_mm", "40"}, {"pulley.r1_mm", "60"}}), IsEmpty());
 }
 
 // ---- radians --------------------------------------------------------------------------------------------------------
 
 TEST(Radians, WarnsInRange) {
-  EXPECT_THAT(said({{"joint.range_deg", "[-0.5236, 0.7854]"}}),
+  EXPECT_THAT(texts_of({{"joint.range_deg", "[-0.5236, 0.7854]"}}),
               ElementsAre(AllOf(HasSubstr("joint.range_deg = [-0.5236, 0.7854]"), HasSubstr("[-30, 45]"))));
-  EXPECT_THAT(said({{"joint.range_deg", "[0, 1.5708]"}}), ElementsAre(HasSubstr("[0, 90]")));
-  EXPECT_THAT(said({{"joint.range_deg", "[-2, 2]"}}), IsEmpty());
+  EXPECT_THAT(texts_of({{"joint.range_deg", "[0, 1.5708]"}}), ElementsAre(HasSubstr("[0, 90]")));
+  EXPECT_THAT(texts_of({{"joint.range_deg", "[-2, 2]"}}), IsEmpty());
 }
 
 TEST(Radians, WarnsInTilt) {
   const auto tilted = [](const char* tilt) {
-    return said({{"load.mass_kg", "0.2"}, {"load.lever_mm", "50"}, {"load.tilt_deg", tilt}});
+    return texts_of({{"load.mass_kg", "0.2"}, {"load.lever_mm", "50"}, {"load.tilt_deg", tilt}});
   };
   EXPECT_THAT(tilted("1.5708"), ElementsAre(AllOf(HasSubstr("load.tilt_deg = 1.571"), HasSubstr("= 90"))));
   EXPECT_THAT(tilted("-3.14"), ElementsAre(HasSubstr("load.tilt_deg = -180")));
   for (const char* fine : {"0", "90", "1.5", "5.5", "3", "-2.2", "180"}) EXPECT_THAT(tilted(fine), IsEmpty()) << fine;
-  EXPECT_THAT(said({{"load.tilt_deg", "1.5708"}}), IsEmpty());  // nothing has weight
+  EXPECT_THAT(texts_of({{"load.tilt_deg", "1.5708"}}), IsEmpty());  // nothing has weight
 }
 
 TEST(Radians, WarnsInGroove) {
-  EXPECT_THAT(said({{"body.groove_angle_deg", "0.8727"}}),
+  EXPECT_THAT(texts_of({{"body.groove_angle_deg", "0.8727"}}),
               ElementsAre(AllOf(HasSubstr("body.groove_angle_deg"), HasSubstr("= 50"))));
   for (const char* fine : {"0", "1", "2", "5", "50"})
-    EXPECT_THAT(said({{"body.groove_angle_deg", fine}}), IsEmpty()) << fine;
+    EXPECT_THAT(texts_of({{"body.groove_angle_deg", fine}}), IsEmpty()) << fine;
 }
 
 // ---- lengths --------------------------------------------------------------------------------------------------------
 
 TEST(Lengths, SuggestsUnitOfOneLength) {
   const auto expect = [](const std::string& key, const char* value, const std::string& meant) {
-    EXPECT_THAT(said({{key, value}}),
+    EXPECT_THAT(texts_of({{key, value}}),
                 ElementsAre(AllOf(HasSubstr(key + " = " + value + " mm"), HasSubstr(key + " = " + meant + " mm"))));
   };
   expect("guides.EB_mm", "5", "50");
@@ -213,15 +213,15 @@ TEST(Lengths, SuggestsUnitOfOneLength) {
 }
 
 TEST(Lengths, ReportsTwoOddLengths) {
-  EXPECT_THAT(said({{"guides.EB_mm", "5"}, {"pulley.r1_mm", "160"}}),
+  EXPECT_THAT(texts_of({{"guides.EB_mm", "5"}, {"pulley.r1_mm", "160"}}),
               ElementsAre(HasSubstr("guides.EB_mm"), HasSubstr("pulley.r1_mm")));
 }
 
 TEST(Lengths, AcceptsUnusualProportions) {
-  EXPECT_THAT(said({{"pulley.EF_mm", "600"}}), IsEmpty());  // a distant motor
-  EXPECT_THAT(said({{"guides.EB_mm", "20"}, {"guides.ED_mm", "20"}}), IsEmpty());
-  EXPECT_THAT(said({{"pulley.r1_mm", "5"}}), IsEmpty());
-  EXPECT_THAT(said({{"guides.OE_mm", "0"}}), IsEmpty());
+  EXPECT_THAT(texts_of({{"pulley.EF_mm", "600"}}), IsEmpty());  // a distant motor
+  EXPECT_THAT(texts_of({{"guides.EB_mm", "20"}, {"guides.ED_mm", "20"}}), IsEmpty());
+  EXPECT_THAT(texts_of({{"pulley.r1_mm", "5"}}), IsEmpty());
+  EXPECT_THAT(texts_of({{"guides.OE_mm", "0"}}), IsEmpty());
 }
 
 std::vector<Setting> all_times(double factor) {
@@ -231,41 +231,41 @@ std::vector<Setting> all_times(double factor) {
 }
 
 TEST(Lengths, DetectsAllLengthsInCm) {
-  EXPECT_THAT(said(all_times(0.1)),
+  EXPECT_THAT(texts_of(all_times(0.1)),
               ElementsAre(AllOf(HasSubstr("joint.length_mm = 10 mm is small for a tendon of 1 mm"),
                                 HasSubstr("in cm or in inches?"), HasSubstr("joint.length_mm = 100"))));
   std::vector<Setting> thin = all_times(0.1);
   thin.push_back({"tendon.diameter_mm", "0.2"});
-  EXPECT_THAT(said(thin), ElementsAre(HasSubstr("a pin of 2 mm (guides.radius_mm)")));
+  EXPECT_THAT(texts_of(thin), ElementsAre(HasSubstr("a pin of 2 mm (guides.radius_mm)")));
   thin.push_back({"guides.radius_mm", "0.3"});
-  EXPECT_THAT(said(thin), IsEmpty());  // a joint of a centimetre with matching parts
+  EXPECT_THAT(texts_of(thin), IsEmpty());  // a joint of a centimetre with matching parts
   thin.push_back({"body.bore_diameter_mm", "5"});
-  EXPECT_THAT(said(thin), ElementsAre(HasSubstr("a shaft of 5 mm (body.bore_diameter_mm)")));
+  EXPECT_THAT(texts_of(thin), ElementsAre(HasSubstr("a shaft of 5 mm (body.bore_diameter_mm)")));
 }
 
 TEST(Lengths, DetectsInches) {
   const std::vector<Setting> in_inches = all_times(1 / 25.4);
-  EXPECT_THAT(said(in_inches), ElementsAre(AllOf(HasSubstr("in inches?"), HasSubstr("100 mm and so on"),
-                                                 HasSubstr("units = \"inch\""))));
+  EXPECT_THAT(texts_of(in_inches), ElementsAre(AllOf(HasSubstr("in inches?"), HasSubstr("100 mm and so on"),
+                                                     HasSubstr("units = \"inch\""))));
   std::vector<Setting> read_as_inches = in_inches;
   read_as_inches.insert(read_as_inches.end(), {{"units", "inch"},
                                                {"tendon.diameter_mm", "1 mm"},
                                                {"guides.radius_mm", "2 mm"},
                                                {"body.bore_diameter_mm", "5 mm"}});
-  EXPECT_THAT(said(read_as_inches), IsEmpty());
-  EXPECT_THAT(said({{"units", "inch"}}), ElementsAre(HasSubstr("thicker than any tendon")));
+  EXPECT_THAT(texts_of(read_as_inches), IsEmpty());
+  EXPECT_THAT(texts_of({{"units", "inch"}}), ElementsAre(HasSubstr("thicker than any tendon")));
 }
 
 TEST(Lengths, AcceptsThickTendon) {
-  EXPECT_THAT(said({{"tendon.diameter_mm", "4"}, {"tendon.modulus_MPa", "3000"}}), IsEmpty());
+  EXPECT_THAT(texts_of({{"tendon.diameter_mm", "4"}, {"tendon.modulus_MPa", "3000"}}), IsEmpty());
 }
 
 // ---- the tendon -----------------------------------------------------------------------------------------------------
 
 TEST(Modulus, WarnsOfGPa) {
-  EXPECT_THAT(said({{"tendon.modulus_MPa", "40"}}), ElementsAre(HasSubstr("tendon.modulus_MPa = 40000")));
+  EXPECT_THAT(texts_of({{"tendon.modulus_MPa", "40"}}), ElementsAre(HasSubstr("tendon.modulus_MPa = 40000")));
   for (const TendonType& type : tendon_types())
-    EXPECT_THAT(said({{"tendon.modulus_MPa", std::to_string(type.modulus)}}), IsEmpty()) << type.name;
+    EXPECT_THAT(texts_of({{"tendon.modulus_MPa", std::to_string(type.modulus)}}), IsEmpty()) << type.name;
   // In Pa it is no valid modulus.
   EXPECT_THROW(file_with({{"tendon.modulus_MPa", "40e9"}}), InputError);
 }
@@ -273,18 +273,18 @@ TEST(Modulus, WarnsOfGPa) {
 TEST(Overload, WarnsBeyondDeclaredStrength) {
   const std::vector<Setting> loaded = {{"load.tip_force_N", "50"}, {"tendon.strength_N", "60"}};
   EXPECT_THAT(
-      said(loaded),
+      texts_of(loaded),
       ElementsAre(AllOf(HasSubstr("exceeds its strength of 30 N there (tendon.strength_N, tendon.knot_efficiency)"),
                         HasSubstr("[load]"))));
-  EXPECT_THAT(said({{"load.tip_force_N", "50"}, {"tendon.strength_N", "200"}}), IsEmpty());
+  EXPECT_THAT(texts_of({{"load.tip_force_N", "50"}, {"tendon.strength_N", "200"}}), IsEmpty());
 }
 
 TEST(Overload, WarnsBeyondEstimatedStrength) {
-  const std::vector<std::string> texts = said({{"load.tip_force_N", "500"}, {"tendon.diameter_mm", "0.9"}});
+  const std::vector<std::string> texts = texts_of({{"load.tip_force_N", "500"}, {"tendon.diameter_mm", "0.9"}});
   EXPECT_THAT(texts, ElementsAre(HasSubstr("an estimate from hmpe-1.0 of the catalogue by its section")));
-  EXPECT_THAT(said({{"load.tip_force_N", "200"}, {"tendon.diameter_mm", "0.9"}}), IsEmpty());
+  EXPECT_THAT(texts_of({{"load.tip_force_N", "200"}, {"tendon.diameter_mm", "0.9"}}), IsEmpty());
   // A tendon unlike any of the catalogue causes no warning.
-  EXPECT_THAT(said({{"load.tip_force_N", "500"}, {"tendon.modulus_MPa", "300000"}}), IsEmpty());
+  EXPECT_THAT(texts_of({{"load.tip_force_N", "500"}, {"tendon.modulus_MPa", "300000"}}), IsEmpty());
 }
 
 TEST(Overload, AgreesWithAnalysis) {
@@ -314,9 +314,9 @@ TEST(Places, WarningsNameTheirKey) {
   std::string text = k_forearm;
   text.replace(text.find("-40.0"), 5, "40.0");
   file.mechanism = parse_mechanism(text, file.path, ".", {}, &file.warnings, &file.places);
-  const MechanismFile doubted = with_plausibility_warnings(file);
-  ASSERT_THAT(doubted.warnings, SizeIs(1));
-  EXPECT_THAT(to_text(doubted.warnings.front()), HasSubstr("arm.toml:11:9: warning: guides.OE_mm = 40 mm"));
+  const MechanismFile warned = with_plausibility_warnings(file);
+  ASSERT_THAT(warned.warnings, SizeIs(1));
+  EXPECT_THAT(to_text(warned.warnings.front()), HasSubstr("arm.toml:11:9: warning: guides.OE_mm = 40 mm"));
   EXPECT_EQ(file_with({{"guides.OE_mm", "40"}}).place_of("guides.OE_mm").file, "--set guides.OE_mm=40");
   EXPECT_EQ(file.place_of("tendon.strength_N").line, 0);
 }

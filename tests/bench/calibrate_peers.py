@@ -5,7 +5,7 @@
 
 BENCH_FIT is the program of fit_bench.cpp, by default the one in FUSEE's build. Requires numpy and scipy.
 
-The runs are of a joint whose sensor has a gain error and whose motor has play. scipy is told the effects (gain, play and zero) and fits them once
+The runs are of a joint whose sensor has a gain error and whose motor has play. scipy is given the effects (gain, play and zero) and fits them once
 to all rows, over an independent forward model in numpy: exact kinematics over pins with radius, and a play operator. fusee reads the files,
 estimates the noise floor, tests all effects and pairs with an elastic model with friction and held-out runs, searches rivals, and writes the
 correction and a report. So the first ratio compares a whole calibration with one fit of three known parameters; divided by the number of
@@ -160,7 +160,7 @@ def main():
     print(f"scipy least_squares, 3 numbers of a model that is known: {theirs:.3f} s, {solution.nfev} steps, gain {100 * solution.x[0]:.3f} %, "
           f"play {np.degrees(abs(solution.x[1])):.3f} deg, rms {rest:.4f} deg")
     effects = "; ".join(f"{effect['name']} of {{{', '.join(effect['group'])}}} {effect['parameters']}" for effect in answer["effects"])
-    print(f"fusee calibrate, told nothing, {len(answer['tried'])} candidates tried: {ours:.3f} s, {answer['verdict']}, rms {answer['after']['rms_deg']:.4f} deg: {effects}")
+    print(f"fusee calibrate, without such information, {len(answer['tried'])} candidates tried: {ours:.3f} s, {answer['verdict']}, rms {answer['after']['rms_deg']:.4f} deg: {effects}")
     print(f"fusee calibrate takes {ours / theirs:.1f} times as long as the one fit; for each candidate {ours / theirs / max(1, len(answer['tried'])):.2f} times")
     if answer["after"]["rms_deg"] > 1.05 * rest:
         sys.exit("fusee's rest is larger than scipy's")

@@ -53,7 +53,7 @@ pipeline::CalibrateOptions into(const std::filesystem::path& folder) {
   return options;
 }
 
-TEST(CalibrateVerb, LeavesEveryFile) {
+TEST(CalibrateVerb, WritesEveryFile) {
   const std::filesystem::path folder = scratch("all") / "out";
   std::vector<std::string> steps;
   const pipeline::CalibrateOptions options = into(folder);
@@ -71,7 +71,7 @@ TEST(CalibrateVerb, LeavesEveryFile) {
   for (const OutputFile& one : result.outputs) EXPECT_EQ(read_file(folder / one.name, 1 << 22), one.bytes);
 }
 
-TEST(CalibrateVerb, LeavesWhatToMeasureNext) {
+TEST(CalibrateVerb, WritesNextMeasurements) {
   const std::filesystem::path folder = scratch("next") / "out";
   const std::filesystem::path data = k_rig / "e_one_sweep_only";
   const pipeline::CalibrateResult result =
@@ -95,7 +95,7 @@ TEST(CalibrateVerb, LeavesWhatToMeasureNext) {
 }
 
 // Data that decide nothing leave the plan that a joint that was never measured has.
-TEST(CalibrateVerb, RunsThatDecideNothingAskForAPlan) {
+TEST(CalibrateVerb, ProposesPlanForUntestableRuns) {
   const std::filesystem::path folder = scratch("still");
   std::string still = "alpha_deg,theta_deg\n";
   for (int i = 0; i < 50; ++i) still += "1,2\n";
@@ -110,7 +110,7 @@ TEST(CalibrateVerb, RunsThatDecideNothingAskForAPlan) {
   EXPECT_TRUE(std::filesystem::is_regular_file(folder / "out/next/run_1.csv"));
 }
 
-TEST(CalibrateVerb, NothingAskedForLeavesNoFolder) {
+TEST(CalibrateVerb, WritesNoFolderWithoutOutputs) {
   const std::filesystem::path folder = scratch("none_next") / "out";
   const std::filesystem::path asked = k_rig / "e_one_sweep_only", clear = k_rig / "c_backlash";
   pipeline::calibrate(read_mechanism(asked / "spec.toml"), {asked / "run_1.csv"}, into(folder));
@@ -197,7 +197,7 @@ TEST(NextMeasurements, AreReadWhenFilledIn) {
   }
 }
 
-TEST(CalibrateVerb, StopLeavesNothing) {
+TEST(CalibrateVerb, WritesNothingIfStopped) {
   const std::filesystem::path folder = scratch("thrown") / "out";
   const pipeline::CalibrateOptions options = into(folder);
   std::stop_source source;
@@ -226,7 +226,7 @@ TEST(CalibrateVerb, HeldOutRunIsNotFitted) {
   EXPECT_FALSE(result.published);
 }
 
-TEST(CalibrateVerb, ASlipIsSaidAndChangesNothingElse) {
+TEST(CalibrateVerb, InputErrorChangesNoOtherResult) {
   pipeline::CalibrateOptions options = into(scratch("input_error"));
   options.dry_run = true;
   const MechanismFile file = read_mechanism(k_rig / "a_declared_right/spec.toml", {{"guides.OE_mm", "14"}});
@@ -370,7 +370,7 @@ TEST(CalibrationPage, ImpossiblePulleyIsReported) {
   EXPECT_THAT(formats::calibration_json(product), HasSubstr("\"infeasible\": \"tendon 2 leaves pin D"));
 }
 
-TEST(CalibrationPage, SaysWhereToTie) {
+TEST(CalibrationPage, ReportsAssemblyAngle) {
   formats::CalibrationProduct product = explained();
   product.correction.has_pulley = true;
   product.correction.assembly_angle = radians(-1.5);
@@ -378,7 +378,7 @@ TEST(CalibrationPage, SaysWhereToTie) {
   EXPECT_THAT(formats::calibration_json(product), HasSubstr("\"tied_at_deg\": -1.5"));
 }
 
-TEST(CalibrationPage, SaysWhatIsPerhapsBesideAName) {
+TEST(CalibrationPage, ReportsAdditionalMembers) {
   formats::CalibrationProduct product = explained();
   FoundEffect stretch;
   stretch.name = "tendon_stretch";
@@ -392,7 +392,7 @@ TEST(CalibrationPage, SaysWhatIsPerhapsBesideAName) {
               HasSubstr("Perhaps joint sensor gain (gain = 1.25 % (95 %: 1 … 1.5)) beside it"));
 }
 
-TEST(CalibrationPage, SaysNeitherWhereThereIsNothingToSay) {
+TEST(CalibrationPage, OmitsBothIfEmpty) {
   const std::string json = formats::calibration_json(explained());
   EXPECT_THAT(json, Not(HasSubstr("infeasible")));
   EXPECT_THAT(json, Not(HasSubstr("tied_at_deg")));

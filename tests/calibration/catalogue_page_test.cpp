@@ -39,7 +39,7 @@ std::string catalogue_table() {
   return text;
 }
 
-TEST(CalibrationPage, ItsCatalogueIsThatOfTheProgram) {
+TEST(CalibrationPage, ListsCatalogueOfProgram) {
   const std::string page = read_file(k_page, 1 << 20);
   const std::string begin = "<!-- catalogue: begin -->\n", end = "<!-- catalogue: end -->";
   const std::size_t from = page.find(begin), to = page.find(end);
@@ -49,7 +49,7 @@ TEST(CalibrationPage, ItsCatalogueIsThatOfTheProgram) {
       << "docs/reference/effects.md lags behind the catalogue: put the text above between its two marks";
 }
 
-TEST(CalibrationPage, TheCatalogueHoldsEveryNameThatWasPromised) {
+TEST(CalibrationPage, CatalogueContainsEveryContractName) {
   std::vector<std::string> names;
   for (const fusee::Effect& effect : effects(JointKind::tendons)) names.push_back(effect.name);
   for (const char* name : k_contract_effects) EXPECT_THAT(names, testing::Contains(name));

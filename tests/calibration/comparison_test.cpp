@@ -104,7 +104,7 @@ TEST(EarlierState, ActsInItsOwnRunsAlone) {
   }
 }
 
-TEST(Changes, MayTakeAwayWhatThereWas) {
+TEST(Changes, MayRemoveEarlierEffect) {
   const std::vector<fusee::Effect> changes = changes_from(with_play(radians(2)), JointKind::ratio);
   const auto play =
       std::find_if(changes.begin(), changes.end(), [](const fusee::Effect& e) { return e.name == "backlash"; });

@@ -108,7 +108,7 @@ TEST(EvidenceModel, SubsetOfColumnsEqualsSmallerTangent) {
   EXPECT_NEAR(calibration::log_evidence_of(reduced, chosen), evidence_model.at(few, amplitudes).log_evidence, 1e-9);
 }
 
-TEST(EvidenceModel, FindsAmplitudesAndLeavesOutWhatIsNot) {
+TEST(EvidenceModel, FindsAmplitudesAndDropsAbsentFamilies) {
   std::mt19937 random(3);
   const Eigen::Index rows = 400, count = 40;
   calibration::Discrepancy D;
@@ -142,7 +142,7 @@ TEST(EvidenceModel, LargerDiscrepancyIsRarer) {
   }
 }
 
-TEST(EvidenceModel, IntervalsCoverAsOftenAsTheySay) {
+TEST(EvidenceModel, IntervalsHaveStatedCoverage) {
   std::mt19937 random(4);
   const calibration::Discrepancy D = two_families(60, random);
   const calibration::EvidenceModel evidence_model(D, 0.1, 1.0);

@@ -44,7 +44,7 @@ TEST(Gather, APartialStrokeIsNone) {
   EXPECT_THAT(strokes_of(calibration::gather(joint(), measurement, k_floor), 0), ElementsAre(1, 3));
 }
 
-TEST(Gather, ARowThatJumpsIsLeftOut) {
+TEST(Gather, DropsRowThatJumps) {
   measurement::Measurement measurement = quiet({0});
   const std::size_t wild = 2 * k_rows + 7;
   measurement.runs[0].samples[wild].theta += 20 * k_floor;
@@ -106,7 +106,7 @@ TEST(Folds, SpeedIsAFactorToo) {
   EXPECT_THAT(calibration::gather(joint(), measurement, k_floor).factors, ElementsAre("speed"));
 }
 
-// ---- held angles and levels of load ---------------------------------------------------------------------------------
+// ---- dwells and load levels -----------------------------------------------------------------------------------------
 
 /// For each block, the number of the blocks of its run that it repeats.
 std::vector<std::size_t> repeats_in(const calibration::Evidence& evidence) {
@@ -167,7 +167,7 @@ TEST(Gather, SegmentsAtTwoPlacesAreNoRepeats) {
   EXPECT_THAT(repeats_in(evidence), ElementsAre(0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5));
 }
 
-TEST(Gather, HeldAnglesAreBlocks) {
+TEST(Gather, DwellsAreBlocks) {
   const calibration::Evidence evidence =
       calibration::gather(joint(), held_at_ends({0, 0, 0, 0, 5, 5, 5, 5}, 10), k_floor);
   // The first one's side is not known.
@@ -188,7 +188,7 @@ TEST(Gather, ShortDwellsOfOneKindAreJoined) {
   }
 }
 
-TEST(Gather, LongStandsGiveAFewRowsEach) {
+TEST(Gather, ThinsLongDwells) {
   const calibration::Evidence evidence =
       calibration::gather(joint(), held_at_ends(std::vector<double>(40, 0.0), 2000), k_floor);
   EXPECT_EQ(evidence.blocks.size(), 39u);

@@ -62,7 +62,7 @@ TEST_F(Geared, PlayFollowsAtHalfItsWidth) {
   });
 }
 
-TEST_F(Geared, ADelayShowsWhatWas) {
+TEST_F(Geared, DelayShowsEarlierAngle) {
   const Imperfections late = with("sensor_lag", 0.25);  // a quarter of the time between rows
   expect(late, [](const fusee::measurement::Run& run, std::size_t i) {
     return i == 0 ? declared(run, 0) : 0.25 * declared(run, i - 1) + 0.75 * declared(run, i);
@@ -103,7 +103,7 @@ TEST_F(Geared, ASensorWavesSoOftenATurn) {
   });
 }
 
-TEST_F(Geared, SlackIsPlayThatTheLoadTakesUp) {
+TEST_F(Geared, LoadTakesUpSlack) {
   Imperfections at;
   at.ratio_joint.slack = 0.3;
   at.ratio_joint.slack_taken_up = 0.2;
@@ -138,7 +138,7 @@ TEST(Creep, IsRememberedInTheNextRun) {
   EXPECT_NEAR(declared(measurement.runs[2], 20) - found[2][20], left, 0.1 * 5e-3);
 }
 
-TEST_F(Geared, NothingHoldsALooseJointButTendons) {
+TEST_F(Geared, OnlyTendonsHoldLooseJoint) {
   for (const std::vector<double>& run : forward.looseness({})) EXPECT_THAT(run, testing::Each(0.0));
 }
 

@@ -85,12 +85,13 @@ std::vector<LikelyInputError> errors_of(const DeclaredMechanism& file, const mea
   return find_input_errors(file, data, calibrated(file, data, !is_input_error_obvious(file, data)));
 }
 
-std::vector<std::string> said(const DeclaredMechanism& file, const measurement::Measurement& data) {
+std::vector<std::string> error_words(const DeclaredMechanism& file, const measurement::Measurement& data) {
   return words(errors_of(file, data));
 }
 
 /// Input errors of a calibration that explains nothing, without its minute of search.
-std::vector<std::string> said_where_unexplained(const DeclaredMechanism& file, const measurement::Measurement& data) {
+std::vector<std::string> error_words_if_unexplained(const DeclaredMechanism& file,
+                                                    const measurement::Measurement& data) {
   Calibration found;
   found.verdict = CalibrationVerdict::unexplained;
   found.before = {radians(5.0), radians(10.0), radians(5.0)};
@@ -103,7 +104,7 @@ std::vector<std::string> said_where_unexplained(const DeclaredMechanism& file, c
 struct InputErrorCase {
   const char* name;
   void (*file)(DeclaredMechanism&);
-  const char* said;
+  const char* words;
 };
 
 const InputErrorCase k_file_errors[] = {
@@ -121,26 +122,27 @@ const InputErrorCase k_file_errors[] = {
      "joint.range_deg = "},
 };
 
-TEST(InputErrors, name_the_key_and_the_value_that_was_meant) {
+TEST(InputErrors, ReportKeyAndCorrectValue) {
   const Bench& bench = compensating();
   for (const InputErrorCase& error : k_file_errors) {
     DeclaredMechanism file = bench.right;
     error.file(file);
-    EXPECT_THAT(said_where_unexplained(file, bench.data),
-                ElementsAre(AllOf(HasSubstr(error.said), HasSubstr("to 0.02°"))))
+    EXPECT_THAT(error_words_if_unexplained(file, bench.data),
+                ElementsAre(AllOf(HasSubstr(error.words), HasSubstr("to 0.02°"))))
         << error.name;
   }
 }
 
-TEST(InputErrors, of_a_joint_with_a_ratio_name_it) {
+TEST(InputErrors, ReportInvertedRatio) {
   const Bench& bench = linear();
   ASSERT_EQ(bench.right.pulley.law, Law::linear);
   DeclaredMechanism file = bench.right;
   file.pulley.ratio = 1.0 / file.pulley.ratio;
-  EXPECT_THAT(said(file, bench.data), ElementsAre(AllOf(HasSubstr("pulley.ratio = "), HasSubstr("alpha per theta?"))));
+  EXPECT_THAT(error_words(file, bench.data),
+              ElementsAre(AllOf(HasSubstr("pulley.ratio = "), HasSubstr("alpha per theta?"))));
 }
 
-/// Logged with other signs or in another unit.
+/// Data as logged with other signs or in another unit.
 measurement::Measurement times(measurement::Measurement data, double alpha, double theta) {
   for (measurement::Run& run : data.runs) {
     for (measurement::Sample& sample : run.samples) {
@@ -152,33 +154,33 @@ measurement::Measurement times(measurement::Measurement data, double alpha, doub
   return data;
 }
 
-TEST(InputErrors, of_the_log_name_the_angle) {
+TEST(InputErrors, ReportAngleOfLog) {
   const Bench& bench = compensating();
-  const auto move_tangent = [&](double alpha, double theta) {
-    return said_where_unexplained(bench.right, times(bench.data, alpha, theta));
+  const auto logged_times = [&](double alpha, double theta) {
+    return error_words_if_unexplained(bench.right, times(bench.data, alpha, theta));
   };
-  EXPECT_THAT(move_tangent(1, -1), ElementsAre(HasSubstr("the logged theta times -1")));
-  EXPECT_THAT(move_tangent(-1, 1), ElementsAre(HasSubstr("the logged alpha times -1")));
-  EXPECT_THAT(move_tangent(-1, -1), ElementsAre(HasSubstr("the logged alpha and theta times -1")));
-  EXPECT_THAT(move_tangent(1, radians(1)), ElementsAre(HasSubstr("the logged theta times 57.296")));
+  EXPECT_THAT(logged_times(1, -1), ElementsAre(HasSubstr("the logged theta times -1")));
+  EXPECT_THAT(logged_times(-1, 1), ElementsAre(HasSubstr("the logged alpha times -1")));
+  EXPECT_THAT(logged_times(-1, -1), ElementsAre(HasSubstr("the logged alpha and theta times -1")));
+  EXPECT_THAT(logged_times(1, radians(1)), ElementsAre(HasSubstr("the logged theta times 57.296")));
 }
 
-TEST(InputErrors, know_the_pulley_that_was_made_from_the_wrong_file) {
+TEST(InputErrors, ConsiderPulleyMadeFromWrongFile) {
   const Bench& bench = linear();
   DeclaredMechanism file = bench.right;
   file.guides.OE *= -1;
   rig::MadeJoint mounted = rig::make_joint(file);
   mounted.declared = bench.right;
   const measurement::Measurement data = logged(rig::log_runs(mounted, {}, rig::full_protocol(0.05 * file.joint.R)));
-  EXPECT_THAT(said_where_unexplained(file, data),
+  EXPECT_THAT(error_words_if_unexplained(file, data),
               ElementsAre(AllOf(HasSubstr("guides.OE_mm = -52.7 in place of 52.7"),
                                 HasSubstr("the pulley that was made from this file"))));
 }
 
 // ---- the whole way --------------------------------------------------------------------------------------------------
 
-// By a search for effects, though the error is obvious.
-TEST(InputErrors, AreReportedWhereNoEffectExplains) {
+// The search for effects runs although the error is obvious.
+TEST(InputErrors, AreReportedIfNoEffectExplainsData) {
   Bench bench = rig_data("a_declared_right");
   bench.right.guides.OE *= -1;
   const Calibration found = calibrated(bench.right, bench.data);
@@ -215,16 +217,16 @@ TEST(InputErrors, AreReportedForRefusedData) {
   Bench bench = rig_data("a_declared_right");
   bench.right.guides.EB /= 10;
   EXPECT_EQ(calibrated(bench.right, bench.data).verdict, CalibrationVerdict::not_testable);
-  EXPECT_THAT(said(bench.right, bench.data), ElementsAre(HasSubstr("guides.EB_mm = 18 in place of 1.8")));
+  EXPECT_THAT(error_words(bench.right, bench.data), ElementsAre(HasSubstr("guides.EB_mm = 18 in place of 1.8")));
 }
 
-TEST(InputErrors, leave_room_for_an_effect_beside_them) {
+TEST(InputErrors, AllowEffectBesideThem) {
   Bench bench = rig_data("b_stretch");
   bench.right.guides.OE *= -1;
-  EXPECT_THAT(said(bench.right, bench.data), ElementsAre(HasSubstr("with tendon_stretch beside it")));
+  EXPECT_THAT(error_words(bench.right, bench.data), ElementsAre(HasSubstr("with tendon_stretch beside it")));
 }
 
-TEST(InputErrors, LeaveRoomForUnmodelledCause) {
+TEST(InputErrors, AllowUnmodelledCauseBesideThem) {
   Bench bench = rig_data("f_not_in_any_catalogue");
   const double left = left_by(bench.right, bench.data);
   bench.right.guides.OE *= -1;
@@ -235,7 +237,7 @@ TEST(InputErrors, LeaveRoomForUnmodelledCause) {
   EXPECT_NEAR(errors[0].rms, left, 0.1 * left);
 }
 
-TEST(InputErrors, stand_before_effects_that_are_larger_than_any) {
+TEST(InputErrors, AreReportedBeforeImplausiblyLargeEffects) {
   const Bench& bench = compensating();
   DeclaredMechanism file = bench.right;
   std::swap(file.guides.EB, file.guides.ED);
@@ -248,17 +250,17 @@ TEST(InputErrors, stand_before_effects_that_are_larger_than_any) {
   EXPECT_THAT(find_input_errors(file, bench.data, found), IsEmpty());
 }
 
-// ---- where they must not be said ------------------------------------------------------------------------------------
+// ---- where they must not be reported --------------------------------------------------------------------------------
 
 TEST(InputErrors, AreNotReportedForCorrectFile) {
   for (const char* name : {"a_declared_right", "b_stretch", "c_backlash", "d_guide_radius", "e_one_sweep_only",
                            "f_not_in_any_catalogue"}) {
     const Bench bench = rig_data(name);
-    EXPECT_THAT(said(bench.right, bench.data), IsEmpty()) << name;
+    EXPECT_THAT(error_words(bench.right, bench.data), IsEmpty()) << name;
   }
 }
 
-// All 40 rows of the matrix, seeds 1 and 2: none (46 s a seed). Here those that stay unexplained by most.
+// No row of the 40 reports one with seeds 1 and 2 (46 s a seed). These two have the largest unexplained residual.
 TEST(InputErrors, AreNotReportedBesideUnmodelledCause) {
   for (const char* fault : {"lump", "motor_cogging"}) {
     const rig::Case made = rig::make_case({fault, {fault}}, 1);
@@ -269,11 +271,11 @@ TEST(InputErrors, AreNotReportedBesideUnmodelledCause) {
   }
 }
 
-TEST(InputErrors, are_not_sought_in_data_that_decide_nothing) {
+TEST(InputErrors, AreNotSearchedInUntestableData) {
   Bench bench = rig_data("a_declared_right");
   bench.right.guides.OE *= -1;
   bench.data.not_testable = {"one direction"};
-  EXPECT_THAT(said(bench.right, bench.data), IsEmpty());
+  EXPECT_THAT(error_words(bench.right, bench.data), IsEmpty());
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ Problem some_problem() {
 
 Eigen::VectorXd by_qr(const Eigen::MatrixXd& J, const Eigen::VectorXd& r) { return J.householderQr().solve(r); }
 
-TEST(LeastSquares, AStepIsThatOfAnOrthogonalFactorisation) {
+TEST(LeastSquares, StepEqualsOrthogonalFactorisation) {
   const Problem problem = some_problem();
   const calibration::Fit fit = hand_made(problem.evidence, problem.J, problem.r);
   const calibration::NormalEquations all = calibration::sums_of_all(problem.evidence, fit);
@@ -44,7 +44,7 @@ TEST(LeastSquares, AStepIsThatOfAnOrthogonalFactorisation) {
   EXPECT_EQ(all.rows, static_cast<double>(problem.r.size()));
 }
 
-TEST(LeastSquares, ARidgeIsARowThatSaysNothing) {
+TEST(LeastSquares, RidgeEqualsUninformativeRow) {
   const Problem problem = some_problem();
   calibration::Fit fit = hand_made(problem.evidence, problem.J, problem.r);
   fit.x << 2, -1;
@@ -195,7 +195,8 @@ TEST(HeldOut, EqualsErrorBesideDiscrepancyToo) {
   const calibration::Fit fit = hand_made(problem.evidence, problem.J, problem.r);
   const calibration::Amplitudes amplitudes = some_amplitudes(problem.evidence);
   const std::vector<calibration::Fold> folds = {{0, 1, 2, 3}, {4, 5, 6, 7}};
-  const calibration::HeldOutBeside held = calibration::hold_out_beside(problem.evidence, fit, amplitudes, folds);
+  const calibration::HeldOutWithDiscrepancy held =
+      calibration::hold_out_with_discrepancy(problem.evidence, fit, amplitudes, folds);
   for (std::size_t b = 0; b < 8; ++b) {
     const auto [effects, with_place] = errors_beside(problem, amplitudes, folds[b / 4], b);
     EXPECT_NEAR(held.effects.by_block[b], effects, 1e-5 * effects) << b;
@@ -379,7 +380,7 @@ TEST_F(HandedOver, LeastSquaresThatPredictMore) {
   EXPECT_FALSE(made.curve.used);
 }
 
-TEST_F(HandedOver, IntervalsHoldWhatIsHandedOver) {
+TEST_F(HandedOver, IntervalsCoverReplacedParameters) {
   const calibration::ReportedParameters made = handed_over();
   selection.groups = {{{&named("tendon_stretch")}, 0}, {{&named("slack")}, 0}};
   selection.without.resize(2);

@@ -88,7 +88,7 @@ DeclaredMechanism taut_forearm() {
   return mechanism;
 }
 
-TEST(EffectOfOnesOwn, IsFoundAndNotWithoutItsFile) {
+TEST(CustomEffect, IsFoundOnlyWithItsFile) {
   const DeclaredMechanism declared = taut_forearm();
   Imperfections truth;
   truth.pulley.outline.wave_sin = 0.4;

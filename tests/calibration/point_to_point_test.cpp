@@ -1,5 +1,4 @@
-// Joints measured at held motor angles, by a rig that shares no code with the fit: what a reader of strokes would
-// refuse.
+// Joints measured at dwells of the motor, by a rig that shares no code with the fit. Such logs have no strokes.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -33,7 +32,7 @@ const rig::MadeJoint& joint() {
   return made;
 }
 
-/// Held angles with the load put on and taken off in steps at each, up the range and down again.
+/// Dwells up the range and down again; at each the load is put on and taken off in steps.
 Stops load_staircase(int rows) {
   Stops stops;
   for (const double share : {-0.8, -0.4, 0.0, 0.4, 0.8, 0.4, 0.0, -0.4, -0.8}) {
@@ -50,7 +49,7 @@ Stops alternating_ends(int rows) {
   return stops;
 }
 
-/// Between held angles, up and down at three loads.
+/// Moves between dwells, up and down at three loads.
 Stops steps(int rows) {
   Stops stops;
   for (const double load : {0.0, 1.5, 3.0}) {
@@ -163,7 +162,7 @@ TEST(PointToPoint, DeclaredJointHasNoFalsePositive) {
   }
 }
 
-TEST(PointToPoint, few_rows_are_no_reason_to_doubt_a_joint) {
+TEST(PointToPoint, AcceptsDeclaredJointWithFewRows) {
   for (const Protocol& protocol : k_protocols) {
     if (protocol.rows > 1) continue;
     // With these seeds the ends in turn were reported as not_repeatable on 2, and few repeats as unexplained on all.
@@ -174,18 +173,18 @@ TEST(PointToPoint, few_rows_are_no_reason_to_doubt_a_joint) {
   }
 }
 
-TEST(PointToPoint, soft_tendons_show_between_loads) {
+TEST(PointToPoint, DetectsStretchBetweenLoads) {
   for (const Protocol& protocol : k_protocols) {
-    if (protocol.stops == alternating_ends) continue;  // two_places_name_nothing_alone
+    if (protocol.stops == alternating_ends) continue;  // ReportsNoSingleCauseFromTwoPlaces
     const Calibration found = calibrated({log_of(protocol.stops(protocol.rows), soft(), 5)});
     EXPECT_THAT(names_of(found), Contains("tendon_stretch")) << protocol.name << ": " << found.summary;
     EXPECT_LT(found.after.rms, 0.6 * found.before.rms) << protocol.name;
   }
 }
 
-TEST(PointToPoint, play_shows_between_the_sides_that_a_place_was_come_to_from) {
+TEST(PointToPoint, DetectsPlayBetweenApproachDirections) {
   for (const Protocol& protocol : k_protocols) {
-    if (protocol.stops == alternating_ends) continue;  // two_places_name_nothing_alone
+    if (protocol.stops == alternating_ends) continue;  // ReportsNoSingleCauseFromTwoPlaces
     const Calibration found = calibrated({log_of(protocol.stops(protocol.rows), loose(), 5)});
     EXPECT_THAT(names_of(found), Contains("backlash")) << protocol.name << ": " << found.summary;
     EXPECT_LT(found.after.rms, 0.2 * found.before.rms) << protocol.name;
@@ -195,12 +194,12 @@ TEST(PointToPoint, play_shows_between_the_sides_that_a_place_was_come_to_from) {
 struct Ends {
   rig::Hidden (*hidden)();
   const char* name;
-  const char* seen_with;  ///< how the factor begins on which the discrepancy depends
+  const char* factor;  ///< first word of the factor on which the discrepancy depends
 };
 
-// At two places a smooth error has two numbers, with a name or without: nothing is named alone. What is more, each
-// place is come to from one side only. No harmonic is seen in two places either.
-TEST(PointToPoint, two_places_name_nothing_alone) {
+// At two places any smooth error has two numbers, so no cause is reported alone. Each place is also approached from one
+// side only, and two places show no harmonic.
+TEST(PointToPoint, ReportsNoSingleCauseFromTwoPlaces) {
   for (const Ends& ends : {Ends{loose, "backlash", "place"}, Ends{soft, "tendon_stretch", "load"}}) {
     const Calibration found = calibrated({log_of(alternating_ends(20), ends.hidden(), 5)});
     for (const FoundEffect& effect : found.effects) {
@@ -214,7 +213,7 @@ TEST(PointToPoint, two_places_name_nothing_alone) {
     if (!found.effects.empty()) continue;
     EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained) << found.summary;
     ASSERT_FALSE(found.discrepancy.empty()) << ends.name;
-    EXPECT_THAT(found.discrepancy.front().factor, StartsWith(ends.seen_with));
+    EXPECT_THAT(found.discrepancy.front().factor, StartsWith(ends.factor));
     EXPECT_THAT(tried->why,
                 AnyOf("it adds less than a report requires", StartsWith("with it rows that were not fitted")));
   }
@@ -228,7 +227,7 @@ std::vector<std::string> next_words(const Calibration& calibration) {
 
 const char* const k_both_sides = "approach each dwell from both sides";
 
-TEST(PointToPoint, points_from_one_side_are_asked_for_from_both) {
+TEST(PointToPoint, RequestsApproachFromBothSides) {
   EXPECT_THAT(next_words(calibrated({log_of(alternating_ends(20), loose(), 5)})), Contains(StartsWith(k_both_sides)));
   EXPECT_THAT(next_words(calibrated({log_of(steps(6), {}, 5)})), Not(Contains(StartsWith(k_both_sides))));
   Stops up;
@@ -245,7 +244,7 @@ TEST(PointToPoint, points_from_one_side_are_asked_for_from_both) {
   EXPECT_THAT(next_words(too_few), Contains(StartsWith(k_both_sides)));
 }
 
-TEST(PointToPoint, loads_within_a_run_are_held_out) {
+TEST(PointToPoint, HoldsOutLoadLevelsWithinRun) {
   EXPECT_THAT(calibrated({log_of(load_staircase(8), {}, 5)}).held_out_factors, ElementsAre("load"));
 }
 

@@ -32,13 +32,15 @@ double rms(const Eigen::VectorXd& values) {
 
 class Groups : public ::testing::Test {
  protected:
-  calibration::Weighed set(const std::string& letters, double weight) const { return {of(letters), std::log(weight)}; }
+  calibration::WeightedSet set(const std::string& letters, double weight) const {
+    return {of(letters), std::log(weight)};
+  }
   calibration::EffectSet of(const std::string& letters) const {
     calibration::EffectSet set;
     for (const char letter : letters) set.push_back(&all_[static_cast<std::size_t>(letter - 'a')]);
     return set;
   }
-  calibration::CredibleGroup group(const std::vector<calibration::Weighed>& sets, const std::string& best,
+  calibration::CredibleGroup group(const std::vector<calibration::WeightedSet>& sets, const std::string& best,
                                    char named) const {
     return calibration::credible_group(sets, of(best), *of(std::string(1, named)).front(), 0.02);
   }
@@ -46,36 +48,36 @@ class Groups : public ::testing::Test {
   std::array<Effect, 5> all_ = effects_of_no_meaning();
 };
 
-TEST_F(Groups, AreAloneWhereNothingElseDoes) {
+TEST_F(Groups, ContainOneMemberWithoutAlternatives) {
   const calibration::CredibleGroup found = group({set("", 1), set("a", 99), set("b", 1e-6)}, "a", 'a');
   EXPECT_EQ(names(found.members), "a");
-  EXPECT_NEAR(found.doubt, 0.01, 1e-7);
+  EXPECT_NEAR(found.absence_probability, 0.01, 1e-7);
 }
 
-TEST_F(Groups, HoldWhatStandsInThePlace) {
+TEST_F(Groups, HoldEffectsThatReplaceNamedOne) {
   const calibration::CredibleGroup found = group({set("a", 60), set("b", 39), set("c", 0.5), set("", 0.5)}, "a", 'a');
   EXPECT_EQ(names(found.members), "ab");
-  EXPECT_NEAR(found.doubt, 0.01, 1e-12);
+  EXPECT_NEAR(found.absence_probability, 0.01, 1e-12);
 }
 
 TEST_F(Groups, HoldOneOfTwoReplacements) {
   const calibration::CredibleGroup found = group({set("a", 70), set("bc", 30)}, "a", 'a');
   EXPECT_EQ(found.members.size(), 2u);
-  EXPECT_NEAR(found.doubt, 0, 1e-12);
+  EXPECT_NEAR(found.absence_probability, 0, 1e-12);
 }
 
-TEST_F(Groups, StayInDoubtWhereNothingTakesThePlace) {
+TEST_F(Groups, KeepAbsenceProbabilityWithoutReplacement) {
   const calibration::CredibleGroup found = group({set("ab", 90), set("b", 10)}, "ab", 'a');
   EXPECT_EQ(names(found.members), "a");
-  EXPECT_NEAR(found.doubt, 0.1, 1e-12);
+  EXPECT_NEAR(found.absence_probability, 0.1, 1e-12);
 }
 
-TEST_F(Groups, HoldMembersThatRemoveDoubt) {
-  const std::vector<calibration::Weighed> sets = {set("a", 60), set("b", 30), set("c", 1), set("d", 1), set("", 8)};
+TEST_F(Groups, HoldMembersThatReduceAbsenceProbability) {
+  const std::vector<calibration::WeightedSet> sets = {set("a", 60), set("b", 30), set("c", 1), set("d", 1), set("", 8)};
   EXPECT_EQ(names(group(sets, "a", 'a').members), "abcd");
   const calibration::CredibleGroup found = calibration::credible_group(sets, of("a"), *of("a").front(), 0.02, 0.2);
   EXPECT_EQ(names(found.members), "ab");
-  EXPECT_NEAR(found.doubt, 0.1, 1e-12);
+  EXPECT_NEAR(found.absence_probability, 0.1, 1e-12);
 }
 
 TEST_F(Groups, DoNotHoldOtherMembersOfTheSet) {
@@ -84,18 +86,18 @@ TEST_F(Groups, DoNotHoldOtherMembersOfTheSet) {
 }
 
 TEST_F(Groups, IgnoreUnitOfWeights) {
-  std::vector<calibration::Weighed> sets = {set("a", 60), set("b", 39), set("", 1)};
+  std::vector<calibration::WeightedSet> sets = {set("a", 60), set("b", 39), set("", 1)};
   const calibration::CredibleGroup before = group(sets, "a", 'a');
-  for (calibration::Weighed& one : sets) one.log_weight += 5000;
+  for (calibration::WeightedSet& one : sets) one.log_weight += 5000;
   const calibration::CredibleGroup after = group(sets, "a", 'a');
   EXPECT_EQ(before.members, after.members);
-  EXPECT_NEAR(before.doubt, after.doubt, 1e-12);
+  EXPECT_NEAR(before.absence_probability, after.absence_probability, 1e-12);
 }
 
-TEST_F(Groups, LeaveTheDoubtThatAllSetsLeave) {
+TEST_F(Groups, MatchWeightOfSetsWithoutMembers) {
   std::mt19937 dice(7);
   for (int round = 0; round < 200; ++round) {
-    std::vector<calibration::Weighed> sets;
+    std::vector<calibration::WeightedSet> sets;
     for (int bits = 0; bits < 32; ++bits) {
       std::string letters;
       for (int i = 0; i < 5; ++i) letters += (bits >> i) % 2 == 1 ? std::string(1, static_cast<char>('a' + i)) : "";
@@ -103,13 +105,13 @@ TEST_F(Groups, LeaveTheDoubtThatAllSetsLeave) {
     }
     const calibration::CredibleGroup found = group(sets, "ab", 'a');
     double all = 0, without = 0;
-    for (const calibration::Weighed& one : sets) {
+    for (const calibration::WeightedSet& one : sets) {
       all += std::exp(one.log_weight);
       const std::string letters = names(one.effects);
       if (letters.find_first_of(names(found.members)) == std::string::npos) without += std::exp(one.log_weight);
     }
-    EXPECT_NEAR(found.doubt, without / all, 1e-12);
-    EXPECT_TRUE(found.doubt <= 0.02 || found.members.size() == 4u) << names(found.members);  // all but b
+    EXPECT_NEAR(found.absence_probability, without / all, 1e-12);
+    EXPECT_TRUE(found.absence_probability <= 0.02 || found.members.size() == 4u) << names(found.members);  // all but b
   }
 }
 
@@ -136,7 +138,7 @@ TEST(ExpectedSizes, LimitReadingToObservedError) {
   EXPECT_EQ(evidence.sizes.size(), 1u);
 }
 
-TEST(ExpectedSizes, ShrinkWithWhatIsSeen) {
+TEST(ExpectedSizes, ShrinkWithObservedSize) {
   const auto size_of_stretch = [](double error) {
     calibration::Evidence evidence =
         evidence_of(measured({0, 5}, [&](const measurement::Sample& sample) { return error * sample.alpha; }));

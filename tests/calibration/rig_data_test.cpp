@@ -1,5 +1,5 @@
-// Six joints measured on a rig that shares no code with the fit, and a real one: each is read as its truth says, with
-// no option set.
+// Six joints measured on a rig that shares no code with the fit, and a real one. With default options, calibration finds
+// the true cause of each.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ TEST(RigData, DeclaredJointHasNoFalsePositive) {
   EXPECT_FALSE(found.detectable.empty());
 }
 
-TEST(RigData, a_soft_tendon_is_found_with_its_stiffness) {
+TEST(RigData, IdentifiesStiffnessOfSoftTendon) {
   const Calibration found = rig("b_stretch");
   EXPECT_EQ(found.verdict, CalibrationVerdict::explained);
   ASSERT_THAT(names(found), ElementsAre("tendon_stretch"));
@@ -57,7 +57,7 @@ TEST(RigData, a_soft_tendon_is_found_with_its_stiffness) {
   EXPECT_GE(found.effects[0].parameters[0].high, truth);
 }
 
-TEST(RigData, backlash_is_found_with_its_width) {
+TEST(RigData, IdentifiesWidthOfBacklash) {
   const Calibration found = rig("c_backlash");
   EXPECT_EQ(found.verdict, CalibrationVerdict::explained);
   ASSERT_THAT(names(found), ElementsAre("backlash"));
@@ -66,13 +66,13 @@ TEST(RigData, backlash_is_found_with_its_width) {
   EXPECT_LT(found.after.held_out_rms, 0.1 * found.before.held_out_rms);
 }
 
-TEST(RigData, a_thicker_pin_is_in_the_group) {
+TEST(RigData, GroupContainsThickerPin) {
   const Calibration found = rig("d_guide_radius");
   ASSERT_EQ(found.effects.size(), 1u);
   EXPECT_THAT(found.effects[0].group, Contains("guide_radius"));
 }
 
-TEST(RigData, one_sweep_cannot_name_a_cause_alone) {
+TEST(RigData, OneSweepLeavesCauseAmbiguous) {
   const Calibration found = rig("e_one_sweep_only");
   EXPECT_EQ(found.verdict, CalibrationVerdict::confounded);
   ASSERT_EQ(found.effects.size(), 1u);
@@ -82,7 +82,7 @@ TEST(RigData, one_sweep_cannot_name_a_cause_alone) {
   EXPECT_FALSE(found.next.empty());
 }
 
-TEST(RigData, what_no_catalogue_holds_stays_unexplained) {
+TEST(RigData, CauseOutsideCatalogueIsUnexplained) {
   const Calibration found = rig("f_not_in_any_catalogue");
   EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained);
   EXPECT_TRUE(found.effects.empty()) << found.summary;
@@ -91,7 +91,7 @@ TEST(RigData, what_no_catalogue_holds_stays_unexplained) {
 }
 
 // Data of O'Neill et al., RA-L 3(4), 2018, doi 10.1109/LRA.2018.2849862.
-TEST(RealJaw, lost_motion_and_stretch_and_no_delay) {
+TEST(RealJaw, IdentifiesFrictionAndStretchWithoutDelay) {
   const char* folder = std::getenv("FUSEE_DAVINCI_JAW");
   if (folder == nullptr) GTEST_SKIP() << "FUSEE_DAVINCI_JAW names no folder";
   const DeclaredMechanism declared = parse_mechanism(
@@ -99,8 +99,8 @@ TEST(RealJaw, lost_motion_and_stretch_and_no_delay) {
   measurement::MeasurementOptions options;
   options.columns = {{"load", "tau_out_Nm"}};
   const measurement::Measurement measurement = measurement::read_measurement(runs_in(folder), options);
-  // As in the published figures: 0.3 and 0.5 Hz are for validation only. Whole levels of load left out in turn are
-  // harder: 0.345°.
+  // As in the paper, the runs at 0.3 and 0.5 Hz are for validation only. If whole load levels are left out in turn, the
+  // error is larger: 0.345°.
   CalibrationOptions speeds;
   for (const auto& run : measurement.runs) {
     if (run.name.find("_f2_") != std::string::npos || run.name.find("_f4_") != std::string::npos)
@@ -114,7 +114,7 @@ TEST(RealJaw, lost_motion_and_stretch_and_no_delay) {
   EXPECT_THAT(names(found), Not(Contains("sensor_lag")));
   EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained);
   EXPECT_GT(degrees(found.before.held_out_rms), 1.5);
-  // Error of the kept runs; numbers beside the discrepancy leave 0.377.
+  // Error of the validation runs. The MAP estimate leaves 0.377°.
   EXPECT_LE(degrees(found.after.held_out_rms), 0.33);
 }
 

@@ -131,7 +131,7 @@ std::string why(const Calibration& found) {
 
 class EveryEffect : public testing::TestWithParam<std::string> {};
 
-TEST_P(EveryEffect, IsFoundInDataThatHoldIt) {
+TEST_P(EveryEffect, IsFoundInItsOwnData) {
   const DeclaredMechanism declared = bench_joint();
   const fusee::Effect* effect = find_effect(GetParam(), JointKind::tendons);
   ASSERT_NE(effect, nullptr);
@@ -163,7 +163,7 @@ std::vector<std::string> seen_on_the_bench_joint() {
 INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, testing::ValuesIn(seen_on_the_bench_joint()),
                          [](const auto& one) { return one.param; });
 
-TEST(Selection, FindsGrooveFrictionWhereTheTendonIsSoft) {
+TEST(Selection, FindsGrooveFrictionOfSoftTendon) {
   DeclaredMechanism declared = bench_joint();
   declared.tendon.modulus = 900;  // a nylon line
   Imperfections truth;
@@ -181,7 +181,7 @@ TEST(Selection, FindsGrooveFrictionWhereTheTendonIsSoft) {
   EXPECT_THAT(nothing.effects, IsEmpty()) << nothing.summary;
 }
 
-TEST(Selection, FindsNothingWhereNothingIs) {
+TEST(Selection, FindsNoEffectInNoise) {
   const DeclaredMechanism declared = bench_joint();
   for (const unsigned seed : {1u, 2u, 3u, 4u, 5u}) {
     const Calibration found = calibrate(declared, logged(declared, {}, k_full, seed));
@@ -249,7 +249,7 @@ TEST(Selection, AsksForNoRunThatWasMeasured) {
   }
 }
 
-TEST(Selection, ACaliperSplitsAGroup) {
+TEST(Selection, CaliperReadingSplitsGroup) {
   DeclaredMechanism declared = bench_joint();
   Imperfections truth;
   truth.pulley.scale = -0.02;

@@ -34,7 +34,7 @@ TEST(LagOne, IsNegativeForAlternatingRows) {
                    -(k_rows - 1.0) / k_rows);
 }
 
-TEST(StrokeScatter, TellsMeansOfStrokesFromRowsWithin) {
+TEST(StrokeScatter, DistinguishesStrokeMeansFromRowNoise) {
   const calibration::Evidence evidence = two_runs();
   calibration::Fit fit = with_errors(evidence, std::vector<double>(8, 1.0));
   // Strokes 0 and 2 of a run go up, 1 and 3 down: a pair of each stands 2 a apart.
@@ -53,7 +53,7 @@ TEST(StrokeScatter, TellsMeansOfStrokesFromRowsWithin) {
 }
 
 // A gain that is another after each reversal: means of strokes say nothing of it.
-TEST(StrokeScatter, TellsTiltsOfStrokesFromRowsWithin) {
+TEST(StrokeScatter, DistinguishesStrokeTiltsFromRowNoise) {
   const calibration::Evidence evidence = two_runs();
   calibration::Fit fit = with_errors(evidence, std::vector<double>(8, 1.0));
   const double a = 3;

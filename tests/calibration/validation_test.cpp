@@ -70,7 +70,7 @@ TEST_F(Validation, RetreatsToDeclaredJoint) {
   EXPECT_NE(selection.tried.front().why, "");
 }
 
-TEST_F(Validation, KeepsWhatPredicts) {
+TEST_F(Validation, KeepsPredictiveEffects) {
   const calibration::ValidatedAnswer answer =
       calibration::validate_answer(evidence, pool, stretching({3}, k_stretch, 2), selection);
   EXPECT_THAT(answer.dropped, IsEmpty());

@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-class Concluded : public testing::Test {
+class Conclusion : public testing::Test {
  protected:
   calibration::Evidence evidence = evidence_of(measured({0, 5}, [](const measurement::Sample&) { return 0.0; }));
   calibration::Selection selection;
@@ -64,21 +64,21 @@ class Concluded : public testing::Test {
   }
 };
 
-TEST_F(Concluded, NothingFoundAndNothingLeft) {
+TEST_F(Conclusion, ReportsNoEffectWithoutResidual) {
   leave(1);
   EXPECT_EQ(verdict(), calibration::CalibrationVerdict::no_effect);
   EXPECT_EQ(calibration.unexplained_rms, 0);
   EXPECT_EQ(calibration.unexplained_where, "");
 }
 
-TEST_F(Concluded, OneCauseAlone) {
+TEST_F(Conclusion, OneCauseAlone) {
   leave(1.1);
   find({{"backlash"}});
   EXPECT_EQ(verdict(), calibration::CalibrationVerdict::explained);
   EXPECT_THAT(calibration.summary, HasSubstr("explained by backlash."));
 }
 
-TEST_F(Concluded, OneOfTwo) {
+TEST_F(Conclusion, OneOfTwo) {
   leave(1);
   find({{"backlash"}, {"zero_offset", "motor_offset"}});
   EXPECT_EQ(verdict(), calibration::CalibrationVerdict::confounded);
@@ -86,7 +86,7 @@ TEST_F(Concluded, OneOfTwo) {
               HasSubstr("backlash, one of {zero_offset, motor_offset}, but do not decide between the alternatives"));
 }
 
-TEST_F(Concluded, RepeatsFarBeyondScatterWithinStroke) {
+TEST_F(Conclusion, RepeatsFarBeyondScatterWithinStroke) {
   leave(1);
   find({{"backlash"}});
   calibration.noise.from_repeats = true;
@@ -123,7 +123,7 @@ calibration::FoundEffect ahead_by(double nats) {
   return effect;
 }
 
-TEST_F(Concluded, SmallLeadAddsUnmodelled) {
+TEST_F(Conclusion, SmallLeadAddsUnmodelled) {
   leave(1);
   calibration.effects = {ahead_by(calibration::k_thresholds.ahead_of_unmodelled - 1)};
   EXPECT_EQ(verdict(), calibration::CalibrationVerdict::confounded);
@@ -134,14 +134,14 @@ TEST_F(Concluded, SmallLeadAddsUnmodelled) {
                                   "backlash or an unmodelled cause with the same effect"));
 }
 
-TEST_F(Concluded, LargeLeadNamesEffectAlone) {
+TEST_F(Conclusion, LargeLeadNamesEffectAlone) {
   leave(1);
   calibration.effects = {ahead_by(calibration::k_thresholds.ahead_of_unmodelled + 1)};
   EXPECT_EQ(verdict(), calibration::CalibrationVerdict::explained);
   EXPECT_THAT(calibration.next, testing::IsEmpty());
 }
 
-TEST_F(Concluded, EffectsInTimeNeedLargerLead) {
+TEST_F(Conclusion, EffectsInTimeNeedLargerLead) {
   for (const char* name : {"thermal_expansion", "tendon_slip"}) {
     for (const double more : {-1.0, 1.0}) {
       leave(1);
@@ -156,7 +156,7 @@ TEST_F(Concluded, EffectsInTimeNeedLargerLead) {
   }
 }
 
-TEST_F(Concluded, LooseEffectsNeedLargerLead) {
+TEST_F(Conclusion, LooseEffectsNeedLargerLead) {
   const Effect& play = *find_effect("slack", JointKind::tendons);
   selection.catalogue = {&play};
   const std::vector<std::vector<std::string>> groups = {{"slack"}, {"backlash", "slack"}};
@@ -173,7 +173,7 @@ TEST_F(Concluded, LooseEffectsNeedLargerLead) {
   }
 }
 
-TEST_F(Concluded, DoubtAddsUnmodelledAtAnyLead) {
+TEST_F(Conclusion, AbsenceProbabilityAddsUnmodelledAtAnyLead) {
   leave(1);
   calibration.effects = {ahead_by(calibration::k_thresholds.ahead_of_unmodelled + 1),
                          ahead_by(calibration::k_thresholds.ahead_of_unmodelled + 1)};
@@ -184,21 +184,21 @@ TEST_F(Concluded, DoubtAddsUnmodelledAtAnyLead) {
   EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash", "unmodelled"));
 }
 
-TEST_F(Concluded, BesideUnmodelledCauseNoNameStandsAlone) {
+TEST_F(Conclusion, UnmodelledCauseJoinsEveryGroup) {
   leave(5);
   calibration.effects = {ahead_by(1000)};
   EXPECT_EQ(verdict(), calibration::CalibrationVerdict::unexplained);
   EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "unmodelled"));
 }
 
-TEST_F(Concluded, BesideLikelierUnmodelledCauseNoNameStandsAlone) {
+TEST_F(Conclusion, LikelierUnmodelledCauseJoinsEveryGroup) {
   leave(1);
   calibration.effects = {ahead_by(-1), ahead_by(1000)};
   EXPECT_EQ(verdict(), calibration::CalibrationVerdict::confounded);
   EXPECT_EQ(calibration.effects.back().group.size(), 2u);
 }
 
-TEST_F(Concluded, OneOfTwoLeadsWithWhatToMeasure) {
+TEST_F(Conclusion, AmbiguousPairBeginsWithNextMeasurement) {
   leave(1);
   find({{"zero_offset", "motor_offset"}});
   calibration.next = {plan::next_inspection("drive the joint to a mark"), plan::next_inspection("something else")};
@@ -212,7 +212,7 @@ TEST_F(Concluded, OneOfTwoLeadsWithWhatToMeasure) {
   EXPECT_THAT(calibration.summary, testing::StartsWith("The data are explained by backlash"));
 }
 
-TEST_F(Concluded, ResidualAboveNoiseHasPlace) {
+TEST_F(Conclusion, ResidualAboveNoiseHasPlace) {
   leave(5);
   find({{"zero_offset", "motor_offset"}});
   // The largest mean: the last twelfth of the way down.
@@ -226,7 +226,7 @@ TEST_F(Concluded, ResidualAboveNoiseHasPlace) {
   EXPECT_THAT(calibration.summary, HasSubstr("° rms remain, of which noise is 0.0573°"));
 }
 
-TEST_F(Concluded, ResidualOfEffectsDiffersFromAnswer) {
+TEST_F(Conclusion, ResidualOfEffectsDiffersFromAnswer) {
   for (const bool more : {false, true}) {
     leave(5);
     calibration = {};
@@ -237,7 +237,7 @@ TEST_F(Concluded, ResidualOfEffectsDiffersFromAnswer) {
   }
 }
 
-TEST_F(Concluded, ResidualIsDescribedByFactors) {
+TEST_F(Conclusion, ResidualIsDescribedByFactors) {
   leave(1);
   for (const calibration::Block& block : evidence.blocks) {
     const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
@@ -253,7 +253,7 @@ TEST_F(Concluded, ResidualIsDescribedByFactors) {
   EXPECT_THAT(calibration.summary, HasSubstr("depends on direction"));
 }
 
-TEST_F(Concluded, StrokesThatDoNotRepeatComeFirst) {
+TEST_F(Conclusion, StrokesThatDoNotRepeatComeFirst) {
   leave(1);
   for (const calibration::Block& block : evidence.blocks) {
     for (const std::size_t row : block.rows)
@@ -284,7 +284,7 @@ TEST(Verdicts, TorqueForForceIsRefused) {
   EXPECT_THAT(found.summary, HasSubstr("a torque in Nm"));
 }
 
-TEST(RmsDrop, IsNeverBelowNothing) {
+TEST(RmsDrop, IsNeverNegative) {
   const calibration::Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
   calibration::FitterPool pool(evidence);
   calibration::Selection selection;
@@ -323,7 +323,7 @@ TEST(Rivals, GroupsHaveNoIdleMembers) {
   EXPECT_TRUE(calibration::rivals_as_good(evidence, selection).empty()) << "what it stands for is not in the set";
 }
 
-TEST(FoundEffects, SayWhatTheirSignMeans) {
+TEST(FoundEffects, DescribeTheirSign) {
   const calibration::Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
   calibration::FitterPool pool(evidence);
   calibration::Selection selection;

@@ -65,7 +65,7 @@ std::string found_words(const calibration::Calibration& calibration) {
   return text.empty() ? "nothing" : text;
 }
 
-/// As printed: shrunk as the declared material does, not as the drawing was told.
+/// The print: it shrinks as the declared material, not as the drawing assumes.
 profile::Outline printed(profile::Outline outline, const DeclaredMechanism& declared, const Mechanism& drawn) {
   const double scale = (1.0 - declared.material.shrinkage) / (1.0 - drawn.material.shrinkage);
   for (profile::OutlinePoint& point : outline.points) point.position *= scale;

@@ -77,7 +77,7 @@ MadeJoint corrected_joint(const Joint& joint, const correction::Correction& corr
 
 class Known : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
-TEST_P(Known, FaultIsTakenOutByThePulley) {
+TEST_P(Known, PulleyCorrectsFault) {
   const auto [file, name] = GetParam();
   // Without friction: its loop under load is none of the pulley's.
   const Joint joint = joint_of(file, false);
@@ -122,7 +122,7 @@ pipeline::BuildResult built(const DeclaredMechanism& corrected, double tolerance
   return pipeline::build(file, options);
 }
 
-TEST_P(Known, FaultGivesAPulleyThatPassesAllChecks) {
+TEST_P(Known, CorrectedPulleyPassesAllChecks) {
   const auto [file, name] = GetParam();
   const Joint joint = joint_of(file);
   DeclaredMechanism corrected = joint.made.declared;
@@ -194,7 +194,7 @@ TEST(WholeLoop, TableCorrectsUntiedLoad) {
   EXPECT_LT(correction.error_with_table, correction.error_with_pulley);
 }
 
-TEST(WholeLoop, GoesOnFromACorrectedFile) {
+TEST(WholeLoop, ContinuesFromCorrectedFile) {
   // Logged again with the corrected pulley, whose file describes the joint as it is: nothing is left to find, and
   // nothing is forgotten.
   const Joint joint = joint_of("profiles/forearm.toml");
@@ -229,10 +229,10 @@ TEST(WholeLoop, LaterFindingIsAdded) {
   EXPECT_EQ(total.shaft.backlash, 0);  // a table's matter: not found again, it is gone
 }
 
-/// From what the bench logged to the pulley, nothing told.
+/// From the log to the corrected pulley, with nothing but the log known.
 class Found : public testing::TestWithParam<const char*> {};
 
-TEST_P(Found, FaultIsTakenOutByThePulley) {
+TEST_P(Found, PulleyCorrectsFault) {
   const Joint joint = joint_of("profiles/forearm.toml");
   const LoopOutcome outcome =
       turn_loop(joint.made, joint.spec, case_of(joint, GetParam()), scratch(std::string("found_") + GetParam()));

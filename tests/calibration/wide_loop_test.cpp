@@ -19,7 +19,7 @@ struct WideLoop {
 
 class WideWholeLoop : public testing::TestWithParam<WideLoop> {};
 
-TEST_P(WideWholeLoop, FaultIsTakenOutByThePulley) {
+TEST_P(WideWholeLoop, PulleyCorrectsFault) {
   const auto [profile, effect, load] = GetParam();
   const std::string file = std::string(FUSEE_SOURCE_DIR) + "/profiles/" + profile + ".toml";
   DeclaredMechanism declared = read_mechanism(file).mechanism;

@@ -64,31 +64,31 @@ class Analyze(harness.Scratch):
                        "--set load.torque_Nmm=700 --set motor.travel_deg=180 --set motor.stall_torque_Nmm=300"):
             with self.subTest(strain):
                 document = self.expect_json(f"analyze arm.toml --samples 10 {strain}", 0)
-                told, motor = document["summary"], document.get("motor")
-                built = self.expect_json(f"build arm.toml -o out/arm --force {strain}", 0)
+                summary, motor = document["summary"], document.get("motor")
+                built = self.expect_json(f"build arm.toml --force -o out/arm {strain}", 0)
                 manifest = json.loads((self.folder / "out/arm/manifest.json").read_bytes())
                 for load in (built["under_load"], manifest["under_load"]):
-                    self.assertEqual(load["max_theta_error_deg"], told["theta_error"]["value_deg"])
-                    self.assertEqual(load["max_theta_error_at_alpha_deg"], told["theta_error"]["alpha_deg"])
-                    self.assertEqual((load["slack1"], load["slack2"]), (told["slack1_alpha_deg"], told["slack2_alpha_deg"]))
-                    self.assertEqual(load["taut_pretension_N"], told["taut_pretension_N"])
-                    self.assertEqual(load["safety_factor"], told["safety_factor"])
+                    self.assertEqual(load["max_theta_error_deg"], summary["theta_error"]["value_deg"])
+                    self.assertEqual(load["max_theta_error_at_alpha_deg"], summary["theta_error"]["alpha_deg"])
+                    self.assertEqual((load["slack1"], load["slack2"]), (summary["slack1_alpha_deg"], summary["slack2_alpha_deg"]))
+                    self.assertEqual(load["taut_pretension_N"], summary["taut_pretension_N"])
+                    self.assertEqual(load["safety_factor"], summary["safety_factor"])
                 self.assertEqual(built.get("motor"), motor)
                 self.assertEqual(manifest.get("motor"), motor)
                 text = self.expect(f"build arm.toml --dry-run {strain}", 0).stdout.decode()
                 error = re.search(r"theta up to ([\d.e-]+) deg off, alpha = (-?[\d.]+) deg", text)
-                self.assertEqual(error[1], f"{told['theta_error']['value_deg']:.3g}")
-                self.assertEqual(error[2], f"{told['theta_error']['alpha_deg']:.1f}")
-                self.assertIn(f"safety factor {told['safety_factor']:.3g}", text)
-                if told["taut_pretension_N"]:
-                    self.assertIn(f"tendon.pretension_N >= {told['taut_pretension_N']:.3g} keeps it taut", text)
+                self.assertEqual(error[1], f"{summary['theta_error']['value_deg']:.3g}")
+                self.assertEqual(error[2], f"{summary['theta_error']['alpha_deg']:.1f}")
+                self.assertIn(f"safety factor {summary['safety_factor']:.3g}", text)
+                if summary["taut_pretension_N"]:
+                    self.assertIn(f"tendon.pretension_N >= {summary['taut_pretension_N']:.3g} keeps it taut", text)
                 else:
                     self.assertNotIn("slack", text)
                 if motor:
                     self.assertIn(f"travel {motor['travel']['needed_deg']:.4g} of 180 deg", text)
                     self.assertIn(f"torque {motor['torque']['needed_Nmm']:.4g} of 300 Nmm", text)
                 banner = re.search(r'class="verdict.*?</p>', (self.folder / "out/arm/report.html").read_text(), re.S)[0]
-                self.assertIn(f"{told['theta_error']['value_deg']:.3g}", banner)
+                self.assertIn(f"{summary['theta_error']['value_deg']:.3g}", banner)
 
     def test_advice_stands_in_cell_of_slack_tendon(self):
         self.expect("analyze arm.toml -o slack.html --samples 10 --set load.tip_force_N=10", 0)

@@ -109,10 +109,10 @@ class Bundles(Packed):
                 (self.folder / "bug.zip").unlink(missing_ok=True)
                 code = harness.fusee([*words, "--bundle", str(self.folder / "bug.zip")], work).returncode
                 with zipfile.ZipFile(self.folder / "bug.zip") as archive:
-                    told = b"".join(archive.read(name) for name in archive.namelist()) + "".join(archive.namelist()).encode()
+                    content = b"".join(archive.read(name) for name in archive.namelist()) + "".join(archive.namelist()).encode()
                     files = {name: archive.read(name) for name in archive.namelist() if name.startswith("files/")}
                 for name in [self.folder.name, "of-anna", "unread"]:
-                    self.assertNotIn(name.encode(), told)
+                    self.assertNotIn(name.encode(), content)
                 allowed = {spec.encode(), TABLE.encode()}
                 self.assertLessEqual(set(files.values()), allowed)
                 if code != 6:  # existing output files are not packed
@@ -219,10 +219,10 @@ class Bundles(Packed):
                 done = subprocess.run(["bash", "-c", line], cwd=self.folder, env=harness.ENVIRONMENT, capture_output=True)
                 self.assertEqual(done.returncode, code, done.stderr)
                 with zipfile.ZipFile(self.folder / "bug.zip") as archive:
-                    told = b"".join(archive.read(name) for name in archive.namelist() if name != "files/outside/arm.toml")
-                    told += "".join(archive.namelist()).encode()
+                    content = b"".join(archive.read(name) for name in archive.namelist() if name != "files/outside/arm.toml")
+                    content += "".join(archive.namelist()).encode()
                 for name in ["of-anna", self.folder.name, "gone"]:
-                    self.assertNotIn(name.encode(), told)
+                    self.assertNotIn(name.encode(), content)
                 self.assertIn("the same", self.replay().stdout.decode())
 
     def test_accepts_names_of_any_bytes(self):

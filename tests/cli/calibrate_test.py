@@ -70,7 +70,7 @@ class Calibrate(harness.Scratch):
         self.assertAlmostEqual(float(middle["alpha_up_deg"]) - float(middle["alpha_down_deg"]), 4.0, delta=0.3)
 
     def assert_numbers(self, value, where):
-        """True for a finite number, not for null, text or a switch."""
+        """Rejects null, text, switches and infinite numbers."""
         self.assertIsInstance(value, (int, float), where)
         self.assertNotIsInstance(value, bool, where)
         self.assertTrue(math.isfinite(value), where)
@@ -156,7 +156,7 @@ class Calibrate(harness.Scratch):
         page = Page()
         page.feed(text)
         self.assertEqual(page.open, [])
-        self.assertEqual(page.ids, ["causes", "verdict", "actions", "numbers", "effects", "residuals", "rest", "figures", "evidence", "detectable"])
+        self.assertEqual(page.ids, ["causes", "verdict", "actions", "numbers", "effects", "residuals", "unexplained", "figures", "evidence", "detectable"])
         self.assertIn("<b>&joint", page.words)
         self.assertIn("✓ backlash", page.words)
         self.assertNotRegex(page.words, r"\b(nan|inf|null)\b")
@@ -257,10 +257,10 @@ class Calibrate(harness.Scratch):
         self.expect("calibrate joint.toml rad.csv --column alpha=motor --column time=t --column 'theta=joint [mrad]'", 3, err="as s, the rows are 20 s apart")
 
     def test_rejects_reading_options(self):
-        for option, said in (("--unit time=furlong", "units: s, ms, us"), ("--unit tim=ms", "did you mean 'time'"), ("--unit ms", "role=value"),
+        for option, message in (("--unit time=furlong", "units: s, ms, us"), ("--unit tim=ms", "did you mean 'time'"), ("--unit ms", "role=value"),
                              ("--ticks-per-turn load=4096", "no role 'load'"), ("--ticks-per-turn alpha=many", "'many' is none"),
                              ("--ticks-per-turn alpha=1", "2 or more"), ("--zero-ticks theta=2048", "give --ticks-per-turn theta=N too")):  # fmt: skip
-            self.expect(f"calibrate joint.toml run_1.csv {option}", 2, err=said)
+            self.expect(f"calibrate joint.toml run_1.csv {option}", 2, err=message)
 
     def test_rejects_unreadable_runs(self):
         self.expect("calibrate joint.toml", 2, err="needs RUN.csv")

@@ -99,6 +99,11 @@ class Pages(unittest.TestCase):
             with self.subTest(path):
                 self.assertEqual((harness.SOURCE / path).read_text(), text, "renew it: docs/update.py build/release/fusee")
 
+    def test_show_the_consumer_program(self):
+        program = (harness.SOURCE / "tests/consumer/project/consumer.cpp").read_text()
+        self.assertLessEqual(len([line for line in program.splitlines() if line]), 10)
+        self.assertIn(f"```cpp\n{program}```\n", (harness.SOURCE / "docs/reference/library.md").read_text())
+
     def test_name_every_output_file(self):
         listed = "".join(re.findall(r"^\| (.*?) \|", (harness.SOURCE / "docs/reference/outputs.md").read_text(), re.M))
         built = subprocess.run([harness.PROGRAM, "build", harness.SOURCE / "profiles/forearm.toml", "--dry-run", "--json"],

@@ -26,8 +26,8 @@ class Model(harness.Scratch):
         source = self.folder / f"main.{suffix}"
         source.write_text(f'#include "{folder}/joint_table.h"\n#include <stdio.h>\nint main(void) {{\n{body}\n  return 0;\n}}\n')
         subprocess.run([compiler, f"-std={standard}", *WARNINGS, source.name, "-o", "main"], cwd=self.folder, check=True)
-        said = subprocess.run(["./main"], cwd=self.folder, check=True, capture_output=True, text=True).stdout
-        return [[float(word) for word in line.split()] for line in said.splitlines()]
+        output = subprocess.run(["./main"], cwd=self.folder, check=True, capture_output=True, text=True).stdout
+        return [[float(word) for word in line.split()] for line in output.splitlines()]
 
     def stated(self, folder="m"):
         """The header's stated errors of θ, read from the motor and sent to it."""
@@ -44,9 +44,9 @@ class Model(harness.Scratch):
             self.assertEqual(hashlib.sha256(files[output["file"]]).hexdigest(), output["sha256"])
         for name, error in document["theta_error_deg"].items():
             if name.endswith((".xml", ".urdf")):
-                said = float(re.search(r"misses theta\(alpha\)\s+by\s+(\S+) deg at most", files[name].decode()).group(1))
-                self.assertLessEqual(error, said)
-                self.assertLess(said, 1.2 * error + 2e-6)
+                stated = float(re.search(r"misses theta\(alpha\)\s+by\s+(\S+) deg at most", files[name].decode()).group(1))
+                self.assertLessEqual(error, stated)
+                self.assertLess(stated, 1.2 * error + 2e-6)
 
     def header_against_transmission_csv(self, spec, name, folder):
         self.expect(f"build {spec} -o {folder}_built -q", 0)
@@ -121,10 +121,10 @@ class Model(harness.Scratch):
                 self.assertLess(abs(got - wanted), 0.002)
 
     def test_reports_lines_of_bad_compensation(self):
-        for text, said in (("", "fewer than two rows"), ("a,b,c\n1,2,3\n", "c.csv:1:1.*theta_deg"), (COMPENSATION + "26,x,3\n", "c.csv:13:1.*'x'"),
+        for text, message in (("", "fewer than two rows"), ("a,b,c\n1,2,3\n", "c.csv:1:1.*theta_deg"), (COMPENSATION + "26,x,3\n", "c.csv:13:1.*'x'"),
                            (COMPENSATION + "20,90,90\n", "must increase"), (COMPENSATION + "27\n", "is not an angle"), ("\0" * 50, "c.csv:1"), (COMPENSATION + "nan,1,2\n", "c.csv:13")):
             (self.folder / "c.csv").write_text(text)
-            self.expect("model arm.toml -o m --compensation c.csv", 3, "^$", said)
+            self.expect("model arm.toml -o m --compensation c.csv", 3, "^$", message)
         self.expect("model arm.toml -o m --compensation nowhere.csv", 3, "^$", "nowhere.csv")
         self.assertFalse((self.folder / "m").exists())
 
@@ -140,15 +140,15 @@ class Model(harness.Scratch):
         shutil.copy(self.folder / "arm.toml", self.folder / "corrected.toml")
         (self.folder / "compensation.csv").write_text(COMPENSATION)
         outputs = [{"file": name, "bytes": 0, "sha256": hashlib.sha256((self.folder / name).read_bytes()).hexdigest()} for name in ("corrected.toml", "compensation.csv")]
-        self.expect("model corrected.toml -o m", 0, "of the declared law")
+        self.expect("model corrected.toml -o m", 0, "of the target motion")
         (self.folder / "manifest.json").write_text(json.dumps({"outputs": outputs}))
         self.expect("model corrected.toml -o m", 0, "of compensation.csv")
-        self.expect("model corrected.toml -o m --compensation none", 0, "of the declared law")
+        self.expect("model corrected.toml -o m --compensation none", 0, "of the target motion")
         (self.folder / "compensation.csv").write_text(COMPENSATION + "# edited\n")
-        self.expect("model corrected.toml -o m", 0, "of the declared law")
+        self.expect("model corrected.toml -o m", 0, "of the target motion")
         for text in ("[]", '{"outputs": 3}', '{"outputs": [1, {"file": 2}]}', "{"):
             (self.folder / "manifest.json").write_text(text)
-            self.expect("model corrected.toml -o m --dry-run", 0, "of the declared law")
+            self.expect("model corrected.toml -o m --dry-run", 0, "of the target motion")
 
     def test_coarse_polynomial_is_refused_with_advice(self):
         document = self.expect_json("model arm.toml -o m --max-error-deg 0.001", 4)
@@ -185,10 +185,10 @@ class Model(harness.Scratch):
         self.assertIn("left_elbow_theta_deg(float", (self.folder / "m/joint_table.h").read_text())
 
     def test_rejects_invalid_options(self):
-        for option, said in (("--ticks-per-turn 0", "2 or more"), ("--ticks-per-turn 4096.5", "whole number"), ("--ticks-per-turn 1e9", "from"), ("--zero-ticks 3", "ticks-per-turn"),
+        for option, message in (("--ticks-per-turn 0", "2 or more"), ("--ticks-per-turn 4096.5", "whole number"), ("--ticks-per-turn 1e9", "from"), ("--zero-ticks 3", "ticks-per-turn"),
                              ("--ticks-per-turn 4096 --zero-ticks 1e30", "from"), ("--max-error-deg 0", "from"), ("--max-error-deg nan", "number"), ("--max-table-error-deg -1", "from"),
                              ("--prefix 3d", "for example"), ("--prefix a-b", "left|a_b"), ("--prefix ''", "prefix"), ("--max-eror-deg 1", "--max-error-deg")):
-            self.expect(f"model arm.toml -o m {option}", 2, "^$", said)
+            self.expect(f"model arm.toml -o m {option}", 2, "^$", message)
         self.expect("model arm.toml -o m --ticks-per-turn 100000000 --zero-ticks 990000000 --set pulley.r1_mm=16", 0)
         self.assertEqual([path.name for path in self.folder.iterdir() if path.name not in ("arm.toml", "m")], [])
 

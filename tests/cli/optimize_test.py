@@ -106,10 +106,10 @@ class Optimize(harness.Scratch):
         self.assertEqual(self.answer("")["pins"], {"points": True, "pitch_radius_mm": 0})
         self.assertEqual(self.answer("--set pulley.method=exact")["pins"], {"points": False, "pitch_radius_mm": 0.5})
         for command in ["analyze", "build --dry-run"]:
-            said = self.fusee(f"{command} problem.toml").stderr.decode()
-            self.assertIn("pins are modelled as points", said)
-            said = self.fusee(f"{command} problem.toml --set pulley.method=exact").stderr.decode()
-            self.assertIn("centre line runs 0.5 mm from a pin's centre", said)
+            output = self.fusee(f"{command} problem.toml").stderr.decode()
+            self.assertIn("pins are modelled as points", output)
+            output = self.fusee(f"{command} problem.toml --set pulley.method=exact").stderr.decode()
+            self.assertIn("centre line runs 0.5 mm from a pin's centre", output)
 
     def test_adds_identified_numbers(self):
         (self.folder / "problem.toml").write_text(PROBLEM + "[identified]\nfriction = 0.1\nlength_mm = 2.0\n")

@@ -1,4 +1,4 @@
-"""fusee reproduce: the page in profiles/ is current, figures and numbers are whole, a second run gives the same bytes."""
+"""fusee reproduce: docs/background/paper.md is current, figures and numbers are complete, a second run gives the same bytes."""
 
 import csv
 import json

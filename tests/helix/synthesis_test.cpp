@@ -11,7 +11,7 @@
 namespace fusee::helix {
 namespace {
 
-/// A shallow groove whose turns need 45° wherever one overhangs its neighbour.
+/// A shallow groove. Where a turn overhangs its neighbour, the lead grows with the overhang, for a slope of 45°.
 HelixGroove groove() {
   return {0.6, 0.6, [](double step) { return 2.0 + std::abs(step); }};
 }

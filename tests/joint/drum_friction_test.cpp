@@ -1,5 +1,5 @@
-// Friction on a joint's drum, [d1] to [d3] of docs/background/physics.md: compared with a string in links that shares
-// no equation with it, with energy over closed loops, and with its limits.
+// Friction on a joint's drum, [d1] to [d3] of docs/background/physics.md: compared with a string of links that shares no
+// equation with the model, with the energy balance of a cycle, and with its limits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ class StringInLinks {
       double moved = 0;
       std::size_t i = 1;
       for (; i + 1 < knots_.size() && knots_[i] < takes_off; ++i) moved = std::max(moved, relax(i, takes_off));
-      // From the first knot off the drum on it hangs free.
+      // From the first knot off the drum on, the string is free.
       for (; i < knots_.size(); ++i) {
         const double beyond = std::max(0.0, takes_off - knots_[i - 1]);
         const double at = knots_[i - 1] + taut;
@@ -80,17 +80,16 @@ Mechanism rubbing(Mechanism mechanism, double friction, double modulus) {
   return mechanism;
 }
 
-/// With infinite groove friction and without pin friction, everything about a tendon is known except for the part on
-/// the drum, because span and wound part have the span's tension. The string's links must therefore contain the
-/// remainder at every angle.
-struct Compared {
+/// Difference between model and string. With infinite groove friction and without pin friction, span and wound part of a
+/// tendon follow from the span's tension. The string must contain all other material at every angle.
+struct Difference {
   double slides = 0;  ///< largest excess or deficit of material on the drum relative to the span's tension, mm
   double apart = 0;   ///< difference in the tendon's material, mm
   double at_end = 0;  ///< difference in the tension at the end, as a fraction of the span's
 };
 
-Compared with_links(Mechanism mechanism, double force, int links_per_rad) {
-  Compared compared;
+Difference difference_to_links(Mechanism mechanism, double force, int links_per_rad) {
+  Difference difference;
   mechanism.guides.mu = 0;
   mechanism.pulley.mu = 1e6;
   const JointModel model = joint_model(mechanism);
@@ -112,12 +111,12 @@ Compared with_links(Mechanism mechanism, double force, int links_per_rad) {
   double wound = 0;
   LowerPath before = lower_home;
   double tension = home;
-  const auto held_beside = [&](const transmission::UpperSpan& span, const LowerPath& lower, double now) {
+  const auto material_off_drum = [&](const transmission::UpperSpan& span, const LowerPath& lower, double now) {
     const double on_drum = span.on_drum > 0 ? place.drum * span.on_drum + span.behind_drum : 0.0;
     return (span.free - on_drum + place.rho * (span.normal - lower.normal) + lower.reach) / (1.0 + now / EA);
   };
   string.to(at_home.on_drum, home);
-  const double all = held_beside(at_home, lower_home, home) + string.material(at_home.on_drum);
+  const double all = material_off_drum(at_home, lower_home, home) + string.material(at_home.on_drum);
   for (const EquilibriumPoint& point : points) {
     EXPECT_EQ(point.status, EquilibriumStatus::held);
     const transmission::UpperSpan span = transmission::upper_span(place, point.theta);
@@ -129,20 +128,22 @@ Compared with_links(Mechanism mechanism, double force, int links_per_rad) {
     const double on_drum = string.material(span.on_drum);
     const double length = span.on_drum > 0 ? place.drum * span.on_drum + span.behind_drum : 0.0;
     const double as_span = length / (1.0 + tension / EA);
-    compared.slides = std::max(compared.slides, std::abs(on_drum - as_span));
-    compared.apart = std::max(compared.apart, std::abs(held_beside(span, lower, tension) + on_drum + wound - all));
+    difference.slides = std::max(difference.slides, std::abs(on_drum - as_span));
+    difference.apart =
+        std::max(difference.apart, std::abs(material_off_drum(span, lower, tension) + on_drum + wound - all));
     if (span.on_drum > 0)
-      compared.at_end = std::max(compared.at_end, std::abs(point.t2.end - string.at_end()) / tension);
+      difference.at_end = std::max(difference.at_end, std::abs(point.t2.end - string.at_end()) / tension);
   }
-  return compared;
+  return difference;
 }
 
-// Links discretize friction: their error halves with their length and has no other source.
+// The error comes from the links alone: it halves when their length is halved.
 TEST(DrumFriction, AgreesWithStringOfLinks) {
   Mechanism ankle = rubbing(testing::ankle(), 0.25, 3000.0);
-  ankle.joint.attachment2 = Attachment{20.0, 45.0};  // clear of the drum, on which tendon 2 lies up to some angle
+  ankle.joint.attachment2 = Attachment{20.0, 45.0};  // outside the drum: tendon 2 leaves it within the range
   const auto expect_near = [](const Mechanism& mechanism, double force) {
-    const Compared coarse = with_links(mechanism, force, 15), fine = with_links(mechanism, force, 30);
+    const Difference coarse = difference_to_links(mechanism, force, 15),
+                     fine = difference_to_links(mechanism, force, 30);
     EXPECT_GT(fine.slides, 0.02);
     EXPECT_LT(fine.apart, 0.04 * fine.slides);
     EXPECT_NEAR(fine.apart / coarse.apart, 0.5, 0.05);
@@ -157,7 +158,7 @@ TEST(DrumFriction, BoundsEndTensionOnly) {
   const JointModel model = joint_model(mechanism);
   JointMotion motion(model);
   double apart = 0;
-  const auto look = [&](const JointStep& step) {
+  const auto move = [&](const JointStep& step) {
     const EquilibriumPoint point = motion.to(step);
     const double rho = mechanism.drum_pitch_radius();
     EXPECT_NEAR((point.t2.upper - point.t1.upper) * rho, point.load_torque, 1e-8);
@@ -173,8 +174,8 @@ TEST(DrumFriction, BoundsEndTensionOnly) {
     }
     return point;
   };
-  for (int i = 0; i <= 100; ++i) look({0.0, 0.3 * i, 0.0});
-  for (int i = 0; i <= 300; ++i) look({1.2 * std::sin(0.04 * i), 30.0, 0.0});
+  for (int i = 0; i <= 100; ++i) move({0.0, 0.3 * i, 0.0});
+  for (int i = 0; i <= 300; ++i) move({1.2 * std::sin(0.04 * i), 30.0, 0.0});
   EXPECT_GT(apart, 0.999);  // sliding reaches the end at some angles
 }
 
@@ -187,7 +188,7 @@ TEST(DrumFriction, ConvergesToFrictionless) {
     const auto some = follow(joint_model(rubbing(joint, 0.2, 3000.0)), steps);
     double apart = 0;
     for (std::size_t i = 0; i < none.size(); ++i) {
-      // Material laid in a step can slide from the next one on.
+      // Material that is wound in one step can slide in the next.
       EXPECT_NEAR(none[i].theta, hardly[i].theta, 1e-6);
       EXPECT_NEAR(none[i].t2.lower, hardly[i].t2.lower, 1e-3);
       apart = std::max(apart, std::abs(none[i].theta - some[i].theta));
@@ -196,7 +197,7 @@ TEST(DrumFriction, ConvergesToFrictionless) {
   }
 }
 
-// Adds a weight: the model steps from the unloaded to the loaded joint, compared with [d3] of the paper's formulas.
+// The model moves from the unloaded to the loaded joint. The change of θ must agree with [d3] of the paper's formulas.
 TEST(DrumFriction, AgreesWithPaperForces) {
   double spared = 0;
   for (const double friction : {0.0, 0.3}) {
@@ -246,7 +247,7 @@ TEST(DrumFriction, ConservesEnergy) {
         motor += 0.5 * (a.motor_torque + b.motor_torque) * (b.alpha - a.alpha);
         load += 0.5 * (a.load_torque + b.load_torque) * (b.theta - a.theta);
       }
-      // From the first point on: the load is applied in one step.
+      // The balance begins at the first point, because the load is applied there in one step.
       const EquilibriumPoint &first = points.front(), &end = points.back();
       *lost = end.friction - first.friction;
       return motor - load - (end.stored - first.stored) - *lost - (end.groove_friction - first.groove_friction);

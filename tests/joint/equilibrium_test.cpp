@@ -228,7 +228,7 @@ TEST(Equilibrium, SettlesWithinFewCycles) {
   EXPECT_LT(drift(5), 1e-7);
 }
 
-// ---- what lies on the pulley ----------------------------------------------------------------------------------------
+// ---- the wound tendon -----------------------------------------------------------------------------------------------
 
 TEST(Equilibrium, KeepsWindingStrainWithInfiniteFriction) {
   // Reference values from an earlier program with this law only (revision e00f5d6): α, θ, both lower tensions.
@@ -411,7 +411,7 @@ TEST(Equilibrium, StiffnessAgreesWithDifferences) {
       JointMotion motion(joint_model(mechanism));
       const double alpha = transmission::Transmission(mechanism).alpha(theta);
       for (int i = 0; i <= 60; ++i) motion.to({alpha * i / 60, 0.0, 0.0});
-      // Off the ends of the stick range, into its middle.
+      // A larger torque and none before it bring the joint into the middle of the stick range.
       motion.to({alpha, 0.0, 60.0});
       motion.to({alpha, 0.0, 0.0});
       const EquilibriumPoint at = motion.to({alpha, 0.0, 20.0});
@@ -433,12 +433,12 @@ TEST(Equilibrium, HysteresisGrowsWithFriction) {
     const Mechanism mechanism = held(with(forearm(), 5.0, friction, 3000.0));
     constexpr int steps = 90;
     const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), cycles(mechanism, {10.0, steps, 2}));
-    // Home on the way up against home on the way down, second cycle.
+    // Second cycle: θ at home on the way up, minus θ at home on the way down.
     return points.back().theta - points[points.size() - 1 - 2 * steps].theta;
   };
   EXPECT_NEAR(width(0.0), 0.0, 1e-9);
   const double little = width(0.05);
-  EXPECT_LT(little, -1e-5);  // lifting, the tendon below the pin is the more stretched
+  EXPECT_LT(little, -1e-5);  // while lifting, the tendon below the pin is stretched more
   EXPECT_NEAR(width(0.1) / little, 2.0, 0.1);
 }
 
@@ -504,7 +504,7 @@ TEST(Equilibrium, MirroredJointHasMirroredEquilibrium) {
   }
 }
 
-// ---- where it ends --------------------------------------------------------------------------------------------------
+// ---- limits of equilibrium ------------------------------------------------------------------------------------------
 
 TEST(Equilibrium, ReportsExcessiveLoad) {
   // Soft tendons let a large load pull the joint past the dead centre.

@@ -48,11 +48,11 @@ TEST(WideJoint, SpanTableHasKink) {
   ASSERT_LT(leaves, 0.5);
   for (double theta = -0.9; theta < 0.9; theta += 0.0071) {
     const transmission::UpperSpan span = transmission::upper_span(place, theta);
-    const UpperSpanTable::Values look = table.at(theta);
-    EXPECT_NEAR(look.length, span.length, 1e-8);
-    EXPECT_NEAR(look.m, span.m, 1e-7);
-    EXPECT_NEAR(look.dm, span.dm, 1e-4);
-    EXPECT_NEAR(look.normal, span.normal, 1e-9);
+    const UpperSpanTable::Values interpolated = table.at(theta);
+    EXPECT_NEAR(interpolated.length, span.length, 1e-8);
+    EXPECT_NEAR(interpolated.m, span.m, 1e-7);
+    EXPECT_NEAR(interpolated.dm, span.dm, 1e-4);
+    EXPECT_NEAR(interpolated.normal, span.normal, 1e-9);
   }
 }
 

@@ -38,7 +38,7 @@ TEST(ProfileLaws, AcceptedProfilesRewindToLaw) {
   });
 }
 
-/// True if the mechanism is feasible; then it must be convex and rewind to its law.
+/// True if the mechanism is feasible. Then both profiles must be convex and rewind to the law.
 bool rewinds_to_its_law(const Mechanism& mechanism) {
   const profile::SynthesisResult result = profile::synthesise(mechanism, {.advice = false});
   for (const profile::Condition& condition : result.conditions) RC_ASSERT(condition.ok == condition.message.empty());
@@ -47,7 +47,7 @@ bool rewinds_to_its_law(const Mechanism& mechanism) {
   const Polygon floor1 = profile::parallel(result.p1, -half), floor2 = profile::parallel(result.p2, -half);
   RC_ASSERT(is_convex(floor1));
   RC_ASSERT(is_convex(floor2));
-  // At a fifth of the arm, position errors are five times as large.
+  // A drum's moment arm is a fifth of the lever's, so that position errors move the joint five times as far.
   const profile::RewindResult wound = profile::rewind(mechanism, floor1, floor2);
   RC_ASSERT(degrees(wound.max_theta_error) < 0.02);
   RC_ASSERT(wound.max_excess < 0.005 * mechanism.joint.R);

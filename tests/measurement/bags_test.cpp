@@ -194,7 +194,7 @@ TEST(Bags, GiveSameMeasurementAsTable) {
   }
 }
 
-TEST(Bags, SayTopicsUnitsAndClock) {
+TEST(Bags, ReportTopicsUnitsAndClock) {
   const LoggedRows rows = rows_of(corpus_file("good_zstd.mcap"));
   EXPECT_THAT(rows.sources,
               ElementsAre("alpha is /motor/joint_states/hinge/position in rad, theta is "

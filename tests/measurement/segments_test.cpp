@@ -82,7 +82,7 @@ std::vector<double> triangle(double size, int per_stroke, int strokes) {
   return alphas;
 }
 
-// ---- held angles ----------------------------------------------------------------------------------------------------
+// ---- dwells ---------------------------------------------------------------------------------------------------------
 
 TEST(Segments, RecordDirectionOfApproach) {
   for (const double noise : {0.0, 0.01, 0.05}) {

@@ -46,7 +46,7 @@ TEST(Edit, WritesOmittedPairCompletely) {
   EXPECT_EQ(edited.joint.attachment1->across, 0);
   EXPECT_EQ(edited.joint.attachment1->along, 55);
   EXPECT_EQ(edited.joint.attachment2->across, 3);
-  EXPECT_EQ(edited.joint.attachment2->along, 110) << "C, where the edited lever has it";
+  EXPECT_EQ(edited.joint.attachment2->along, 110) << "default: C of the edited joint.length_mm";
   EXPECT_EQ(edit_values(text, {{"joint.attachment1_mm[0]", -2}, {"joint.attachment1_mm[1]", 40}}),
             edit_values(text, {{"joint.attachment1_mm[1]", 40}, {"joint.attachment1_mm[0]", -2}}));
 }
@@ -76,7 +76,7 @@ TEST(Edit, ReplacesFormerKeys) {
   EXPECT_THROW(parse_mechanism(both, "f.toml"), InputError);
 }
 
-// A new key must not go to the top of the file, where its table is unknown.
+// A new key is written beside the dotted keys of its table: at the top of the file it would precede the schema.
 TEST(Edit, ReachesDottedKeys) {
   const std::string text =
       "schema = 1\njoint.range_deg = [\n  -30,\n  30]\njoint.length_mm = 100\n"

@@ -36,7 +36,7 @@ TEST(LinearRelation, AddsTermsOfOneKey) {
 struct Faulty {
   const char* text;
   std::size_t at;
-  const char* says;
+  const char* message;
 };
 
 TEST(LinearRelation, ReportsPlaceOfFaults) {
@@ -53,7 +53,7 @@ TEST(LinearRelation, ReportsPlaceOfFaults) {
     const ParsedRelation parsed = parse_relation(faulty.text);
     ASSERT_TRUE(parsed.fault) << faulty.text;
     EXPECT_EQ(parsed.fault->at, faulty.at) << faulty.text;
-    EXPECT_THAT(parsed.fault->message, HasSubstr(faulty.says)) << faulty.text;
+    EXPECT_THAT(parsed.fault->message, HasSubstr(faulty.message)) << faulty.text;
     EXPECT_FALSE(parsed.fault->hint.empty());
   }
 }

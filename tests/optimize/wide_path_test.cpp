@@ -18,7 +18,7 @@ Pose random_pose(Random& random) {
           between(8, 20),   between(0, 3),    between(-1.5, 1.5)};
 }
 
-/// The path by upper_span().
+/// The path as upper_span() computes it.
 transmission::UpperSpan span_of(const Pose& pose) {
   transmission::PinPlace place{pose.e, pose.oe, 50, pose.rho, std::hypot(pose.across, pose.along)};
   place.twist = std::atan2(pose.across, pose.along);
@@ -50,8 +50,8 @@ TEST(WidePath, AgreesWithTransmission) {
   EXPECT_GT(free, 300);
 }
 
-/// Values, and slopes by the mean value theorem, over boxes of every size: on the drum, clear of it, and around
-/// lift-off.
+/// Boxes from 1e-4 to 1, on the drum, clear of it and across lift-off. Values must lie in their intervals, and
+/// differences from the middle in slope × distance (mean value theorem).
 TEST(WidePath, EnclosesPathsInBox) {
   Random random(6);
   long compared = 0, about_lift_off = 0;
@@ -63,14 +63,14 @@ TEST(WidePath, EnclosesPathsInBox) {
     };
     const double half_drum = 3 * size, half_end = 5 * size;
     std::vector<std::pair<Pose, transmission::UpperSpan>> inside;
-    int lying = 0;
+    int on_drum = 0;
     for (int k = 0; k < 10; ++k) {
       Pose one = pose;
       one.drum += half_drum * (2 * random.fraction() - 1);
       one.across += half_end * (2 * random.fraction() - 1);
       const transmission::UpperSpan span = span_of(one);
       if (!(span.m > 0)) continue;
-      lying += span.on_drum > 0;
+      on_drum += span.on_drum > 0;
       inside.emplace_back(one, span);
     }
     const transmission::UpperSpan middle = span_of(pose);
@@ -86,7 +86,7 @@ TEST(WidePath, EnclosesPathsInBox) {
                   transmission::Jet(pose.theta), domain);
     if (inside.empty()) continue;
     ASSERT_TRUE(domain.possible);
-    about_lift_off += lying > 0 && lying < static_cast<int>(inside.size());
+    about_lift_off += on_drum > 0 && on_drum < static_cast<int>(inside.size());
     for (const auto& [one, span] : inside) {
       const auto holds = [&, &one = one](const transmission::Jet& jet, double value, double at_middle) {
         constexpr double k_rounding = 1e-9;

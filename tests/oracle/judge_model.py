@@ -74,7 +74,7 @@ def taut(a, b, cylinder):
     return free + held + rho * (arc if arc < 1.9 * math.pi else 0)
 
 
-def path_faults(path, said):
+def path_faults(path, motion):
     """Compares tendon lengths with a taut string from site to site, around the geometry in between."""
     root = ET.parse(path).getroot()
     place = lambda node: [float(x) for x in node.get("pos").split()][:2]
@@ -105,7 +105,7 @@ def path_faults(path, said):
                 last, geom = here, None
             return total
 
-        worst = max(abs(row[4 + i] - length(row[3])) for row in said["rows"])
+        worst = max(abs(row[4 + i] - length(row[3])) for row in motion["rows"])
         if worst > 1e-8:
             yield f"{tendon.get('name')} is {worst * 1e3:.2g} mm from a string round what it is wrapped on"
 
@@ -113,17 +113,17 @@ def path_faults(path, said):
 def following_faults(library, path, law, low, high):
     text = path.read_text()
     limit = stated_error(text) + SOFT_DEG
-    said = follow(library, path)
-    seen = [(math.degrees(row[2]), math.degrees(row[3])) for row in said["rows"]]
+    motion = follow(library, path)
+    seen = [(math.degrees(row[2]), math.degrees(row[3])) for row in motion["rows"]]
     span = high - low
     if min(a for a, _ in seen) > low + 0.01 * span or max(a for a, _ in seen) < high - 0.01 * span:
         yield f"the motor came from {min(a for a, _ in seen):.3f} to {max(a for a, _ in seen):.3f} deg only, of {low:.3f} to {high:.3f}"
     worst = max((abs(theta - law(alpha)), alpha) for alpha, theta in seen if low <= alpha <= high)
-    print(f"{path.name}: MuJoCo {said['version']}, {len(seen)} places, off by {worst[0]:.6f} deg at most (stated: {limit - SOFT_DEG:g})")
+    print(f"{path.name}: MuJoCo {motion['version']}, {len(seen)} places, off by {worst[0]:.6f} deg at most (stated: {limit - SOFT_DEG:g})")
     if worst[0] > limit:
         yield f"off by {worst[0]:.6f} deg at alpha = {worst[1]:.2f}, more than the {limit:.6f} that is stated"
     if path.name == "joint_tendons.xml":
-        yield from path_faults(path, said)
+        yield from path_faults(path, motion)
 
 
 def mujoco_faults(folder, law_file):
@@ -137,8 +137,8 @@ def mujoco_faults(folder, law_file):
 def urdf_faults(folder, _):
     program = shutil.which("check_urdf") or not_installed("check_urdf (liburdfdom-tools)")
     for name in ("joint.urdf", "joint_ros2_control.urdf"):
-        said = subprocess.run([program, folder / name], capture_output=True, text=True)
-        words = said.stdout + said.stderr
+        checked = subprocess.run([program, folder / name], capture_output=True, text=True)
+        words = checked.stdout + checked.stderr
         if "Successfully Parsed XML" not in words or re.search(r"error", words, re.I):
             yield f"{name}: check_urdf says: {words.strip()}"
         if "child(1):" not in words:

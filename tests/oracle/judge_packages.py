@@ -21,53 +21,53 @@ def run(*command, **options):
 
 
 def packages_of(build, folder):
-    code, said = run("cpack", "-G", "DEB", "-B", folder, cwd=build)
+    code, output = run("cpack", "-G", "DEB", "-B", folder, cwd=build)
     found = {path.name.split("_")[0]: path for path in sorted(folder.glob("**/*.deb")) if "_CPack" not in str(path)}
     if code or not EXPECTED <= set(found):
-        raise SystemExit(f"cpack made {sorted(found)}, exit {code}:\n{said}")
+        raise SystemExit(f"cpack made {sorted(found)}, exit {code}:\n{output}")
     return found
 
 
 def what_lintian_says(packages):
     # As root it warns only of that.
-    code, said = run("lintian", "--allow-root", "--fail-on", "error,warning", *packages.values())
+    code, output = run("lintian", "--allow-root", "--fail-on", "error,warning", *packages.values())
     if code:
-        yield f"lintian:\n{said}"
+        yield f"lintian:\n{output}"
 
 
 def what_is_unpacked(packages, root):
     for package in packages.values():
-        code, said = run("dpkg-deb", "-x", package, root)
+        code, output = run("dpkg-deb", "-x", package, root)
         if code:
-            yield f"{package.name} does not unpack: {said}"
+            yield f"{package.name} does not unpack: {output}"
     program, page = root / "usr/bin/fusee", root / "usr/share/man/man1/fusee-build.1.gz"
     profile = root / "usr/share/fusee/profiles/paper_optimum.toml"
-    code, said = run(program, "build", profile, "-o", root / "out", "-q")
+    code, output = run(program, "build", profile, "-o", root / "out", "-q")
     if code:
-        yield f"the program from the package: exit {code}: {said}"
-    code, said = run(program, "optimize", profile, "--method", "ga", "--dry-run", "-q")
+        yield f"the program from the package: exit {code}: {output}"
+    code, output = run(program, "optimize", profile, "--method", "ga", "--dry-run", "-q")
     if code:
-        yield f"the program from the package does not search by evolution: exit {code}: {said}"
+        yield f"the program from the package does not search by evolution: exit {code}: {output}"
     if any(root.glob("usr/lib/**/fusee-step.so")):
-        code, said = run(program, "build", profile, "-o", root / "cad", "-q", "--step")
+        code, output = run(program, "build", profile, "-o", root / "cad", "-q", "--step")
         if code or not (root / "cad/pulley.step").exists():
-            yield f"the program from the package makes no STEP: exit {code}: {said}"
-    code, said = run("man", "-l", page, env={**os.environ, "MANPAGER": "cat"}) if shutil.which("man") else (0, "pulley.stl")
-    if code or "pulley" not in said:
-        yield f"man does not show {page.name}: {said[:200]}"
+            yield f"the program from the package makes no STEP: exit {code}: {output}"
+    code, output = run("man", "-l", page, env={**os.environ, "MANPAGER": "cat"}) if shutil.which("man") else (0, "pulley.stl")
+    if code or "pulley" not in output:
+        yield f"man does not show {page.name}: {output[:200]}"
 
 
 def what_python_imports(packages, root):
     if "python3-fusee" not in packages:
         return
-    code, said = run("dpkg-deb", "-f", packages["python3-fusee"], "Depends")
-    if "python3-numpy" not in said or "libc6" not in said:
-        yield f"python3-fusee depends on {said}"
+    code, output = run("dpkg-deb", "-f", packages["python3-fusee"], "Depends")
+    if "python3-numpy" not in output or "libc6" not in output:
+        yield f"python3-fusee depends on {output}"
     step = any(root.glob("usr/lib/**/fusee-step.so"))
     lines = f"import fusee; print(fusee.__file__, fusee.build(fusee.read(fusee.new('finger')), step={step}).status)"
-    code, said = run("/usr/bin/python3", "-c", lines, cwd=root, env={"PYTHONPATH": str(root / "usr/lib/python3/dist-packages"), "PATH": os.environ["PATH"]})
-    if code or not said.startswith(str(root)) or "done" not in said:
-        yield f"the Python module from the package: exit {code}: {said}"
+    code, output = run("/usr/bin/python3", "-c", lines, cwd=root, env={"PYTHONPATH": str(root / "usr/lib/python3/dist-packages"), "PATH": os.environ["PATH"]})
+    if code or not output.startswith(str(root)) or "done" not in output:
+        yield f"the Python module from the package: exit {code}: {output}"
 
 
 def what_compiles(root, source):
@@ -79,13 +79,13 @@ def what_compiles(root, source):
     if code:
         yield f"pkg-config: {flags}"
         return
-    code, said = run("c++", source, "-o", root / "consumer", *flags.split())
+    code, output = run("c++", source, "-o", root / "consumer", *flags.split())
     if code:
-        yield f"pkg-config's flags do not do: {said[-2000:]}"
+        yield f"pkg-config's flags do not do: {output[-2000:]}"
         return
-    code, said = run(root / "consumer", root / "usr/share/fusee/profiles/paper_optimum.toml")
-    if code or "r2 from" not in said:
-        yield f"a program made with pkg-config: exit {code}: {said}"
+    code, output = run(root / "consumer", root / "usr/share/fusee/profiles/paper_optimum.toml")
+    if code or "r2 " not in output:
+        yield f"a program made with pkg-config: exit {code}: {output}"
 
 
 def main():

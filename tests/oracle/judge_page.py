@@ -61,7 +61,7 @@ LEVER = """
 # For a pulley of several turns seen from the side, x right and y up, in mm, scaled by the lines at its lower and
 # upper face.
 HELIX = """
-  const scene = document.querySelector(".climbing-scene");
+  const scene = document.querySelector(".helix-scene");
   const [[low, high], [, top]] = scene.querySelector(".dimension").getAttribute("d").slice(1).split("M").map(part => part.split("L").map(p => p.split(" ").map(Number)));
   const axis = (low[0] + high[0]) / 2, scale = (low[1] - top[1]) / HEIGHT;
   const mm = (px, py) => [(px - axis) / scale, (low[1] - py) / scale];
@@ -453,15 +453,15 @@ def self_test(folder):
     breaks = {name: fault for name, fault in BREAKS.items() if name not in LEVER_ALONE} | HELIX_BREAKS if isinstance(lever, Helix) else BREAKS
     for name, (old, new, word) in breaks.items():
         assert old in page, f"{name}: the page has no {old!r}"
-        said = list(faults(page.replace(old, new, 1), rows[::6], lever, WAYS[:1]))
-        if not any(word in fault for fault in said):
+        seen = list(faults(page.replace(old, new, 1), rows[::6], lever, WAYS[:1]))
+        if not any(word in fault for fault in seen):
             failed += 1
-            print(f"{name}: not seen; said {said}")
+            print(f"{name}: not detected; found {seen}")
     for name, (old, new, word) in NARROW_BREAKS.items():
-        said = list(narrow_faults(page.replace(old, new, 1)))
-        if not any(word in fault for fault in said):
+        seen = list(narrow_faults(page.replace(old, new, 1)))
+        if not any(word in fault for fault in seen):
             failed += 1
-            print(f"{name}: not seen; said {said}")
+            print(f"{name}: not detected; found {seen}")
     return 1 if failed else 0
 
 

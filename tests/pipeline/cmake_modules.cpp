@@ -58,7 +58,7 @@ std::set<std::string> modules_linked(const std::string& call, const std::vector<
 std::vector<std::string> modules_in_flow() {
   std::vector<std::string> modules;
   for (const std::string& line : found(text_of("CMakeLists.txt"), "#([^\n]*<-[^\n]*)")) {
-    for (const std::string& module : found(line, "([a-z]+)")) modules.push_back(module);
+    for (const std::string& module : found(line, "([a-z_]+)")) modules.push_back(module);
   }
   return modules;
 }

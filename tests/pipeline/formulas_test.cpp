@@ -28,7 +28,7 @@ const std::vector<Formula> k_formulas = {
      "src/transmission/load.cpp"},
     {"golden_section", R"(\b(0\.618|0\.38196|1\.618)\d*)", "src/base/"},
     {"target_motion", R"(\bclass\s+TargetMotion\b)", "src/transmission/target_motion.h"},
-    {"binning", R"(\bstruct\s+Bins\b)", "src/measurement/seen_span.h"},
+    {"binning", R"(\bstruct\s+Bins\b)", "src/measurement/value_range.h"},
     {"median", R"(\bmedian\w*\(std::vector<double>\s+\w+\)\s*\{)", ""},
     // The character itself is in quotes, which are blanked here.
     {"progress_bar", R"(std::string\(k_places - full)", "src/cli/"},

@@ -37,12 +37,12 @@ struct Include {
   std::string target;
   bool quoted = false;  ///< "…" instead of <…>
 
-  std::string says() const { return file.string() + ":" + std::to_string(line) + " includes " + target; }
+  std::string description() const { return file.string() + ":" + std::to_string(line) + " includes " + target; }
 };
 
 /// "fusee/solid.h" → "solid"; "fusee/mechanism_file.h" and "mechanism/reader.h" → "mechanism"; else "".
 std::string module_of(const std::string& target) {
-  static const std::regex pattern("^(?:fusee/)?([a-z]+)(?:/|(?:_file)?\\.h$)");
+  static const std::regex pattern("^(?:fusee/)?([a-z_]+?)(?:/|(?:_file)?\\.h$)");
   std::smatch match;
   return std::regex_search(target, match, pattern) && flow().count(match[1]) ? match[1].str() : "";
 }
@@ -112,7 +112,7 @@ TEST(Includes, KeepOrderOfInnerModules) {
     const std::string home = inner_module_of(include.file.generic_string()), module = inner_module_of(include.target);
     if (module.empty() || module == home) continue;
     ASSERT_FALSE(home.empty()) << include.file << " is in no inner module";
-    EXPECT_TRUE(k_export_uses.at(home).count(module)) << include.says();
+    EXPECT_TRUE(k_export_uses.at(home).count(module)) << include.description();
   }
 }
 
@@ -120,9 +120,9 @@ TEST(Includes, OwnHeadersAreQuoted) {
   for (const Include& include : all_includes()) {
     if (include.quoted) {
       const bool beside = fs::exists(fs::path(FUSEE_SOURCE_DIR) / include.file.parent_path() / include.target);
-      EXPECT_TRUE(beside || !module_of(include.target).empty()) << include.says();
+      EXPECT_TRUE(beside || !module_of(include.target).empty()) << include.description();
     } else {
-      EXPECT_NE(include.target.rfind("fusee/", 0), 0u) << include.says();
+      EXPECT_NE(include.target.rfind("fusee/", 0), 0u) << include.description();
     }
   }
 }
@@ -156,10 +156,10 @@ TEST(PublicHeaders, NeedOnlyEigen) {
   for (const Include& include : all_includes()) {
     if (include.file.generic_string().rfind("include/", 0) != 0) continue;
     if (include.quoted) {
-      EXPECT_EQ(include.target.rfind("fusee/", 0), 0u) << include.says();
+      EXPECT_EQ(include.target.rfind("fusee/", 0), 0u) << include.description();
     } else {
       EXPECT_TRUE(std::regex_match(include.target, standard) || include.target.rfind("Eigen/", 0) == 0)
-          << include.says();
+          << include.description();
     }
   }
 }
@@ -184,7 +184,7 @@ TEST(Includes, LibrariesStayInTheirPlaces) {
   for (const Include& include : all_includes()) {
     for (const auto& [library, place] : places) {
       if (!std::regex_search(include.target, library)) continue;
-      EXPECT_TRUE(std::regex_search(include.file.generic_string(), place)) << include.says();
+      EXPECT_TRUE(std::regex_search(include.file.generic_string(), place)) << include.description();
     }
   }
 }

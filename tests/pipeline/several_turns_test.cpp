@@ -11,8 +11,8 @@
 #include "export/mesh_files/mesh_files.h"
 #include "export/report/tendon_trace.h"
 #include "fusee/base.h"
-#include "fusee/coil.h"
 #include "fusee/export.h"
+#include "fusee/helical_solid.h"
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
 #include "fusee/transmission.h"
@@ -78,9 +78,10 @@ INSTANTIATE_TEST_SUITE_P(Profiles, SeveralTurns, ::testing::Values("wrist_turns"
 /// Smallest error of θ, deg, when pins, lengths and grooves deviate and the pulley is not corrected.
 double uncorrected(const std::string& profile, const joint::IdentifiedJoint& joint) {
   const formats::Product product = made(read_profile(profile)).product;
-  const std::vector<coil::FloorLine> floors = coil::helical_floors(product.pulley.mesh, product.pulley.layout.scale);
-  const coil::HelicalRewind wound = coil::rewind_floors(floors.at(0), floors.at(1), joint::with_inset(joint),
-                                                        product.synthesis.stroke, product.helix->laid(false));
+  const std::vector<helical_solid::FloorLine> floors =
+      helical_solid::helical_floors(product.pulley.mesh, product.pulley.layout.scale);
+  const helical_solid::HelicalRewind wound = helical_solid::rewind_floors(
+      floors.at(0), floors.at(1), joint::with_inset(joint), product.synthesis.stroke, product.helix->laid(false));
   return degrees(wound.result.max_theta_error);
 }
 
@@ -532,7 +533,7 @@ TEST_P(SeveralTurnsKit, CutLengthMatchesWoundLength) {
     const std::size_t end = cut.side == transmission::Side::left ? rows.size() - 1 : 0;
     for (std::size_t i = std::min(row, end); i < std::max(row, end); ++i)
       length += Vec3(rows[i + 1].x - rows[i].x, rows[i + 1].y - rows[i].y, rows[i + 1].z - rows[i].z).norm();
-    for (const coil::HelicalAnchor& anchor : product.helix->pulley.anchors)
+    for (const helical_solid::HelicalAnchor& anchor : product.helix->pulley.anchors)
       if (anchor.side == cut.side) length += (anchor.pocket - anchor.exit).norm();
     EXPECT_NEAR(cut.between_knots, length, 0.05) << GetParam();
     EXPECT_GT(cut.cut, cut.between_knots + 100);
@@ -549,7 +550,7 @@ TEST_P(SeveralTurnsKit, ReportsTendonHeights) {
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     const std::size_t i = side == transmission::Side::left ? 0 : 1;
     const helix::HelixSide& helix = product.helix->synthesis.sides.at(i);
-    const coil::SpiralPlace& lies = i == 0 ? product.helix->pulley.p1 : product.helix->pulley.p2;
+    const helical_solid::SpiralPlace& lies = i == 0 ? product.helix->pulley.p1 : product.helix->pulley.p2;
     const double end = lies.height(helix.attachment_z);
     EXPECT_NEAR(heights.ends.at(i), end, 1e-9);
     on_drum.see(end);

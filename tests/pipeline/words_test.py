@@ -29,7 +29,7 @@ REPLACED = {
     r"culprits?|blame[ds]?|falsely blamed": "attributed cause, false positive",
     r"how sure|surer": "uncertainty",
     r"may as well be": "equally likely",
-    r"tells? \w+ from|told apart|tells? apart": "distinguishes, resolved",
+    r"tells? \w+ from|tells? apart": "distinguishes, resolved",
     r"would be possible with": "try KEY = VALUE or less (now VALUE)",
     r"it takes \d": "at least … is required",
     r"as it lies|as they lie": "print orientation, present position",
@@ -43,6 +43,11 @@ REPLACED = {
     r"undersides?": "downward face",
     r"withheld": "held-out",
     r"rareness": "log prior odds, penalty",
+    r"declared law": "target motion",
+    r"islands": "unsupported regions",
+    r"plainly": "without discrepancy",
+    r"told": "reported, given",
+    r"doubts?|doubtful|doubted": "absence probability, plausibility warning, uncertain",
 }
 #: Identifiers and file names that were replaced → what they are now. Keys of JSON documents keep their names: in quotes.
 RENAMED = {
@@ -95,6 +100,8 @@ def first_word_of(text):
 
 
 def title_faults(title, words):
+    if "_" in title and title[0].islower() and not title.startswith("test_"):
+        yield f"title {title} is in snake_case", "CamelCase"
     if words[0] in ("What", "Where", "Whether", "Of", "That", "what", "where", "whether", "of", "that"):
         yield f"title {title} begins with '{words[0]}'", "what fails when the test fails, subject or verb first"
     if len(words) > MOST_WORDS_IN_TITLE:
@@ -122,6 +129,8 @@ def cpp_faults(lines):
 def header_faults(lines):
     if lines and not lines[0].startswith("/// \\file"):
         yield 1, "begins without '/// \\file'", "'/// \\file' and what the header is for"
+    elif len(lines) > 1 and not lines[1].startswith("///"):
+        yield 2, "'/// \\file' says nothing", "what the header is for"
     yield from cpp_faults(lines)
 
 
@@ -233,6 +242,7 @@ class Words(unittest.TestCase):
     def test_detects_titles(self):
         self.assertEqual(len(self.refused(".cpp", "TEST(Part, WhatIsMade) {\n")), 1)
         self.assertEqual(len(self.refused(".cpp", "TEST(Part, IsMadeOfOneTwoThreeFourFiveSixSeven) {\n")), 1)
+        self.assertEqual(len(self.refused(".cpp", "TEST(Part, passes_checks) {\n")), 1)
         self.assertEqual(self.refused(".cpp", "TEST(Part, PassesChecks) {\n"), [])
         self.assertEqual(len(self.refused(".py", "    def test_what_is_made(self):\n")), 1)
 

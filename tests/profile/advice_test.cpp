@@ -69,18 +69,18 @@ std::vector<Condition> fails_by(double gap) {
 }
 
 TEST(Advice, LimitsEffort) {
-  std::atomic<int> looks = 0;
+  std::atomic<int> evaluations = 0;
   std::atomic<int> builds_left = 0;
-  const FeasibilityOracle hopeless{[&](const Mechanism&) { return ++looks, fails_by(1.0); },
+  const FeasibilityOracle hopeless{[&](const Mechanism&) { return ++evaluations, fails_by(1.0); },
                                    [&](const Mechanism&) { return ++builds_left, true; }};
   EXPECT_TRUE(find_advice(testing::forearm(), hopeless).empty());
-  EXPECT_LT(looks, 4000);
+  EXPECT_LT(evaluations, 4000);
   EXPECT_EQ(builds_left, 0);
-  looks = 0;
+  evaluations = 0;
   FeasibilityOracle expensive = hopeless;
   expensive.is_expensive = true;
   EXPECT_FALSE(find_advice(testing::forearm(), expensive).is_exhausted);
-  EXPECT_LT(looks, 420);
+  EXPECT_LT(evaluations, 420);
   const FeasibilityOracle unmakeable{[](const Mechanism& m) { return fails_by(m.pulley.r1 - 12 + m.pulley.EF - 80); },
                                      [&](const Mechanism&) { return ++builds_left, false; }};
   EXPECT_TRUE(find_advice(testing::forearm(), unmakeable).empty());
@@ -115,13 +115,13 @@ TEST(Advice, TriesFurtherStepAfterFailedBuild) {
 
 TEST(Advice, SkipsHopelessChangesWhenExpensive) {
   const auto looks_of = [](bool is_expensive, double wanted_r1, std::string& text) {
-    std::atomic<int> looks = 0;
+    std::atomic<int> evaluations = 0;
     const FeasibilityOracle judge{
-        .obstacles = [&](const Mechanism& m) { return ++looks, fails_by(m.pulley.r1 - wanted_r1); },
+        .obstacles = [&](const Mechanism& m) { return ++evaluations, fails_by(m.pulley.r1 - wanted_r1); },
         .made = [](const Mechanism&) { return true; },
         .is_expensive = is_expensive};
     text = advice_sentence(find_advice(testing::forearm(), judge).alone);
-    return looks.load();
+    return evaluations.load();
   };
   std::string text, of_dear;
   EXPECT_LT(3 * looks_of(true, -1, of_dear), 2 * looks_of(false, -1, text));

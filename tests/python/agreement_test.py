@@ -44,15 +44,15 @@ class Agreement(harness.Scratch):
         self.build("theirs")
         self.same_files(built.files, "theirs")
         self.same_files(built.files, "mine")
-        said = self.expect_json("build arm.toml -o theirs", 0)
-        self.assertEqual([check["name"] for check in said["checks"]], [check.name for check in built.checks])
-        for theirs, mine in zip(said["checks"], built.checks):
+        answer = self.expect_json("build arm.toml -o theirs", 0)
+        self.assertEqual([check["name"] for check in answer["checks"]], [check.name for check in built.checks])
+        for theirs, mine in zip(answer["checks"], built.checks):
             self.assertEqual((theirs["value"], theirs["limit"], theirs["ok"]), (mine.value, mine.limit, mine.ok))
-        self.assertEqual(said["as_built"]["max_theta_error_deg"], math.degrees(built.as_built.max_theta_error_rad))
+        self.assertEqual(answer["as_built"]["max_theta_error_deg"], math.degrees(built.as_built.max_theta_error_rad))
 
     def test_build_for_cad(self):
-        said = self.fusee("build arm.toml -o theirs --step")
-        if said.returncode == 3:
+        answer = self.fusee("build arm.toml -o theirs --step")
+        if answer.returncode == 3:
             with self.assertRaisesRegex(fusee.InputError, "STEP"):
                 fusee.build(self.arm, step=True)
             self.skipTest("this fusee was built without OpenCASCADE")
@@ -66,18 +66,18 @@ class Agreement(harness.Scratch):
         self.same_files(fusee.build(arm, dxf="r12").files, "theirs", without={"manifest.json", "report.html"})
 
     def test_infeasible_mechanism(self):
-        said = self.expect_json("build arm.toml --set pulley.r1_mm=25", 4)
+        answer = self.expect_json("build arm.toml --set pulley.r1_mm=25", 4)
         refused = fusee.build(self.arm.with_({"pulley.r1_mm": 25}))
-        self.assertEqual([condition["name"] for condition in said["conditions"]], [condition.name for condition in refused.conditions])
+        self.assertEqual([condition["name"] for condition in answer["conditions"]], [condition.name for condition in refused.conditions])
         numbers = [change for change in refused.advice if not isinstance(change.value, str)]
-        self.assertEqual([(change["key"], change["to"]) for change in said["advice"]], [(change.key, change.value) for change in numbers])
+        self.assertEqual([(change["key"], change["to"]) for change in answer["advice"]], [(change.key, change.value) for change in numbers])
 
     def test_errors(self):
-        said = self.expect_json("build arm.toml --set pulley.r9_mm=25 --set joint.length_mm=-1", 3)["errors"]
+        answer = self.expect_json("build arm.toml --set pulley.r9_mm=25 --set joint.length_mm=-1", 3)["errors"]
         with self.assertRaises(fusee.InputError) as caught:
             self.arm.with_({"pulley.r9_mm": 25, "joint.length_mm": -1})
         mine = [{key: getattr(diagnostic, key) for key in ("file", "line", "column", "message", "hint")} for diagnostic in caught.exception.diagnostics]
-        self.assertEqual(mine, said)
+        self.assertEqual(mine, answer)
 
     def test_synthesise_matches_build(self):
         curves = fusee.synthesise(self.arm)
@@ -89,10 +89,10 @@ class Agreement(harness.Scratch):
     def test_rewind(self):
         self.build("out")
         for part in ("pulley.stl", "profile.dxf"):
-            said = self.expect_json(f"rewind arm.toml out/{part}", 0)
+            answer = self.expect_json(f"rewind arm.toml out/{part}", 0)
             wound = fusee.rewind(self.arm, f"out/{part}")
-            self.assertEqual([math.degrees(theta) for theta in wound.theta_rad], [point["theta_deg"] for point in said["points"]])
-            self.assertEqual(list(wound.slack_mm), [point["slack_mm"] for point in said["points"]])
+            self.assertEqual([math.degrees(theta) for theta in wound.theta_rad], [point["theta_deg"] for point in answer["points"]])
+            self.assertEqual(list(wound.slack_mm), [point["slack_mm"] for point in answer["points"]])
             self.assertTrue(wound.ok)
         # Curves in memory and in the drawing differ by its arcs, which are within 0.0005 mm.
         curves = fusee.rewind(self.arm, fusee.synthesise(self.arm))
@@ -101,25 +101,25 @@ class Agreement(harness.Scratch):
                          [check.value for check in fusee.check("out/pulley.stl")])  # fmt: skip
 
     def test_analyze(self):
-        said = self.expect_json("analyze arm.toml --set load.tip_force_N=10 --samples 100 --seed 7", 0)
+        answer = self.expect_json("analyze arm.toml --set load.tip_force_N=10 --samples 100 --seed 7", 0)
         mine = fusee.analyze(self.arm.with_({"load.tip_force_N": 10}), samples=100, seed=7)
-        self.assertEqual(len(said["rows"]), len(mine.declared.alpha_rad))
-        self.assertEqual([row["alpha_deg"] for row in said["rows"]], [math.degrees(alpha) for alpha in mine.declared.alpha_rad])
-        self.assertEqual([row["r2_mm"] for row in said["rows"]], list(mine.declared.r2_mm))
-        self.assertEqual(len(said["tolerances"]), len(mine.tolerances))
-        self.assertEqual(said["summary"]["theta_error"]["value_deg"], math.degrees(mine.theta_error_rad.value))
-        self.assertEqual(said["summary"]["safety_factor"], mine.safety_factor)
+        self.assertEqual(len(answer["rows"]), len(mine.declared.alpha_rad))
+        self.assertEqual([row["alpha_deg"] for row in answer["rows"]], [math.degrees(alpha) for alpha in mine.declared.alpha_rad])
+        self.assertEqual([row["r2_mm"] for row in answer["rows"]], list(mine.declared.r2_mm))
+        self.assertEqual(len(answer["tolerances"]), len(mine.tolerances))
+        self.assertEqual(answer["summary"]["theta_error"]["value_deg"], math.degrees(mine.theta_error_rad.value))
+        self.assertEqual(answer["summary"]["safety_factor"], mine.safety_factor)
         self.assertIsNone(mine.motor)
 
     def test_motor_and_load(self):
-        said = self.expect_json("build arm.toml --dry-run --set load.tip_force_N=10 --set motor.model=MG996R", 0)
+        answer = self.expect_json("build arm.toml --dry-run --set load.tip_force_N=10 --set motor.model=MG996R", 0)
         joint = self.arm.with_({"load.tip_force_N": 10, "motor.model": "MG996R"})
         mine = fusee.build(joint).under_load
-        self.assertEqual(said["under_load"]["max_theta_error_deg"], math.degrees(mine.theta_error_rad.value))
-        self.assertEqual(said["under_load"]["slack1"], [[math.degrees(a) for a in part] for part in mine.slack1_rad])
-        self.assertEqual(said["motor"]["travel"]["needed_deg"], math.degrees(mine.motor.travel_rad))
-        self.assertEqual(tuple(said["motor"]["sufficient_models"]), mine.motor.sufficient_models)
-        self.assertEqual([change["to"] for change in said["motor"]["advice"]], [change.value for change in mine.motor.advice if not isinstance(change.value, str)])
+        self.assertEqual(answer["under_load"]["max_theta_error_deg"], math.degrees(mine.theta_error_rad.value))
+        self.assertEqual(answer["under_load"]["slack1"], [[math.degrees(a) for a in part] for part in mine.slack1_rad])
+        self.assertEqual(answer["motor"]["travel"]["needed_deg"], math.degrees(mine.motor.travel_rad))
+        self.assertEqual(tuple(answer["motor"]["sufficient_models"]), mine.motor.sufficient_models)
+        self.assertEqual([change["to"] for change in answer["motor"]["advice"]], [change.value for change in mine.motor.advice if not isinstance(change.value, str)])
         self.assertFalse(mine.motor.ok)
         self.assertIsNone(joint["motor.travel_deg"])
         self.assertEqual(fusee.build(joint.with_({"motor.enforce": True})).status, "infeasible")
@@ -127,10 +127,10 @@ class Agreement(harness.Scratch):
     def test_optimize(self):
         with open("arm.toml", "a") as file:
             file.write(SEARCHED)
-        said = self.expect_json("optimize arm.toml -o better.toml", 0)
+        answer = self.expect_json("optimize arm.toml -o better.toml", 0)
         best = fusee.optimize(fusee.read("arm.toml"))
         self.assertTrue(best.proven)
-        self.assertIn(best.value, set(_numbers(said)))
+        self.assertIn(best.value, set(_numbers(answer)))
         self.assertEqual(best.mechanism.text, (self.folder / "better.toml").read_text())
         self.assertEqual(best.mechanism, fusee.read("better.toml"))
 
@@ -139,11 +139,11 @@ class Agreement(harness.Scratch):
         found = fusee.calibrate(self.arm, RUNS, "mine", audit=False)
         self.same_files(found.files, "theirs")
         self.same_files(found.files, "mine")
-        said = json.loads((self.folder / "theirs/calibration.json").read_text())
-        self.assertEqual(found.verdict, said["verdict"])
-        self.assertEqual([next.kind for next in found.next], [next["kind"] for next in said["next"]])
-        self.assertEqual(found.next[0].keys, (said["next"][0]["key"],))
-        self.assertEqual(found.next[0].separates, tuple(said["next"][0]["separates"]))
+        answer = json.loads((self.folder / "theirs/calibration.json").read_text())
+        self.assertEqual(found.verdict, answer["verdict"])
+        self.assertEqual([next.kind for next in found.next], [next["kind"] for next in answer["next"]])
+        self.assertEqual(found.next[0].keys, (answer["next"][0]["key"],))
+        self.assertEqual(found.next[0].separates, tuple(answer["next"][0]["separates"]))
         self.assertEqual(found.corrected, fusee.read("theirs/corrected.toml"))
         self.assertEqual(len(found.residuals), 3)
         for run in found.residuals:
@@ -154,10 +154,10 @@ class Agreement(harness.Scratch):
         compared = fusee.compare(self.arm, RUNS[:2], RUNS[2:], "mine")
         self.same_files(compared.files, "theirs")
         self.same_files(compared.files, "mine")
-        said = json.loads((self.folder / "theirs/comparison.json").read_text())
-        self.assertEqual((compared.verdict, compared.summary), (said["verdict"], said["summary"]))
-        self.assertEqual([change.name for change in compared.changes], [change["name"] for change in said["changes"]])
-        self.assertEqual(compared.difference_rms_deg, said["difference"]["before_rms_deg"])
+        answer = json.loads((self.folder / "theirs/comparison.json").read_text())
+        self.assertEqual((compared.verdict, compared.summary), (answer["verdict"], answer["summary"]))
+        self.assertEqual([change.name for change in compared.changes], [change["name"] for change in answer["changes"]])
+        self.assertEqual(compared.difference_rms_deg, answer["difference"]["before_rms_deg"])
 
     def test_compare_finds_a_moved_zero(self):
         log = {"alpha_deg": np.tile(np.r_[-40:41, 39:-41:-1], 3)}
@@ -191,15 +191,15 @@ class Agreement(harness.Scratch):
         self.same_files(fusee.kit(self.arm).files, "kit")
 
 
-def _numbers(said):
-    if isinstance(said, dict):
-        for value in said.values():
+def _numbers(answer):
+    if isinstance(answer, dict):
+        for value in answer.values():
             yield from _numbers(value)
-    elif isinstance(said, list):
-        for value in said:
+    elif isinstance(answer, list):
+        for value in answer:
             yield from _numbers(value)
-    elif isinstance(said, float):
-        yield said
+    elif isinstance(answer, float):
+        yield answer
 
 
 if __name__ == "__main__":

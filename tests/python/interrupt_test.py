@@ -78,10 +78,10 @@ class Interrupt(unittest.TestCase):
     def test_takes_effect_at_once(self):
         for name, work in WORK.items():
             with self.subTest(name):
-                said = self.run_program(work, 0.3, self.folder / "out")
-                self.assertLess(said["heard"], LONGEST)
+                output = self.run_program(work, 0.3, self.folder / "out")
+                self.assertLess(output["heard"], LONGEST)
                 # The work may continue in the background, but it uses a processor.
-                self.assertLess(said["ended"], 5)
+                self.assertLess(output["ended"], 5)
 
     def test_leaves_complete_folder_or_none(self):
         whole = set(fusee.build(fusee.read(ARM)).files)

@@ -27,8 +27,8 @@ def has(module):
 
 class Package(unittest.TestCase):
     def test_has_version_of_program(self):
-        said = harness.fusee("--version", "/").stdout.decode().split()[-1]
-        self.assertEqual(fusee.__version__, said)
+        version = harness.fusee("--version", "/").stdout.decode().split()[-1]
+        self.assertEqual(fusee.__version__, version)
 
     def test_verbs_have_examples(self):
         for verb in VERBS:

@@ -257,7 +257,7 @@ double Bench::pull_through(std::vector<SheathPiece>& sheath, const Cord& cord, d
 }
 
 /// Length of an evenly rising path per its length in the plane.
-double Bench::slant(double level, double rise) { return std::hypot(1.0, rise / level); }
+double Bench::length_ratio(double level, double rise) { return std::hypot(1.0, rise / level); }
 
 /// Additional length of the straight span of a tendon with a collar.
 double Bench::sloping_more(const BenchTendon& tendon, const LowerString& string) {
@@ -275,7 +275,7 @@ double Bench::level_arm_at_home(BenchTendon& tendon) const {
   const Circle seen = seen_guide(tendon, tendon.pin);
   const LowerString low = lower_string(tendon.hull, seen, first_look(tendon.hull, seen));
   const double level = up.length + low.length + tendon.pin.radius * (direction(up.normal) - direction(low.normal));
-  return up.arm / slant(level, rise_of(tendon, low));
+  return up.arm / length_ratio(level, rise_of(tendon, low));
 }
 
 /// Lower per upper tension at this share of the friction. The load on an idler's bearing is the vector sum of both.
@@ -315,7 +315,7 @@ Vec2 Bench::cut_to_length(BenchTendon& tendon, double tension, double slack, dou
   double above = up.length + tendon.pin.radius * (direction(up.normal) - tendon.mark);
   double below = low.length + tendon.pin.radius * (tendon.mark - off_pin);
   if (tendon.hull.is_helical() && !collar_) {
-    const double longer = slant(above + below, rise_of(tendon, low));
+    const double longer = length_ratio(above + below, rise_of(tendon, low));
     above *= longer;
     below *= longer;
   }
@@ -398,7 +398,7 @@ Bench::Trial Bench::evaluate(std::size_t side, LowerSpan& below, double theta) c
   const UpperString up = find_upper_string(tendon, below.pin, image_theta, below.over);
   const double normal = direction(up.normal);
   const double level = up.length + below.pin.radius * (normal - tendon.mark);
-  const double longer = slant(level + below.length, below.rise);
+  const double longer = length_ratio(level + below.length, below.rise);
   const double length = level * longer, lower_length = below.length * longer;
   const double wrap = std::max(0.0, normal - below.normal) / longer;
   Trial trial;

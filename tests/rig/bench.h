@@ -100,7 +100,7 @@ class Bench {
   void build_link(BenchTendon& tendon, std::size_t side, const DeclaredMechanism& declared) const;
   void add_sheath(BenchTendon& tendon, const DeclaredMechanism& declared) const;
   Circle seen_guide(const BenchTendon& tendon, const Circle& pin) const;
-  static double slant(double level, double rise);
+  static double length_ratio(double level, double rise);
   static double sloping_more(const BenchTendon& tendon, const LowerString& string);
   static double rise_of(const BenchTendon& tendon, const LowerString& string);
   double level_arm_at_home(BenchTendon& tendon) const;

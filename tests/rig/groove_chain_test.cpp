@@ -85,7 +85,7 @@ TEST(Groove, WithLargeFrictionKeepsWindingStrain) {
 }
 
 /// Cyclic winding under varying tension: a closed hysteresis that dissipates work.
-TEST(Groove, CycleGivesNoWork) {
+TEST(Groove, CycleYieldsNoWork) {
   for (const double friction : {0.02, 0.2, 1.0, 20.0}) {
     GrooveChain chain = wound(2.0, 10.0, friction);
     double before = 10.0, turn = 2.0;
@@ -129,7 +129,7 @@ double given_letting_go(GrooveChain& chain, double material) {
 }
 
 /// Retained material: ∫ T (1 − e^(−μφ)) r dφ / EA.
-TEST(Groove, KnotSlipComesOutLessFriction) {
+TEST(Groove, KnotSlipIsReducedByFriction) {
   GrooveChain chain = wound(2.0, 10.0, 0.0);
   EXPECT_NEAR(given_letting_go(chain, 0.2), 0.2, 1e-9);
   GrooveChain rubbing = wound(2.0, 10.0, 0.2);

@@ -323,7 +323,7 @@ CycleWork work_of_a_cycle(const MadeJoint& joint, const Hidden& hidden) {
   return work;
 }
 
-TEST(Fault, PinFrictionTakesWork) {
+TEST(Fault, PinFrictionDissipatesWork) {
   const MadeJoint joint = make_joint(elastic());
   for (const double mu : {0.0, 0.2}) {
     const Hidden hidden{.friction = mu};

@@ -54,9 +54,9 @@ TEST(BoxTree, FindsEveryPairOnce) {
 TEST(BoxTree, StopsOnRequest) {
   std::mt19937 draw(4);
   const std::vector<Box3> boxes = drawn(100, draw);
-  int looks = 0;
-  EXPECT_TRUE(BoxTree(boxes).any_pair([&](std::size_t, std::size_t) { return ++looks == 3; }));
-  EXPECT_EQ(looks, 3);
+  int calls = 0;
+  EXPECT_TRUE(BoxTree(boxes).any_pair([&](std::size_t, std::size_t) { return ++calls == 3; }));
+  EXPECT_EQ(calls, 3);
 }
 
 }  // namespace

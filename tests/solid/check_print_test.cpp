@@ -396,9 +396,9 @@ TEST(CheckPrint, VaultIsNoBridge) {
   EXPECT_EQ(failed(check_print(vaulted({{-2, 0}, {-1, 1.1}, {1, 1.1}, {2, 0}}))), "");
 }
 
-// ---- islands --------------------------------------------------------------------------------------------------------
+// ---- unsupported regions --------------------------------------------------------------------------------------------
 
-TEST(CheckPrint, ReportsIsland) {
+TEST(CheckPrint, ReportsUnsupportedRegion) {
   const auto checks = check_print(joined(cube(10), cube(4, {20, 0, 5})));
   EXPECT_EQ(failed(checks), "overhang unsupported_step island");
   EXPECT_EQ(value(checks, "island"), 1);

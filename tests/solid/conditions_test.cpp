@@ -184,23 +184,24 @@ std::string words_of(const char* condition, double Body::*number, double value, 
 
 // A remaining wall and an overlap have different messages, and no size is negative.
 TEST(Conditions, MessagesFitTheSign) {
-  const auto says = [](const std::string& message, const std::string& words) {
+  const auto expect_words = [](const std::string& message, const std::string& words) {
     EXPECT_NE(message.find(words), std::string::npos) << message;
     EXPECT_FALSE(std::regex_search(message, std::regex("-[0-9.]+ mm"))) << message;
   };
-  says(words_of("bore_wall_P2", &Body::bore_diameter, 34), "leaves a wall of ");
-  says(words_of("bore_wall_P2", &Body::bore_diameter, 40), "leaves no wall (overlap of ");
-  says(words_of("hub_wall", &Body::hub_diameter, 6), "leaves a wall of ");
-  says(words_of("hub_wall", &Body::hub_diameter, 4), "leaves no wall (overlap of ");
-  says(words_of("channel_floor", &Body::anchor_hole, 3.4), " mm of a flange");
-  says(words_of("channel_floor", &Body::anchor_hole, 8), "cut through a flange");
-  says(words_of("set_screw_height", &Body::hub_height, 4, "M4"), " mm too low for set screw M4");
+  expect_words(words_of("bore_wall_P2", &Body::bore_diameter, 34), "leaves a wall of ");
+  expect_words(words_of("bore_wall_P2", &Body::bore_diameter, 40), "leaves no wall (overlap of ");
+  expect_words(words_of("hub_wall", &Body::hub_diameter, 6), "leaves a wall of ");
+  expect_words(words_of("hub_wall", &Body::hub_diameter, 4), "leaves no wall (overlap of ");
+  expect_words(words_of("channel_floor", &Body::anchor_hole, 3.4), " mm of a flange");
+  expect_words(words_of("channel_floor", &Body::anchor_hole, 8), "cut through a flange");
+  expect_words(words_of("set_screw_height", &Body::hub_height, 4, "M4"), " mm too low for set screw M4");
   Mechanism mechanism = plain_mechanism();
   mechanism.guides.ED = 15;
   mechanism.pulley.EF = 15;
-  says(condition_named(make_pulley(mechanism, round_pulley()), "pin_clear_D").message, " mm inside the flanges");
+  expect_words(condition_named(make_pulley(mechanism, round_pulley()), "pin_clear_D").message,
+               " mm inside the flanges");
   mechanism.pulley.EF = 20;
-  says(condition_named(make_pulley(mechanism, round_pulley()), "pin_clear_D").message, "comes within ");
+  expect_words(condition_named(make_pulley(mechanism, round_pulley()), "pin_clear_D").message, "comes within ");
 }
 
 TEST(Conditions, ChamferLeavesGrooveEdge) {

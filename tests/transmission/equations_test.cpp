@@ -1,4 +1,4 @@
-// Interval versions of the equations must enclose the values for numbers.
+// The equations in interval arithmetic must enclose their values in double precision.
 #include "transmission/equations.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ TEST(Interval, EnclosesTrueValue) {
 
 bool holds(const Jet& jet, double value) { return jet.value.lower() <= value && value <= jet.value.upper(); }
 
-/// Directions round the whole circle, except straight down.
+/// All directions but those near straight down, where the angle jumps by a full turn.
 TEST(Interval, EnclosesDirections) {
   const RoundingUp rounding;
   for (double angle = -0.49 * k_pi; angle < 1.49 * k_pi; angle += 0.01) {
@@ -41,7 +41,7 @@ TEST(Interval, EnclosesDirections) {
   EXPECT_FALSE(domain.whole);
 }
 
-TEST(Interval, EnclosesSinesOfLineDirections) {
+TEST(Interval, EnclosesSineBeyondWholeTurns) {
   const RoundingUp rounding;
   for (double x = -2.4 * k_pi; x < 2.4 * k_pi; x += 0.05) {
     const Interval over = sin(Interval(x, x + 0.3));
@@ -52,7 +52,7 @@ TEST(Interval, EnclosesSinesOfLineDirections) {
   }
 }
 
-/// One formula per case: the interval encloses the value for numbers and is hardly wider.
+/// One formula per case: its interval contains the double-precision value, with a relative width below 1e-9.
 TEST(Equations, IntervalsEncloseNumbers) {
   for (Mechanism mechanism : {testing::forearm(), testing::reference(), testing::unsymmetric()}) {
     mechanism.load.tip_force = 3.0;

@@ -14,7 +14,7 @@ std::vector<CaliperReading> gain_by_protractor(const DeclaredMechanism& declared
 }
 
 /// Excess of the reading over the range. It includes the sensor's harmonics.
-double shown_too_much(const Imperfections& joint, const Mechanism& declared) {
+double excess_of_reading(const Imperfections& joint, const Mechanism& declared) {
   const JointSensorError& error = joint.sensor;
   const double low = declared.joint.theta_min, high = declared.joint.theta_max;
   if (!(high > low)) return error.gain;
@@ -49,9 +49,8 @@ Effect joint_sensor_gain(JointKind) {
        .shown = shown::in_percent,
        .key = key::in_percent("gain_percent", -99, 1000, "relative excess of the joint sensor's reading"),
        .by_hand = {"hold the joint at both ends of its range against a protractor and enter the excess of the sensor's "
-                   "reading "
-                   "between them, in percent, as prior.gain_percent",
-                   k_protractor, gain_by_protractor, "prior.gain_percent", HandTool::protractor, shown_too_much},
+                   "reading between them, in percent, as prior.gain_percent",
+                   k_protractor, gain_by_protractor, "prior.gain_percent", HandTool::protractor, excess_of_reading},
        .sign = {"the sensor reads too little", "the sensor reads too much"}}};
   return effect;
 }

@@ -64,8 +64,8 @@ class Value:
         return hash(tuple(_hashed(getattr(self, part.name)) for part in _parts(self)))
 
     def __repr__(self) -> str:
-        said = ", ".join(f"{part.name}={_shown(getattr(self, part.name))}" for part in _parts(self) if part.repr)
-        return f"{type(self).__name__}({said})"
+        parts = ", ".join(f"{part.name}={_shown(getattr(self, part.name))}" for part in _parts(self) if part.repr)
+        return f"{type(self).__name__}({parts})"
 
     def __getstate__(self) -> Dict[str, Any]:
         return {name: _frozen(value) if isinstance(value, np.ndarray) else value for name, value in self.__dict__.items()}
@@ -308,7 +308,7 @@ class Motor(Value):
 class UnderLoad(Value):
     """The joint under [load] and [spring], beside the geometry that ``as_built`` describes."""
 
-    theta_error_rad: Extreme  #: from the declared law, in either direction
+    theta_error_rad: Extreme  #: from the target motion, in either direction
     slack1_rad: Tuple[Tuple[float, float], ...]  #: parts of α where tendon 1 is without tension
     slack2_rad: Tuple[Tuple[float, float], ...]
     taut_pretension_N: Optional[float]  #: keeps a slack tendon taut
@@ -430,7 +430,7 @@ class Analysis(Value):
     largest_paper_tension_N: Extreme
     largest_torque_Nmm: Extreme
     hysteresis_rad: Extreme
-    theta_error_rad: Extreme  #: from the declared law, in either direction
+    theta_error_rad: Extreme  #: from the target motion, in either direction
     slack1_rad: Tuple[Tuple[float, float], ...]  #: parts of α where tendon 1 is without tension
     slack2_rad: Tuple[Tuple[float, float], ...]
     untensioned_rad: Tuple[Tuple[float, float], ...]  #: parts of α where both tendons are slack

@@ -193,7 +193,7 @@ TEST(Plates, OmitsChannelThroughPlateWithNote) {
 class PlatesDrawing : public ::testing::TestWithParam<DxfVersion> {};
 INSTANTIATE_TEST_SUITE_P(BothVersions, PlatesDrawing, ::testing::Values(DxfVersion::ac1015, DxfVersion::r12));
 
-TEST_P(PlatesDrawing, NothingToComplainOf) {
+TEST_P(PlatesDrawing, PassesAllChecks) {
   const Drawing drawing = drawn(egg_with_anchor(), GetParam());
   EXPECT_THAT(failed(check_drawing(drawing)), IsEmpty());
   EXPECT_EQ(on_layer(drawing, "CUT_OUTER").size(), make_plates(egg_with_anchor()).placed.size());

@@ -80,7 +80,7 @@ TEST(ProfileDxf, KeepsEdgesWithoutArcs) {
   for (const BulgeVertex& edge : edges) EXPECT_EQ(edge.bulge, 0);
 }
 
-TEST_P(BothVersions, NothingToComplainOf) {
+TEST_P(BothVersions, PassAllChecks) {
   const auto checks = check_drawing(drawn(egg()));
   EXPECT_THAT(failed(checks), IsEmpty());
 }

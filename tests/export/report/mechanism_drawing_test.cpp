@@ -63,20 +63,20 @@ TEST(PolarFigure, ReportsErrorOfPolarDrawing) {
   EXPECT_FALSE(polar_figure(synthesis, transmission::Side::left)) << "P1 is round: both are one";
   const auto figure = polar_figure(synthesis, transmission::Side::right);
   ASSERT_TRUE(figure);
-  double said = 0;
+  double stated = 0;
   const std::size_t at = figure->body.find(" mm apart at ");
   ASSERT_NE(at, std::string::npos);
   const std::size_t begin = figure->body.rfind('>', at) + 1;
   std::string words = figure->body.substr(begin, at - begin);
   if (words.rfind("\u2212", 0) == 0) words = "-" + words.substr(std::string("\u2212").size());
-  ASSERT_EQ(std::sscanf(words.c_str(), "%lf", &said), 1);
+  ASSERT_EQ(std::sscanf(words.c_str(), "%lf", &stated), 1);
   // The exact profile's radius where the tendon leaves it is larger than the tendon's distance from the axis:
   // √(r2² + r2'²), and it stands as much further on.
   double most = 0;
   for (const transmission::TransmissionPoint& point : synthesis.stroke)
     most = std::max(most, std::hypot(point.t2.p, point.t2.dp) - point.t2.p);
-  EXPECT_GT(std::abs(said), 0.2 * most);
-  EXPECT_LT(std::abs(said), 20 * most);
+  EXPECT_GT(std::abs(stated), 0.2 * most);
+  EXPECT_LT(std::abs(stated), 20 * most);
 }
 
 TEST(Thinned, StaysWithinItsTolerance) {

@@ -44,13 +44,13 @@ double distance_to_line(const Vec2& point, const Vec2& from, const Vec2& to) {
   return std::abs(cross(to - from, point - from)) / (to - from).norm();
 }
 
-template <typename Look>
-void for_each_trace(const Case& c, Look look) {
+template <typename Visit>
+void for_each_trace(const Case& c, Visit visit) {
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     for (const transmission::TransmissionPoint& point : c.synthesis.stroke) {
       const auto trace = trace_tendon(c.mechanism, outline_of(c, side), point.alpha, point.theta);
       ASSERT_TRUE(trace.has_value());
-      look(side, point, *trace);
+      visit(side, point, *trace);
     }
   }
 }

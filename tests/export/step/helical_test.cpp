@@ -7,12 +7,12 @@
 #include <variant>
 #include <vector>
 
-#include "coil/helical_plan.h"
-#include "coil/spirals.h"
 #include "export/step/helical_curve.h"
 #include "export/step/normal_spline.h"
 #include "export/step/skin.h"
 #include "fusee/base.h"
+#include "helical_solid/helical_plan.h"
+#include "helical_solid/spirals.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 
@@ -43,7 +43,7 @@ TEST(HelicalCurve, FollowsKnownCurve) {
   const Known known;
   // Rows further apart than those of any pulley.
   const helix::Spiral spiral = spiral_of(known.shape, known.begin, 5.0, known.slope, 0.1);
-  const coil::SpiralPlace place{60.0, -1.0};
+  const helical_solid::SpiralPlace place{60.0, -1.0};
   const HelicalCurve curve(spiral, place);
   for (int i = 0; i < 1000; ++i) {
     const double turn = known.begin + 5.0 * k_two_pi * (i + 0.37) / 1000;
@@ -66,12 +66,12 @@ class Skin : public ::testing::Test {
       product.joint.mechanism = declared;
       const Mechanism& mechanism = product.joint.mechanism;
       HelixProduct& helix = product.helix.emplace();
-      const coil::HelicalSection section = coil::helical_section(mechanism);
+      const helical_solid::HelicalSection section = helical_solid::helical_section(mechanism);
       const auto p1 = oval(9.0, 0.6, 0.3, 0.4), p2 = growing(13.0, -0.8, 2.0);
       helix.synthesis.sides[0].spiral = spiral_of(p1, 0.4, 4.3, 1.02 * testing::slope_for(p1, 0.4, 4.3, section));
       helix.synthesis.sides[1].spiral = spiral_of(p2, 2.0, 3.6, 1.02 * testing::slope_for(p2, 2.0, 3.6, section));
-      helix.pulley =
-          coil::make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral);
+      helix.pulley = helical_solid::make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral,
+                                                        helix.synthesis.sides[1].spiral);
       product.pulley.layout = helix.pulley.layout;
       return product;
     }();
@@ -190,9 +190,9 @@ TEST_F(Skin, VolumeMatchesBlank) {
       }
     }
   }
-  const coil::HelicalPlan& plan = *product().helix->pulley.plan;
+  const helical_solid::HelicalPlan& plan = *product().helix->pulley.plan;
   const solid::BodyLayout& layout = product().helix->pulley.layout;
-  const solid::TriangleMesh blank = coil::helical_blank(plan.fan, plan.section, layout, plan.heights);
+  const solid::TriangleMesh blank = helical_solid::helical_blank(plan.fan, plan.section, layout, plan.heights);
   const double bore = std::abs(signed_area(layout.bore.outline)) * plan.heights.hub_top;
   const double expected = std::pow(layout.scale, 3) * (solid::enclosed_volume(blank) + bore);
   EXPECT_NEAR(volume, expected, 0.002 * expected);

@@ -90,8 +90,8 @@ TEST(NormalSpline, PiecesJoinTangentially) {
   EXPECT_LT(std::abs(cross(before.normalized(), after.normalized())), 1e-9);
 }
 
-/// Radius 10 up to ψ = π, growing by 8 mm/rad from there on. Such a curve does not close, so the sector excludes the
-/// gap.
+/// The radius is 10 up to ψ = π, and grows by 8 mm/rad from there on. Such a curve does not close: the fitted sector
+/// excludes the gap.
 TEST(NormalSpline, DeclaredKinkAddsNoPoles) {
   std::vector<double> psi = directions(), radii;
   *std::min_element(psi.begin(), psi.end(),
@@ -106,15 +106,15 @@ TEST(NormalSpline, DeclaredKinkAddsNoPoles) {
     points.push_back(point(at));
   }
   const SupportCurve curve(psi, points, radii);
-  const auto said = fit(curve, 1, 5, {k_pi}, 1e-5, 1), unsaid = fit(curve, 1, 5, {}, 1e-5, 1);
-  ASSERT_TRUE(said && unsaid);
-  EXPECT_LT(said->position.size() + 4, unsaid->position.size());
-  const StepSpline spline = said->parallel(0);
+  const auto with_kink = fit(curve, 1, 5, {k_pi}, 1e-5, 1), without_kink = fit(curve, 1, 5, {}, 1e-5, 1);
+  ASSERT_TRUE(with_kink && without_kink);
+  EXPECT_LT(with_kink->position.size() + 4, without_kink->position.size());
+  const StepSpline spline = with_kink->parallel(0);
   for (const double at : {1.5, 3.0, k_pi, 3.3, 4.5}) EXPECT_LT((point_on(spline, at) - point(at)).norm(), 2e-5) << at;
 }
 
-/// A straight of the curve as over idlers, with samples a fifth of a degree apart beside it. Radius 12 before it and 14
-/// after it.
+/// A straight section, as curves for idlers have, between samples that are a fifth of a degree apart. The radius is 12
+/// before it and 14 after it.
 TEST(NormalSpline, StraightBetweenSamplesIsStraight) {
   constexpr double k_straight = 2.4, k_at = 3.5;
   constexpr double k_beside = radians(0.1), k_turn = radians(0.005);

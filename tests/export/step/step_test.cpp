@@ -68,7 +68,7 @@ TEST_F(Step, IsOneSolidThatPassesItsChecks) {
   EXPECT_THAT(small_file().bytes, HasSubstr("FILE_NAME('pulley.step','1970-01-01T00:00:00'"));
 }
 
-TEST_F(Step, AFaceThatIsMissingIsSeen) {
+TEST_F(Step, DetectsMissingFace) {
   const std::string& bytes = small_file().bytes;
   const std::size_t shell = bytes.find("CLOSED_SHELL('',(") + 17, end = bytes.find(',', shell);
   std::string broken = bytes;
@@ -118,13 +118,13 @@ TEST_F(HelicalStep, IsSoundSolidAndWinds) {
   ASSERT_EQ(file().complaint, "");
   const StepInspection inspection = inspect(file().bytes);
   for (const Check& check : inspection.checks) EXPECT_TRUE(check.ok) << check.name << " " << check.value;
-  const coil::HelicalRewind wound = pipeline::rewind_several_turns(helical(), inspection.helical);
+  const helical_solid::HelicalRewind wound = pipeline::rewind_several_turns(helical(), inspection.helical);
   // Measured on the surfaces themselves: the error is far below that of facets.
   EXPECT_LT(degrees(wound.result.max_theta_error), 0.002);
   EXPECT_LT(wound.result.max_excess, 0.001);
 }
 
-TEST_F(HelicalStep, FloorsOfAnotherTendonAreSeen) {
+TEST_F(HelicalStep, DetectsFloorsOfAnotherTendon) {
   write_file(path_, file().bytes, true);
   Product other = helical();
   other.joint.mechanism.tendon.diameter += 0.001;
@@ -132,7 +132,7 @@ TEST_F(HelicalStep, FloorsOfAnotherTendonAreSeen) {
               Contains(::testing::AllOf(Field(&Check::name, "floor_error"), Field(&Check::ok, false))));
 }
 
-TEST_F(HelicalStep, AFaceThatIsMissingIsSeen) {
+TEST_F(HelicalStep, DetectsMissingFace) {
   std::string broken = file().bytes;
   const std::size_t shell = broken.find("CLOSED_SHELL('',(") + 17, end = broken.find(',', shell);
   broken.erase(shell, end - shell + 1);

@@ -4,16 +4,16 @@
 #include <utility>
 
 #include "base/text.h"
-#include "coil/half_planes.h"
 #include "fusee/base.h"
-#include "fusee/coil.h"
+#include "fusee/helical_solid.h"
+#include "helical_solid/half_planes.h"
 #include "profile/string_above.h"
 
 // Independent check of the synthesis. A string is laid on the groove floors that half-planes found. In plan it goes
 // round the corners of an open polygon at half its thickness; along the axis it has the height of the floor's band. Its
 // free path is straight when unrolled.
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 namespace {
 
 // Least depth of a groove. Shallower minima are chamfer edges or chords.
@@ -316,4 +316,4 @@ HelicalRewind rewind_helical(const solid::TriangleMesh& mesh, const Mechanism& m
   return rewind_floors(floors[0], floors[1], mechanism, stroke, laid);
 }
 
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

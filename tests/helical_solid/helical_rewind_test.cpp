@@ -3,14 +3,14 @@
 
 #include <cmath>
 
-#include "coil/spirals.h"
 #include "fusee/base.h"
-#include "fusee/coil.h"
+#include "fusee/helical_solid.h"
 #include "fusee/transmission.h"
+#include "helical_solid/spirals.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 namespace {
 
 /// Distance of a point from the spiral's floor.
@@ -154,4 +154,4 @@ TEST(HelicalRewind, RejectsGrooveEndingWithinRange) {
 }
 
 }  // namespace
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

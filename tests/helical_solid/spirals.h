@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "fusee/base.h"
-#include "fusee/coil.h"
+#include "fusee/helical_solid.h"
 #include "fusee/helix.h"
 
 namespace fusee::testing {
@@ -58,14 +58,15 @@ inline SupportCurve oval(double radius, double per_turn, double wave, double beg
 }
 
 /// The least slope at which neighbouring turns of `turns` turns of a curve clear each other.
-inline double slope_for(const SupportCurve& curve, double begin, double turns, const coil::HelicalSection& section) {
+inline double slope_for(const SupportCurve& curve, double begin, double turns,
+                        const helical_solid::HelicalSection& section) {
   double slope = 0;
   const auto rho = [&curve](double at) { return curve.p(at) + curve.d2p(at); };
   constexpr int k_steps = 400;
   for (double at = begin; at + k_two_pi <= begin + turns * k_two_pi; at += 0.05) {
     double s = 0;
     for (int k = 0; k < k_steps; ++k) s += rho(at + k_two_pi * (k + 0.5) / k_steps) * k_two_pi / k_steps;
-    slope = std::max(slope, coil::least_lead(section, curve.p(at) - curve.p(at + k_two_pi)) / s);
+    slope = std::max(slope, helical_solid::least_lead(section, curve.p(at) - curve.p(at + k_two_pi)) / s);
   }
   return slope;
 }

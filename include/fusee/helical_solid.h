@@ -13,7 +13,7 @@
 #include "fusee/solid.h"
 #include "fusee/transmission.h"
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 
 // ---- Helical pulley -------------------------------------------------------------------------------------------------
 // Two spirals → one closed mesh: P1's helical groove below P2's, stacked along the axis. mm, rad.
@@ -60,7 +60,7 @@ struct HelicalAnchor {
   double bend_radius = 0;   ///< radius of the arc between exit and pocket, to the tendon's centre line
 };
 
-struct HelicalPlan;  // coil/helical_plan.h
+struct HelicalPlan;  // helical_solid/helical_plan.h
 
 /// A multi-turn pulley as one solid, or the conditions that fail.
 struct HelicalPulley {
@@ -135,4 +135,4 @@ HelicalRewind rewind_helical(const solid::TriangleMesh& mesh, const Mechanism& m
 HelicalRewind rewind_floors(const FloorLine& floor1, const FloorLine& floor2, const Mechanism& mechanism,
                             const std::vector<transmission::TransmissionPoint>& stroke, const TendonsLaid& laid);
 
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

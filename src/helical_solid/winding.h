@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "fusee/base.h"
-#include "fusee/coil.h"
+#include "fusee/helical_solid.h"
 #include "fusee/helix.h"
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 
 /// A point on the pitch curve, in the part's frame.
 struct WindingRow {
@@ -84,4 +84,4 @@ struct Fan {
 Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, double floor_inward, double chord_error_mm,
              double filled);
 
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

@@ -1,11 +1,11 @@
-#include "coil/winding.h"
+#include "helical_solid/winding.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "fusee/base.h"
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 namespace {
 
 // Groove ends closer than this share a column: a narrower column would be a sliver, and the difference is negligible
@@ -179,4 +179,4 @@ Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, doubl
   return fan;
 }
 
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

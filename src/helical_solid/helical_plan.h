@@ -4,12 +4,12 @@
 
 #include <array>
 
-#include "coil/helical_blank.h"
-#include "coil/run_out.h"
-#include "coil/winding.h"
-#include "fusee/coil.h"
+#include "fusee/helical_solid.h"
+#include "helical_solid/helical_blank.h"
+#include "helical_solid/run_out.h"
+#include "helical_solid/winding.h"
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 
 struct HelicalPlan {
   Fan fan;
@@ -19,4 +19,4 @@ struct HelicalPlan {
   std::array<RunOutSizes, 2> run_outs;
 };
 
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

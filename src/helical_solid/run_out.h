@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "coil/winding.h"
 #include "fusee/base.h"
-#include "fusee/coil.h"
+#include "fusee/helical_solid.h"
+#include "helical_solid/winding.h"
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 
 /// Dimensions of a run-out.
 struct RunOutSizes {
@@ -82,4 +82,4 @@ std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& 
 /// The volume to cut, as a closed mesh; empty if channel and pocket do not join. Each `variant` has different facets.
 std::optional<solid::TriangleMesh> run_out_tool(const GrooveEnd& end, const RunOutSizes& sizes, int variant);
 
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

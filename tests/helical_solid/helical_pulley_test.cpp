@@ -5,13 +5,13 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "coil/spirals.h"
-#include "fusee/coil.h"
+#include "fusee/helical_solid.h"
+#include "helical_solid/spirals.h"
 #include "solid/print.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 namespace {
 
 using fusee::testing::growing;
@@ -117,4 +117,4 @@ TEST(HelicalPulley, RejectsIntersectingTurns) {
 }
 
 }  // namespace
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

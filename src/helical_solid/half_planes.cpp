@@ -1,4 +1,4 @@
-#include "coil/half_planes.h"
+#include "helical_solid/half_planes.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 namespace {
 
 // Pieces shorter than this along the axis count as level.
@@ -217,4 +217,4 @@ std::vector<FloorTrace> floor_traces(const std::vector<std::vector<FloorPlace>>&
   return FloorJoiner(floors).traces();
 }
 
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

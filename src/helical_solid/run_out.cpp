@@ -1,4 +1,4 @@
-#include "coil/run_out.h"
+#include "helical_solid/run_out.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include "solid/nearest_float.h"
 #include "solid/tools.h"
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 namespace {
 
 // Narrower channels close in the print (the bound of one-turn pulleys' channels).
@@ -268,4 +268,4 @@ std::optional<solid::TriangleMesh> run_out_tool(const GrooveEnd& end, const RunO
   return both->mesh;
 }
 
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

@@ -7,7 +7,7 @@
 
 #include "fusee/solid.h"
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 
 /// A straight piece of an outline in a half-plane: distance from the axis over height.
 struct OutlinePiece {
@@ -40,4 +40,4 @@ struct FloorTrace {
 /// because a half-plane does not cut a complete groove section there. `floors`: those of each half-plane.
 std::vector<FloorTrace> floor_traces(const std::vector<std::vector<FloorPlace>>& floors);
 
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "coil/half_planes.h"
-#include "fusee/coil.h"
+#include "fusee/helical_solid.h"
 #include "fusee/solid.h"
+#include "helical_solid/half_planes.h"
 #include "solid/euler.h"
 #include "solid/place.h"
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 namespace {
 
 constexpr std::size_t k_gauge_planes = 360;
@@ -125,4 +125,4 @@ std::vector<Check> check_helical_pulley(const solid::TriangleMesh& mesh, const H
   return checks;
 }
 
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

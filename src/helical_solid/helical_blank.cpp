@@ -1,4 +1,4 @@
-#include "coil/helical_blank.h"
+#include "helical_solid/helical_blank.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -18,7 +18,7 @@
 // ladder of bands, section by section and rib by rib. A rib belongs to both the turn below it and the turn above it.
 // Where a groove begins or ends, one side of a strip has two more corners, and a wall closes the groove's section.
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 namespace {
 
 using Index = std::uint32_t;
@@ -465,4 +465,4 @@ solid::TriangleMesh helical_blank(const Fan& fan, const HelicalSection& section,
   return BlankBuilder(fan, section, layout, heights).build();
 }
 
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

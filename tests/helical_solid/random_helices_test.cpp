@@ -7,13 +7,13 @@
 #include <random>
 #include <string>
 
-#include "coil/spirals.h"
-#include "fusee/coil.h"
+#include "fusee/helical_solid.h"
+#include "helical_solid/spirals.h"
 #include "solid/print.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 namespace {
 
 struct RandomPulley {
@@ -103,4 +103,4 @@ TEST(RandomHelices, AreSolidsOrReportWhyNot) {
 }
 
 }  // namespace
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "base/text.h"
-#include "coil/helical_blank.h"
-#include "coil/helical_plan.h"
-#include "coil/run_out.h"
-#include "coil/winding.h"
 #include "fusee/base.h"
-#include "fusee/coil.h"
+#include "fusee/helical_solid.h"
+#include "helical_solid/helical_blank.h"
+#include "helical_solid/helical_plan.h"
+#include "helical_solid/run_out.h"
+#include "helical_solid/winding.h"
 #include "solid/boolean.h"
 #include "solid/bore.h"
 #include "solid/condition_list.h"
@@ -28,7 +28,7 @@
 #include "solid/size.h"
 #include "solid/support_attribution.h"
 #include "solid/tools.h"
-namespace fusee::coil {
+namespace fusee::helical_solid {
 namespace {
 
 // A rib of two lines of a 0.4 mm nozzle, plus the loss of a typical printer.
@@ -517,4 +517,4 @@ HelicalPulley make_helical_pulley(const Mechanism& mechanism, const helix::Spira
   return Planner(mechanism, p1, p2, chord_error_mm).make(search);
 }
 
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: range of a logged number, and even bins over it.
+/// Internal: range of a logged number, and equal bins over it.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace fusee::measurement {
 
-struct SeenSpan {
+struct ValueRange {
   double least = std::numeric_limits<double>::infinity();
   double most = -std::numeric_limits<double>::infinity();
 
@@ -21,15 +21,15 @@ struct SeenSpan {
   double size() const { return most - least; }
 };
 
-inline SeenSpan seen_span(const std::vector<Sample>& samples, double Sample::*number) {
-  SeenSpan span;
+inline ValueRange value_range(const std::vector<Sample>& samples, double Sample::*number) {
+  ValueRange span;
   for (const Sample& sample : samples) span.take(sample.*number);
   return span;
 }
 
 /// Range over all runs.
-inline SeenSpan seen_span(const Measurement& measurement, double Sample::*number) {
-  SeenSpan span;
+inline ValueRange value_range(const Measurement& measurement, double Sample::*number) {
+  ValueRange span;
   for (const Run& run : measurement.runs) {
     for (const Sample& sample : run.samples) span.take(sample.*number);
   }
@@ -38,7 +38,7 @@ inline SeenSpan seen_span(const Measurement& measurement, double Sample::*number
 
 /// A span cut into `count` bins of one width.
 struct Bins {
-  SeenSpan span;
+  ValueRange span;
   int count = 1;
 
   /// Position in bins, clamped to 0 … `count`; 0 for an empty span.

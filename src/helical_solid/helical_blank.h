@@ -2,12 +2,12 @@
 /// Internal: the body before cuts, as one structured grid closed by flat faces, bore and hub.
 #pragma once
 
-#include "coil/winding.h"
 #include "fusee/base.h"
 #include "fusee/solid.h"
 #include "fusee/transmission.h"
+#include "helical_solid/winding.h"
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 
 /// Heights of the rings that bound the grooves. The lowest ring is chamfered.
 struct RingHeights {
@@ -27,4 +27,4 @@ double middle_step(const Fan& fan, double groove_edge);
 solid::TriangleMesh helical_blank(const Fan& fan, const HelicalSection& section, const solid::BodyLayout& layout,
                                   const RingHeights& heights);
 
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid

@@ -1,5 +1,5 @@
 // Channels from a groove's end to the knot. Their ceilings become downward faces of the part.
-#include "coil/run_out.h"
+#include "helical_solid/run_out.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "fusee/base.h"
 #include "solid/self_intersection.h"
 
-namespace fusee::coil {
+namespace fusee::helical_solid {
 namespace {
 
 constexpr double k_radius = 12.0, k_from_face = 9.0;
@@ -113,4 +113,4 @@ TEST(RunOut, PocketOpeningBelowHasNoCeiling) {
 }
 
 }  // namespace
-}  // namespace fusee::coil
+}  // namespace fusee::helical_solid
