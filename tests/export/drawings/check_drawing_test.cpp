@@ -54,7 +54,7 @@ TEST(CheckDrawing, ReportsOvershootOnce) {
   drawing.paths[2] = contour("CUT_OUTER", {{0, 0}, {30, 0}, {30, 30}, {0, 30}, {0, -0.01}}, false);
   EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("ends_meet"));
   drawing.paths[2].points = {{0, 0}, {30, 0}, {30, 30}, {15, -1}, {0, 30}, {0, 0.01}};
-  EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("ends_meet", "no_self_crossing"));
+  EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("ends_meet", "no_self_crossing", "nothing_outside"));
 }
 
 // The ends of a short line are close, but it was never meant to be closed.

@@ -46,8 +46,8 @@ std::string prism(const std::vector<std::pair<double, double>>& outline, std::si
 // CAD and Blender write flat faces as one polygon, concave or with corners on a line. A fan would fold back.
 TEST(ReadMesh, DividesConcavePolygons) {
   const std::vector<std::pair<double, double>> corner = {{0, 0}, {20, 0}, {20, 10}, {10, 10}, {10, 20}, {0, 20}};
-  const std::vector<std::pair<double, double>> trough = {{0, 0},  {20, 0}, {20, 20}, {15, 20},
-                                                         {15, 5}, {5, 5},  {5, 20},  {0, 20}};
+  const std::vector<std::pair<double, double>> channel = {{0, 0},  {20, 0}, {20, 20}, {15, 20},
+                                                          {15, 5}, {5, 5},  {5, 20},  {0, 20}};
   const std::vector<std::pair<double, double>> on_lines = {{0, 0},   {10, 0},  {20, 0}, {20, 10},
                                                            {20, 20}, {10, 20}, {0, 20}, {0, 10}};
   // The bridge from the outline to a square hole is passed twice.
@@ -58,7 +58,7 @@ TEST(ReadMesh, DividesConcavePolygons) {
     std::vector<std::pair<double, double>> outline;
     double area;
   };
-  for (const Case& shape : {Case{"corner", corner, 300}, Case{"trough", trough, 250}, Case{"on lines", on_lines, 400},
+  for (const Case& shape : {Case{"corner", corner, 300}, Case{"channel", channel, 250}, Case{"on lines", on_lines, 400},
                             Case{"with hole", with_hole, 300}}) {
     for (std::size_t first = 0; first < shape.outline.size(); ++first) {
       const solid::TriangleMesh mesh = solid::weld(read_mesh(prism(shape.outline, first), "x.off"));
