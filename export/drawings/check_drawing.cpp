@@ -340,6 +340,13 @@ struct CrossingChecks {
   Check mutual;
 };
 
+/// True if ends that almost meet also cross there: ends_meet reports it.
+bool is_overshoot(const DrawingPath& path, const Vec2& crossing) {
+  const double reach = 2 * gap_of(path);
+  return almost_closes(path) &&
+         ((path.points.front() - crossing).norm() <= reach || (path.points.back() - crossing).norm() <= reach);
+}
+
 /// Checks each contour alone, and then those without faults together, layer by layer.
 CrossingChecks check_crossings(const Paths& contours) {
   std::size_t crossed = 0;
@@ -347,6 +354,7 @@ CrossingChecks check_crossings(const Paths& contours) {
   std::map<std::string, Paths> whole;  // by layer
   for (const DrawingPath* path : contours) {
     const auto fault = fault_within(*path);
+    if (fault && is_overshoot(*path, crossing_point(fault->first, fault->second))) continue;
     if (!fault) whole[path->layer].push_back(path);
     if (fault && crossed++ == 0)
       self_where = "crosses or touches itself: " + place(*path, crossing_point(fault->first, fault->second));
@@ -455,6 +463,13 @@ Check check_inside(const Drawing& drawing) {
   return exactly("nothing_outside", static_cast<double>(outside), 0, "1", where);
 }
 
+std::string none_to_cut(const Drawing& drawing) {
+  std::string text = "the drawing has no lines to cut";
+  for (const std::string& kind : drawing.ignored)
+    text += (&kind == &drawing.ignored.front() ? ", and these are not read: " : ", ") + kind;
+  return text;
+}
+
 Check check_undrawn(const Drawing& drawing) {
   return exactly("undrawn_entities", static_cast<double>(drawing.undrawn), 0, "1",
                  fmt::format("line {}: {}", drawing.first_undrawn.line, drawing.first_undrawn.why));
@@ -469,8 +484,7 @@ std::vector<Check> check_drawing(const Drawing& drawing) {
   std::vector<Check> checks = {check_undrawn(drawing)};
   // A drawing whose entities were all undrawable has no contours and already one fault.
   if (!contours.empty() || drawing.undrawn == 0) {
-    checks.push_back(
-        at_least("contours", static_cast<double>(contours.size()), 1, "1", "the drawing has no lines to cut"));
+    checks.push_back(at_least("contours", static_cast<double>(contours.size()), 1, "1", none_to_cut(drawing)));
   }
   checks.push_back(check_contours_closed(contours));
   checks.push_back(check_ends_meet(contours));

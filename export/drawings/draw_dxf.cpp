@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 
@@ -102,6 +103,10 @@ class DxfDrawer {
     if (understood.layer.empty() || understood.layer == "0") understood.layer = block_layer;
     if (values.point(210).norm() > 1e-6) {
       understood.drawn.passed_over = " out of the plane";
+      constexpr auto k_curves = std::to_array<std::string_view>(
+          {"LINE", "LWPOLYLINE", "POLYLINE", "CIRCLE", "ARC", "ELLIPSE", "SPLINE", "INSERT"});
+      if (std::find(k_curves.begin(), k_curves.end(), entity.type) != k_curves.end())
+        understood.drawn.remark = "this " + std::string(entity.type) + " lies out of the plane and is not read";
       return understood;
     }
     // The x of an entity drawn from below is mirrored (except for those in world coordinates).
@@ -144,7 +149,7 @@ class DxfDrawer {
 
   const DxfBlock& block_of(const DxfEntity& entity) const {
     const std::string name(DxfValues(file_, entity.tags).text(2));
-    const auto block = dxf_.blocks.find(name);
+    const auto block = dxf_.blocks.find(block_key(name));
     if (block == dxf_.blocks.end()) {
       fail_in_dxf(file_, entity.line,
                   "this INSERT names the block " + quoted_bytes(name) + ", which the file does not hold");

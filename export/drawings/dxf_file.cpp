@@ -100,7 +100,7 @@ class DxfFileReader {
       const DxfValues values(name_, head);
       DxfBlock block{values.point(10), {}};
       read_entities(tag, block.entities, "ENDBLK");
-      file_.blocks.insert_or_assign(std::string(values.text(2)), std::move(block));
+      file_.blocks.insert_or_assign(block_key(values.text(2)), std::move(block));
       std::vector<DxfTag> end;
       tag = read_tags(end);
     }
@@ -114,6 +114,12 @@ class DxfFileReader {
 };
 
 }  // namespace
+
+std::string block_key(std::string_view name) {
+  std::string key(name);
+  for (char& c : key) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return key;
+}
 
 double DxfFile::unit_in_mm() const {
   switch (units.value_or(0)) {
@@ -135,6 +141,10 @@ double DxfFile::unit_in_mm() const {
       return 1e-3;
     case 14:
       return 100;
+    case 21:  // feet and inches of the US survey
+      return 1.2e6 / 3937;
+    case 22:
+      return 1e5 / 3937;
     default:
       return 1;
   }

@@ -1,6 +1,7 @@
 #include "export/drawings/entity_curves.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/text.h"
@@ -113,7 +114,9 @@ EntityCurve spline(const DxfEntity& entity, const std::string& file, const Drawi
     if (tag.code == 10) spline.poles.emplace_back(dxf_number(file, tag), 0, 1);
     if (tag.code == 20 && !spline.poles.empty()) spline.poles.back().y() = dxf_number(file, tag);
   }
-  if (spline.poles.empty()) return {std::nullopt, " without control points", {}};
+  if (spline.poles.empty())
+    return {std::nullopt, " without control points",
+            "this SPLINE has no control points and is not read: export it as a polyline"};
   check_spline(entity, file, spline, weights);
   for (Vec3& pole : spline.poles) pole.head<2>() = place(pole.head<2>());
   for (std::size_t i = 0; i < weights.size(); ++i) spline.poles[i] *= weights[i];
@@ -132,6 +135,10 @@ EntityCurve curve_of(const DxfEntity& entity, const std::string& file, const Dra
   if (entity.type == "CIRCLE" || entity.type == "ARC") return circle_or_arc(entity, file, place, sagitta);
   if (entity.type == "ELLIPSE") return ellipse(entity, file, place, sagitta);
   if (entity.type == "SPLINE") return spline(entity, file, place, sagitta);
+  constexpr auto k_outlines =
+      std::to_array<std::string_view>({"MLINE", "REGION", "BODY", "3DSOLID", "SURFACE", "TRACE"});
+  if (std::find(k_outlines.begin(), k_outlines.end(), entity.type) != k_outlines.end())
+    return {std::nullopt, "", "this " + std::string(entity.type) + " is not read: explode it to lines and arcs"};
   return {};
 }
 

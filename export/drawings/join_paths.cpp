@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "export/drawings/end_points.h"
 
 namespace fusee::formats {
 namespace {
+
+/// Bound on comparisons of paths between the same two points.
+constexpr std::size_t k_most_between = 16;
 
 /// One end of an open path.
 struct PathEnd {
@@ -17,11 +21,12 @@ struct PathEnd {
 
 class PathJoiner {
  public:
-  explicit PathJoiner(std::vector<DrawingPath>& paths) : paths_(paths), used_(paths.size(), false) {}
+  explicit PathJoiner(std::vector<DrawingPath>& paths)
+      : paths_(paths), used_(paths.size(), false), repeated_(paths.size(), false) {}
 
   std::vector<DrawingPath> join() {
     for (std::size_t i = 0; i < paths_.size(); ++i) {
-      if (paths_[i].closed) continue;
+      if (paths_[i].closed || is_repeated(i)) continue;
       ends_of(i, false).push_back({i, false});
       ends_of(i, true).push_back({i, true});
     }
@@ -33,6 +38,26 @@ class PathJoiner {
   }
 
  private:
+  /// True for an open path that an earlier one of its layer draws already, in either direction. Joined, it would open
+  /// the chain that it repeats.
+  bool is_repeated(std::size_t i) {
+    const DrawingPath& path = paths_[i];
+    if (path.in_space) return false;
+    Layer& layer = layers_[path.layer];
+    const auto ends = std::minmax({layer.points.number(path.points.front()), layer.points.number(path.points.back())});
+    std::vector<std::size_t>& known = layer.between[ends];
+    repeated_[i] = std::any_of(known.begin(), known.end(), [&](std::size_t k) { return is_same(paths_[k], path); });
+    if (!repeated_[i] && known.size() < k_most_between) known.push_back(i);
+    return repeated_[i];
+  }
+
+  static bool is_same(const DrawingPath& one, const DrawingPath& other) {
+    const auto is_near = [](const Vec2& a, const Vec2& b) { return (a - b).norm() <= k_joined; };
+    return one.points.size() == other.points.size() &&
+           (std::equal(one.points.begin(), one.points.end(), other.points.begin(), is_near) ||
+            std::equal(one.points.begin(), one.points.end(), other.points.rbegin(), is_near));
+  }
+
   std::vector<PathEnd>& ends_of(std::size_t path, bool last) {
     const Polygon& points = paths_[path].points;
     Layer& layer = layers_[paths_[path].layer];
@@ -69,7 +94,7 @@ class PathJoiner {
     paths_[i].points = {path.points.front(), path.points.back()};  // extend() still looks up the ends
     paths_[i].layer = path.layer;
     used_[i] = true;
-    if (path.closed) return path;
+    if (path.closed || repeated_[i]) return path;
     extend(path.points, i, true);
     std::reverse(path.points.begin(), path.points.end());
     extend(path.points, i, false);
@@ -81,9 +106,10 @@ class PathJoiner {
   struct Layer {
     EndPoints points;
     std::vector<std::vector<PathEnd>> ends;
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> between;  ///< paths between two points
   };
   std::vector<DrawingPath>& paths_;
-  std::vector<bool> used_;
+  std::vector<bool> used_, repeated_;
   std::map<std::string, Layer> layers_;
 };
 

@@ -8,8 +8,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -39,14 +37,5 @@ bool is_binary_stl(std::string_view bytes);
 /// Fails unless `count` items of at least `least_bytes` each fit into the bytes after `offset`.
 void demand_room(const Source& source, std::size_t offset, std::uint64_t count, std::size_t least_bytes,
                  const std::string& things);
-
-/// Adds a polygon as a fan of triangles about its first corner. Polygons of one or two corners have no facets. Nothing
-/// is added, and the expected content is returned,
-/// - if it has more than two corners for each vertex that it can name (an outline bridged to a hole passes a vertex
-///   twice, none more often);
-/// - if the mesh would have more facets than the file has bytes for. A closed mesh of V vertices has 2 V facets and at
-///   least 3 V corners, which take over 12 bytes a vertex in any of these formats once V needs two bytes.
-[[nodiscard]] std::optional<std::string> add_fan(const Source& source, solid::TriangleMesh& mesh,
-                                                 std::span<const std::uint32_t> corners);
 
 }  // namespace fusee::formats

@@ -8,6 +8,7 @@
 
 #include "export/mesh_files/mesh_files.h"
 #include "export/mesh_files/mesh_formats.h"
+#include "export/mesh_files/polygons.h"
 #include "export/mesh_files/text_scanner.h"
 #include "export/tool.h"
 
@@ -51,15 +52,15 @@ std::int64_t corner_index(const TextScanner& text, std::string_view word, std::s
   return static_cast<std::int64_t>(vertices) + index;
 }
 
-void read_face(TextScanner& text, solid::TriangleMesh& mesh, GreatestIndex& greatest) {
+void read_face(TextScanner& text, std::size_t vertices, PolygonSplitter& polygons, GreatestIndex& greatest) {
   std::vector<std::uint32_t> corners;
   for (std::string_view word = statement_word(text); !word.empty(); word = statement_word(text)) {
-    const std::int64_t index = corner_index(text, word, mesh.vertices.size());
+    const std::int64_t index = corner_index(text, word, vertices);
     if (index > greatest.index) greatest = {index, text.place()};
     corners.push_back(static_cast<std::uint32_t>(index));
   }
   if (corners.empty()) text.fail("a face of at least 1 corner");
-  if (const auto expected = add_fan(text.source(), mesh, corners)) text.fail(*expected);
+  if (const auto expected = polygons.add(corners)) text.fail(*expected);
 }
 
 void put_line(fmt::memory_buffer& to, const Vec3& v) {
@@ -84,6 +85,7 @@ std::string obj_text(const solid::TriangleMesh& mesh, const std::string& name) {
 
 solid::TriangleMesh read_obj(const Source& source) {
   solid::TriangleMesh mesh;
+  PolygonSplitter polygons(source, mesh);
   GreatestIndex greatest;
   TextScanner text(source, '#');
   while (text.next_line()) {
@@ -91,7 +93,7 @@ solid::TriangleMesh read_obj(const Source& source) {
     if (keyword == "v") {
       mesh.vertices.push_back(read_vertex(text));
     } else if (keyword == "f" || keyword == "fo") {
-      read_face(text, mesh, greatest);
+      read_face(text, mesh.vertices.size(), polygons, greatest);
     } else if (std::find(k_passed_over.begin(), k_passed_over.end(), keyword) == k_passed_over.end()) {
       text.fail("an OBJ statement ('v', 'f', …)");
     } else {
@@ -106,6 +108,7 @@ solid::TriangleMesh read_obj(const Source& source) {
          fmt::format("a face refers to vertex {}, but the file has {}", greatest.index + 1, mesh.vertices.size()),
          {}});
   }
+  polygons.split_concave();
   return mesh;
 }
 

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "export/mesh_files/mesh_formats.h"
+#include "export/mesh_files/polygons.h"
 #include "export/mesh_files/text_scanner.h"
 
 namespace fusee::formats {
@@ -32,11 +34,17 @@ void pass_edge_count(TextScanner& text) {
   if (!ahead.flowing_word().empty() && ahead.word().empty()) text.flowing_word();
 }
 
-/// The keyword is optional. Its prefixes ST, C and N add values after the coordinates of each vertex.
+/// The keyword is optional. Its prefixes ST, C and N add values after the coordinates of each vertex. Some files of
+/// ModelNet have no blank between the keyword and the number of vertices ("OFF8 12 0").
 OffHeader read_off_header(TextScanner& text) {
   std::string_view word = text.flowing_word();
   OffHeader header;
-  if (word.ends_with("OFF")) {
+  const std::size_t first_digit = std::min(word.find_first_of("0123456789"), word.size());
+  if (const std::string_view keyword = word.substr(0, first_digit); keyword == "OFF" && first_digit < word.size()) {
+    word.remove_prefix(first_digit);
+  } else if (word == "off") {
+    word = text.flowing_word();
+  } else if (word.ends_with("OFF")) {
     if (word.find_first_of("4n") != std::string_view::npos) text.fail("an OFF file of three dimensions");
     if (word.starts_with("ST")) header.words_a_vertex += 2;
     if (word.find('C') != std::string_view::npos) header.words_a_vertex += 4;
@@ -83,7 +91,8 @@ void read_vertices(TextScanner& text, const OffHeader& header, solid::TriangleMe
   }
 }
 
-void read_face(TextScanner& text, solid::TriangleMesh& mesh, std::vector<std::uint32_t>& corners) {
+void read_face(TextScanner& text, std::uint64_t vertices, PolygonSplitter& polygons,
+               std::vector<std::uint32_t>& corners) {
   const std::string_view word = text.flowing_word();
   if (word.empty()) text.fail("a face");
   const std::uint64_t size = count(text, word, "the number of a face's corners");
@@ -91,21 +100,23 @@ void read_face(TextScanner& text, solid::TriangleMesh& mesh, std::vector<std::ui
   corners.clear();
   for (std::uint64_t i = 0; i < size; ++i) {
     const std::uint64_t index = count(text, text.flowing_word(), "a vertex number");
-    if (index >= mesh.vertices.size()) text.fail(fmt::format("a vertex number below {}", mesh.vertices.size()));
+    if (index >= vertices) text.fail(fmt::format("a vertex number below {}", vertices));
     corners.push_back(static_cast<std::uint32_t>(index));
   }
-  if (const auto expected = add_fan(text.source(), mesh, corners)) text.fail(*expected);
+  if (const auto expected = polygons.add(corners)) text.fail(*expected);
 }
 
 /// A colour ends with its line. If there are fewer lines than faces, faces share lines and have no colours.
 void read_faces(TextScanner& text, const OffHeader& header, solid::TriangleMesh& mesh) {
   const bool have_lines = text.lines_ahead(header.faces) == header.faces;
   mesh.triangles.reserve(header.faces);
+  PolygonSplitter polygons(text.source(), mesh);
   std::vector<std::uint32_t> corners;
   for (std::uint64_t i = 0; i < header.faces; ++i) {
-    read_face(text, mesh, corners);
+    read_face(text, mesh.vertices.size(), polygons, corners);
     if (have_lines) text.rest_of_line();
   }
+  polygons.split_concave();
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "export/mesh_files/mesh_formats.h"
+#include "export/mesh_files/polygons.h"
 #include "export/mesh_files/text_scanner.h"
 
 namespace fusee::formats {
@@ -279,7 +280,7 @@ template <class Values>
 class ElementReader {
  public:
   ElementReader(const Source& source, Values values, const Header& header)
-      : source_(source), values_(std::move(values)), header_(header) {}
+      : values_(std::move(values)), header_(header), polygons_(source, mesh_) {}
 
   solid::TriangleMesh read() {
     for (const Element& element : header_.elements) {
@@ -289,6 +290,7 @@ class ElementReader {
       if (element.name == "face") mesh_.triangles.reserve(mesh_.triangles.size() + element.count);
       for (std::uint64_t i = 0; i < element.count; ++i) read_row(element);
     }
+    polygons_.split_concave();
     return std::move(mesh_);
   }
 
@@ -333,13 +335,13 @@ class ElementReader {
       corners_.push_back(
           static_cast<std::uint32_t>(whole(values_, index, static_cast<double>(header_.vertices), "a vertex number")));
     }
-    if (const auto expected = add_fan(source_, mesh_, corners_)) values_.fail(*expected);
+    if (const auto expected = polygons_.add(corners_)) values_.fail(*expected);
   }
 
-  const Source& source_;
   Values values_;
   const Header& header_;
   solid::TriangleMesh mesh_;
+  PolygonSplitter polygons_;
   std::vector<std::uint32_t> corners_;
 };
 

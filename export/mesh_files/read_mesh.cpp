@@ -88,19 +88,6 @@ solid::TriangleMesh without_unused_vertices(const solid::TriangleMesh& mesh) {
   return used;
 }
 
-std::optional<std::string> add_fan(const Source& source, solid::TriangleMesh& mesh,
-                                   std::span<const std::uint32_t> corners) {
-  constexpr std::size_t k_always = 100'000, k_bytes_a_facet = 6;
-  if (corners.empty()) return {};
-  const std::uint64_t vertices = std::uint64_t{*std::max_element(corners.begin(), corners.end())} + 1;
-  if (corners.size() > 2 * vertices) return "a face that has a vertex at most twice";
-  const std::size_t most = k_always + source.bytes.size() / k_bytes_a_facet;
-  if (mesh.triangles.size() + corners.size() > most + 2)
-    return fmt::format("no more than {} facets in a file of {} bytes", most, source.bytes.size());
-  for (std::size_t k = 2; k < corners.size(); ++k) mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
-  return {};
-}
-
 solid::TriangleMesh read_mesh(std::string_view bytes, const std::string& file_name) {
   if (bytes.empty()) throw InputError(file_name, "the file is empty, expected a mesh");
   const Source source{bytes, file_name};

@@ -130,17 +130,30 @@ void pass_name(TextScanner& text) {
   }
 }
 
+/// The next word that does not belong to a comment. The format has no comments, but some writers add lines of them.
+std::string_view uncommented_word(TextScanner& text) {
+  std::string_view word = text.flowing_word();
+  for (; word.starts_with('#') || word.starts_with(';') || word.starts_with("//"); word = text.flowing_word())
+    text.rest_of_line();
+  return word;
+}
+
+/// Zero bytes of a copy in blocks, or the end mark of DOS.
+bool is_padding(std::string_view word) { return word.find_first_not_of(std::string_view("\0\x1A", 2)) == word.npos; }
+
 solid::TriangleMesh read_ascii_stl(const Source& source) {
   solid::TriangleMesh soup;
   TextScanner text(source);
-  bool is_open = false;
-  for (std::string_view word = text.flowing_word(); is_open || !word.empty(); word = text.flowing_word()) {
+  bool is_open = false, has_solid = false;
+  for (std::string_view word = uncommented_word(text); is_open || !is_padding(word); word = uncommented_word(text)) {
+    const bool may_end = is_open || (!has_solid && !soup.triangles.empty());
     if (is_word(word, "facet")) {
       read_ascii_facet(text, soup);
-      is_open = true;
-    } else if (is_word(word, is_open ? "endsolid" : "solid")) {
+      is_open = has_solid;
+    } else if (is_word(word, may_end ? "endsolid" : "solid")) {
       pass_name(text);
-      is_open = !is_open;
+      is_open = !may_end;
+      has_solid = true;
     } else {
       text.fail(is_open ? "'facet' or 'endsolid'" : "'solid'");
     }
@@ -148,11 +161,16 @@ solid::TriangleMesh read_ascii_stl(const Source& source) {
   return soup;
 }
 
-bool starts_with_solid(const Source& source) {
+/// Some writers omit the line "solid".
+bool starts_as_text(const Source& source) {
   // A binary header may start with "solid" too, but text contains no zero byte.
   constexpr std::size_t k_looked_at = k_facets_start + k_facet_size;
-  return source.bytes.substr(0, k_looked_at).find('\0') == std::string_view::npos &&
-         is_word(TextScanner(source).flowing_word(), "solid");
+  if (source.bytes.substr(0, k_looked_at).find('\0') != std::string_view::npos) return false;
+  TextScanner text(source);
+  const std::string_view word = uncommented_word(text);
+  if (is_word(word, "solid") || !is_word(word, "facet")) return is_word(word, "solid");
+  const std::string_view next = text.flowing_word();
+  return is_word(next, "normal") || is_word(next, "outer");
 }
 
 std::uint32_t announced_facets(std::string_view bytes) {
@@ -213,7 +231,7 @@ bool is_binary_stl(std::string_view bytes) {
 }
 
 solid::TriangleMesh read_stl(const Source& source) {
-  if (starts_with_solid(source) && !is_binary_stl(source.bytes)) return solid::weld(read_ascii_stl(source));
+  if (starts_as_text(source) && !is_binary_stl(source.bytes)) return solid::weld(read_ascii_stl(source));
   if (const auto count = binary_facets(source.bytes)) return solid::weld(read_facets(source.bytes, *count));
   fail_binary_size(source);
 }

@@ -190,6 +190,7 @@ class ThreemfReader {
   double unit_of(const ModelPart& part, const pugi::xml_node& model) const;
   void refuse_unknown_extensions(const ModelPart& part, const pugi::xml_node& model) const;
   bool is_of_the_solid(const ModelPart& part, const pugi::xml_node& object) const;
+  void refuse_other_geometry(const ModelPart& part, const pugi::xml_node& object) const;
 
   [[noreturn]] void fail(const ModelPart& part, const pugi::xml_node& node, const std::string& message) const {
     fail_in_entry(source_.name, part.path, node.offset_debug(), message);
@@ -221,7 +222,10 @@ ThreemfReader::ThreemfReader(const Source& source)
           std::min<std::uint64_t>(k_largest_part, k_always_unpacked + k_most_inflation * source.bytes.size())) {}
 
 std::string ThreemfReader::unpacked(const std::string& path) {
-  const std::optional<std::size_t> entry = archive_.find(path);
+  std::optional<std::size_t> entry = archive_.find(path);
+  if (!entry) {
+    if (const auto decoded = percent_decoded(path)) entry = archive_.find(*decoded);  // "/3D/my%20part.model"
+  }
   if (!entry) fail_in_entry(source_.name, path, -1, "expected this part in the archive");
   return archive_.unpacked(
       *entry, unpacked_left_,
@@ -292,6 +296,23 @@ bool ThreemfReader::is_of_the_solid(const ModelPart& part, const pugi::xml_node&
   fail(part, object,
        fmt::format("expected an object of the type model, surface, support, solidsupport or other, found '{}'",
                    printable(type)));
+}
+
+/// Without triangles, an extension that the file does not require may hold the object's whole geometry.
+void ThreemfReader::refuse_other_geometry(const ModelPart& part, const pugi::xml_node& object) const {
+  const pugi::xml_node mesh = child(object, "mesh");
+  if (child(object, "components") || child(child(mesh, "triangles"), "triangle")) return;
+  constexpr auto k_no_geometry =
+      std::to_array<std::string_view>({"mesh", "metadatagroup", "vertices", "triangles", "trianglesets"});
+  for (const pugi::xml_node& holder : {object, mesh}) {
+    for (const pugi::xml_node& other : holder.children()) {
+      const std::string_view name = local_name(other.name());
+      if (name.empty() || std::find(k_no_geometry.begin(), k_no_geometry.end(), name) != k_no_geometry.end()) continue;
+      fail(part, object,
+           fmt::format("an object has no triangles, but a '{}', which fusee does not read: export it as a plain mesh",
+                       printable(name)));
+    }
+  }
 }
 
 double ThreemfReader::unit_of(const ModelPart& part, const pugi::xml_node& model) const {
@@ -371,6 +392,7 @@ void ThreemfReader::add_object(ModelPart& part, const pugi::xml_node& object, co
     ++left_out_;
     return;
   }
+  refuse_other_geometry(part, object);
   if (const pugi::xml_node mesh = child(object, "mesh")) {
     const std::size_t first = mesh_.vertices.size();
     add_vertices(part, mesh, place);

@@ -56,6 +56,49 @@ char decimal_mark_of(std::string_view text) {
   return !both && mark == ',' && is_grouped(text, mark) ? 0 : mark;
 }
 
+/// "1 020", "12'345.6": marks that group digits in French, Swiss and ISO tables.
+constexpr std::string_view k_group_marks[] = {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89", "\xE2\x80\x99", " ", "'"};
+/// Minus sign and en dash of typeset tables.
+constexpr std::string_view k_minus_signs[] = {"\xE2\x88\x92", "\xE2\x80\x93"};
+
+/// The number in plain characters; empty if it has no such mark, or marks that do not group three digits.
+std::string plain_number(std::string_view text) {
+  std::string plain;
+  for (const std::string_view minus : k_minus_signs) {
+    if (!text.starts_with(minus)) continue;
+    plain = "-";
+    text.remove_prefix(minus.size());
+  }
+  bool is_changed = !plain.empty();
+  bool has_groups = false;
+  while (!text.empty()) {
+    const auto mark = std::find_if(std::begin(k_group_marks), std::end(k_group_marks),
+                                   [&](std::string_view candidate) { return text.starts_with(candidate); });
+    const bool is_mark = mark != std::end(k_group_marks);
+    plain += is_mark ? '\'' : text.front();
+    text.remove_prefix(is_mark ? mark->size() : 1);
+    has_groups = has_groups || is_mark;
+  }
+  is_changed = is_changed || has_groups;
+  if (!is_changed || (has_groups && !is_grouped(plain, '\''))) return {};
+  plain.erase(std::remove(plain.begin(), plain.end(), '\''), plain.end());
+  return plain;
+}
+
+/// Words of loggers and spreadsheets for a missing value, also "#DIV/0!" and, of Microsoft's runtime, "-1.#IND".
+bool is_missing(std::string_view text) {
+  const std::string word = lower(text);
+  constexpr std::string_view k_known[] = {"na",   "n/a", "null", "(null)", "none", "-",   "--",
+                                          "<na>", "nat", "?",    "...",    "#n/a", "#nv", "missing"};
+  if (std::find(std::begin(k_known), std::end(k_known), word) != std::end(k_known)) return true;
+  if (word.size() > 2 && word.front() == '#' && word.back() == '!') return true;
+  const std::size_t mark = word.find(".#");
+  if (mark == std::string::npos) return false;
+  constexpr std::string_view k_kinds[] = {"qnan", "snan", "ind", "inf"};
+  return std::any_of(std::begin(k_kinds), std::end(k_kinds),
+                     [&](std::string_view kind) { return word.compare(mark + 2, kind.size(), kind) == 0; });
+}
+
 }  // namespace
 
 Cell read_number(std::string_view text, double& value) {
@@ -66,8 +109,7 @@ Cell read_number(std::string_view text, double& value) {
   const bool whole = end == text.data() + text.size();
   if (!whole || (error != std::errc() && error != std::errc::result_out_of_range)) {
     value = std::numeric_limits<double>::quiet_NaN();
-    const std::string_view known[] = {"na", "n/a", "null", "none", "-"};
-    return std::find(std::begin(known), std::end(known), lower(text)) != std::end(known) ? Cell::missing : Cell::text;
+    return is_missing(text) ? Cell::missing : Cell::text;
   }
   if (error != std::errc() || !std::isfinite(value)) value = std::numeric_limits<double>::quiet_NaN();
   return std::isnan(value) ? Cell::missing : Cell::number;
@@ -77,7 +119,8 @@ void NumberReader::settle_mark(const std::vector<std::string_view>& row) {
   if (mark_ != 0) return;
   bool ambiguous = false;
   for (const std::string_view cell : row) {
-    mark_ = decimal_mark_of(cell);
+    const std::string plain = plain_number(cell);
+    mark_ = decimal_mark_of(plain.empty() ? cell : plain);
     if (mark_ != 0) return;
     ambiguous = ambiguous || is_grouped(cell, ',');
   }
@@ -86,6 +129,7 @@ void NumberReader::settle_mark(const std::vector<std::string_view>& row) {
 
 Cell NumberReader::read(std::string_view text, double& value) const {
   const Cell cell = read_number(text, value);
+  if (const std::string plain = cell == Cell::text ? plain_number(text) : ""; !plain.empty()) return read(plain, value);
   if (mark_ != ',') {
     if (cell != Cell::text || !is_grouped(text, ',')) return cell;
     return read_number(with_point(text, '.'), value);
@@ -144,19 +188,102 @@ double days_since_1970(int year, int month, int day) {
   return 146097.0 * era + 365 * of_era + of_era / 4 - of_era / 100 + of_year - 719468;
 }
 
-/// "10:00", "10:00:00.020": s since midnight.
+/// The hour of a clock of 12 hours: 12 AM is midnight. Without "AM" or "PM" the hour remains.
+double hour_of_day(double hour, std::string_view rest) {
+  const std::string word = lower(trimmed(rest));
+  if (word.empty() || (word.front() != 'a' && word.front() != 'p')) return hour;
+  return std::fmod(hour, 12) + (word.front() == 'p' ? 12 : 0);
+}
+
+/// Skips "AM", "p.m.".
+void pass_half_of_day(Scanner& scanner) {
+  scanner.take(" ");
+  if (!scanner.take("aApP")) return;
+  scanner.take(".");
+  scanner.take("mM");
+  scanner.take(".");
+}
+
+/// "10:00", "10:00:00.020", "2:00:00 PM": s since midnight. "05:00.020", as spreadsheets export times with
+/// milliseconds: s since the hour.
 std::optional<double> time_of_day(Scanner& scanner) {
   const auto hour = scanner.number(1, 2);
   if (!hour || !scanner.take(":")) return std::nullopt;
   const auto minute = scanner.number(2, 2);
-  if (!minute || *hour > 24 || *minute > 59) return std::nullopt;
-  double seconds = 3600 * *hour + 60 * *minute;
-  if (!scanner.take(":")) return seconds;
-  const auto second = scanner.number(2, 2);
-  if (!second || *second > 60) return std::nullopt;
-  seconds += *second;
-  if (scanner.take(".,")) seconds += scanner.fraction();
+  if (!minute || *minute > 59) return std::nullopt;
+  if (scanner.take(".,")) return *hour > 59 ? std::nullopt : std::optional(60 * *hour + *minute + scanner.fraction());
+  if (*hour > 24) return std::nullopt;
+  double second = 0;
+  if (scanner.take(":")) {
+    const auto whole = scanner.number(2, 2);
+    if (!whole || *whole > 60) return std::nullopt;
+    second = *whole + (scanner.take(".,") ? scanner.fraction() : 0);
+  }
+  const double seconds = 3600 * hour_of_day(*hour, scanner.rest()) + 60 * *minute + second;
+  pass_half_of_day(scanner);
   return seconds;
+}
+
+/// Number of a month from its English or German name; 0 for none.
+int month_of(std::string_view name) {
+  constexpr std::string_view k_months[] = {"jan", "feb", "mar", "apr", "may",        "jun", "jul", "aug",
+                                           "sep", "oct", "nov", "dec", "m\xC3\xA4r", "mai", "okt", "dez"};
+  constexpr int k_numbers[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 3, 5, 10, 12};
+  const std::string word = lower(name);
+  for (std::size_t i = 0; i < std::size(k_months); ++i) {
+    if (word.starts_with(k_months[i])) return k_numbers[i];
+  }
+  return 0;
+}
+
+bool is_date(double month, double day) { return month >= 1 && month <= 12 && day >= 1 && day <= 31; }
+
+/// "2025-03-01T", "2025/3/1 ": s since 1970.
+std::optional<double> date_by_year(Scanner& scanner) {
+  const auto year = scanner.number(4, 4);
+  if (!year || !scanner.take("-/")) return std::nullopt;
+  const auto month = scanner.number(1, 2);
+  if (!month || !scanner.take("-/")) return std::nullopt;
+  const auto day = scanner.number(1, 2);
+  if (!day || !is_date(*month, *day) || !scanner.take("Tt _")) return std::nullopt;
+  return 86400 * days_since_1970(static_cast<int>(*year), static_cast<int>(*month), static_cast<int>(*day));
+}
+
+/// "01.03.2025 ", "01-Mar-2025 ": s since 1970. "3/1/2025 " is 0, because day and month may be exchanged: the time of
+/// day is continued over midnight.
+std::optional<double> date_by_day(Scanner& scanner) {
+  const auto day = scanner.number(1, 2);
+  if (!day || scanner.rest().empty()) return std::nullopt;
+  const char mark = scanner.rest().front();
+  if (!scanner.take("./-")) return std::nullopt;
+  double month = month_of(scanner.rest());
+  const bool has_name = month > 0;
+  if (has_name) {
+    while (!scanner.rest().empty() && scanner.rest().front() != mark) scanner.take(scanner.rest().substr(0, 1));
+  } else {
+    month = scanner.number(1, 2).value_or(0);
+  }
+  if (!scanner.take(std::string_view(&mark, 1))) return std::nullopt;
+  auto year = scanner.number(2, 4);
+  if (!year) return std::nullopt;
+  if (*year < 100) *year += 2000;
+  scanner.take(",");
+  if (!scanner.take("Tt _")) return std::nullopt;
+  if (!has_name && mark != '.') return is_date(month, *day) || is_date(*day, month) ? std::optional(0.0) : std::nullopt;
+  if (!is_date(month, *day)) return std::nullopt;
+  return 86400 * days_since_1970(static_cast<int>(*year), static_cast<int>(month), static_cast<int>(*day));
+}
+
+/// "0 days 00:00:01.5" of pandas.
+std::optional<double> days_before_time(Scanner& scanner) {
+  const auto days = scanner.number(1, 6);
+  if (!days || !scanner.take(" ")) return std::nullopt;
+  for (const char letter : std::string_view("day")) {
+    if (!scanner.take(std::string_view(&letter, 1))) return std::nullopt;
+  }
+  scanner.take("s");
+  scanner.take(",");
+  return scanner.take(" ") ? std::optional(86400 * *days) : std::nullopt;
 }
 
 /// Offset from UTC, s: "Z", "+01:00", "+0100", "-05".
@@ -174,17 +301,22 @@ std::optional<double> zone(Scanner& scanner) {
 }  // namespace
 
 std::optional<double> read_time_stamp(std::string_view text) {
-  Scanner scanner(text);
+  std::string plain(text);
+  for (const std::string_view blank : {std::string_view("\xC2\xA0"), std::string_view("\xE2\x80\xAF")}) {
+    for (std::size_t at = plain.find(blank); at != std::string::npos; at = plain.find(blank))
+      plain.replace(at, blank.size(), " ");
+  }
+  Scanner scanner{std::string_view(plain)};
   double date = 0;
-  const bool has_date = text.size() > 10 && (text[4] == '-' || text[4] == '/');
-  if (has_date) {
-    const auto year = scanner.number(4, 4);
-    if (!year || !scanner.take("-/")) return std::nullopt;
-    const auto month = scanner.number(1, 2);
-    if (!month || !scanner.take("-/")) return std::nullopt;
-    const auto day = scanner.number(1, 2);
-    if (!day || !scanner.take("Tt _") || *month < 1 || *month > 12 || *day < 1 || *day > 31) return std::nullopt;
-    date = 86400 * days_since_1970(static_cast<int>(*year), static_cast<int>(*month), static_cast<int>(*day));
+  bool has_date = false;
+  for (const auto read_date : {date_by_year, date_by_day, days_before_time}) {
+    Scanner ahead{std::string_view(plain)};
+    const auto found = read_date(ahead);
+    if (!found) continue;
+    date = *found;
+    has_date = true;
+    scanner = ahead;
+    break;
   }
   const auto of_day = time_of_day(scanner);
   if (!of_day) return std::nullopt;

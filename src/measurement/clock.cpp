@@ -13,9 +13,10 @@ namespace fusee::measurement {
 namespace {
 
 constexpr double k_no_time = std::numeric_limits<double>::quiet_NaN();
-/// Periods of overflowing counters, s: micros() and millis() of 32 bits, nanoseconds of 32 bits, millis() of 16 bits,
-/// one day.
-constexpr std::array k_periods = {4294.967296, 4294967.296, 4.294967296, 65.536, 86400.0};
+/// Periods of overflowing counters, s: microseconds, milliseconds and nanoseconds of 32 bits, milliseconds and
+/// microseconds of 16 bits, the first two of 31 bits, a day, half a day, an hour.
+constexpr std::array k_periods = {4294.967296, 4294967.296, 4.294967296, 65.536,  0.065536,
+                                  2147.483648, 2147483.648, 86400.0,     43200.0, 3600.0};
 /// A row that follows more than this many later rows is a clock set back, not a late row.
 constexpr std::size_t k_latest = 3;
 
@@ -97,9 +98,10 @@ class ClockJoiner {
  private:
   double time(std::size_t k) const { return samples_[rows_[k]].time; }
 
-  /// Period of the counter that overflowed between two times; 0 for none.
+  /// Period of the counter that overflowed between two times; 0 for none. A clock of 12 hours reaches 12:59:59.
   double period_over(double before, double here) const {
     for (const double period : k_periods) {
+      if (std::max(std::abs(before), std::abs(here)) > 1.1 * period) continue;
       const double step = here - before + period;
       if (step > 0 && step <= 3 * usual_) return period;
     }

@@ -16,7 +16,7 @@ namespace {
 const std::vector<std::string>& words_of(const std::string& role) {
   static const std::map<std::string, std::vector<std::string>> words = {
       {"alpha", {"alpha"}},       {"theta", {"theta"}},
-      {"load", {"load"}},         {"time", {"time", "timestamp", "%time", "__time"}},
+      {"load", {"load"}},         {"time", {"time", "timestamp", "time_stamp", "%time", "__time"}},
       {"tension1", {"tension1"}}, {"temperature", {"temperature", "temp"}},
       {"tension2", {"tension2"}}};
   static const std::vector<std::string> none;
@@ -109,10 +109,13 @@ class ColumnFinder {
       const ColumnName name = parse_column_name(names_[i], quantity_of(role));
       if (std::find(words.begin(), words.end(), name.base) == words.end()) continue;
       if (name.unknown_unit.empty() || name.states_unit) return i;
-      if (quantity_of(role) != Quantity::load) continue;  // "theta_ref" is another column, not θ in the unit "ref"
+      // "theta_ref" is another column, not θ in the unit "ref".
+      const bool is_load = quantity_of(role) == Quantity::load;
+      if (!is_load && quantity_of(role) != Quantity::time) continue;
       header_.notes.push_back("column " + shown(names_[i]) + " is not used: " + shown(name.unknown_unit) +
-                              " is no unit of a load; --column load=" + argument(names_[i]) +
-                              " --unit load=N says what it is in");
+                              (is_load ? " is no unit of a load" : " is no unit of time") + "; --column " + role + "=" +
+                              argument(names_[i]) + " --unit " + role + (is_load ? "=N" : "=s") +
+                              " says what it is in");
     }
     return std::nullopt;
   }

@@ -137,13 +137,21 @@ void RecordSplitter::add_bytes(std::string_view bytes) {
     if (after_return_ && bytes.front() == '\n') bytes.remove_prefix(1);
     after_return_ = false;
     const std::size_t end = bytes.find_first_of("\r\n");
-    line_.append(bytes.substr(0, end));
+    append(bytes.substr(0, end));
     check_length();
     if (end == std::string_view::npos) return;
     after_return_ = bytes[end] == '\r';
     end_line();
     bytes.remove_prefix(end + 1);
   }
+}
+
+/// A log that was not closed may end with very many zero bytes: one of them is enough.
+void RecordSplitter::append(std::string_view piece) {
+  constexpr char k_zero = '\0';
+  const std::size_t last = piece.find_last_not_of(k_zero);
+  if (last == std::string_view::npos && !line_.empty() && line_.back() == k_zero) return;
+  line_.append(piece.substr(0, last == std::string_view::npos ? 1 : last + 2));
 }
 
 void RecordSplitter::check_length() const {

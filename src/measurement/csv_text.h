@@ -38,6 +38,7 @@ class RecordSplitter {
   void add_utf16(std::string_view bytes);
   void append_utf8(unsigned long character);
   void add_bytes(std::string_view bytes);
+  void append(std::string_view piece);
   void end_line();
   void give(bool open_quote);
   void check_length() const;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "base/text.h"
 #include "fusee/base.h"
@@ -21,6 +22,8 @@ namespace {
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t k_most_problems = 20;
+/// Faults after which reading stops, also if they are all of one kind.
+constexpr std::size_t k_most_faults = 1000;
 /// Lines above the header, such as settings of a logger or an oscilloscope.
 constexpr std::size_t k_longest_preamble = 1000;
 /// Larger values are garbage; their squares are still finite. Times in ns since 1970 are below the limit.
@@ -47,6 +50,8 @@ char stated_separator(std::string_view line) {
   return line.size() == 5 && lower(line.substr(0, 4)) == "sep=" ? line[4] : '\0';
 }
 
+constexpr char k_separators[] = {',', ';', '\t', ' '};
+
 std::vector<std::string> names_in(std::string_view line, char separator) {
   std::vector<std::string_view> cells;
   split_cells(line, separator, cells);
@@ -54,9 +59,26 @@ std::vector<std::string> names_in(std::string_view line, char separator) {
   for (const std::string_view cell : cells) {
     std::string& name = names.emplace_back(cell);
     for (std::size_t at = name.find("\"\""); at != std::string::npos; at = name.find("\"\"", at + 1)) name.erase(at, 1);
+    std::replace(name.begin(), name.end(), '\n', ' ');
   }
   return names;
 }
+
+/// A quoted name may have a line end where its column's name has a blank.
+bool is_same_name(std::string_view cell, std::string_view name) {
+  const auto is_same = [](char a, char b) { return (a == '\n' ? " " : lower({&a, 1})) == lower({&b, 1}); };
+  return std::equal(cell.begin(), cell.end(), name.begin(), name.end(), is_same);
+}
+
+/// "[deg]", "(deg)": the unit inside.
+std::string_view without_brackets(std::string_view cell) {
+  const bool in_brackets = cell.size() > 2 && std::string_view("[({<").find(cell.front()) != std::string_view::npos &&
+                           std::string_view("])}>").find(cell.back()) != std::string_view::npos;
+  return in_brackets ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+}
+
+/// Bytes that do not belong to the text: zero bytes of a log that was not closed, and the end mark of DOS.
+constexpr std::string_view k_padding{"\0\x1A", 2};
 
 char separator_of(std::string_view line) {
   for (const char separator : {',', ';', '\t', ' '}) {
@@ -83,26 +105,35 @@ class RowReader {
 
   void take(const Record& record) {
     line_ = record.line;
-    line_text_ = record.text;
-    if (record.open_quote && record.text.find('\n') != std::string_view::npos) refuse_long(record.line, true);
-    refuse_binary(record.text);
-    const std::string_view content = trimmed(record.text);
+    std::string_view text = record.text;
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // of a file appended to another one
+    line_text_ = text;
+    if (record.open_quote && text.find('\n') != std::string_view::npos) refuse_long(record.line, true);
+    text = without_padding(text);
+    refuse_binary(text);
+    std::string_view content = trimmed(text);
     if (content.empty()) return;
-    if (content.front() == '#') {
+    if (padding_ > 0) refuse_padding();
+    if (content.front() == '#' && !is_row_without_first(content)) {
       if (columns_.empty()) comment_ = content.substr(1);
       return;
     }
-    if (columns_.empty()) return find_header(content);
-    row(separator_ == '\t' ? record.text : content);
+    const std::string_view unstamped = without_stamp(content);
+    if (columns_.empty()) return find_header(unstamped);
+    row(separator_ == '\t' && !is_stamped_ ? text : unstamped);
   }
 
   LoggedRows finish() {
     if (columns_.empty()) refuse_without_header();
     // A truncated log ends in the middle of a row.
+    if (padding_ > 0 && !columns_.empty()) {
+      found_.notes.push_back("zero bytes at the end (line " + std::to_string(padding_line_) +
+                             "): the log was not closed, they are omitted");
+    }
     if (!cut_off_.message.empty() && problems_.empty()) {
       found_.notes.push_back("the last row (line " + std::to_string(cut_off_.place.line) + ") is truncated: omitted");
     }
-    if (!problems_.empty()) throw InputError(problems_);
+    if (!problems_.empty()) refuse();
     if (headers_ > 0) {
       found_.notes.push_back("the header is repeated " + times(headers_) + ", first in line " +
                              std::to_string(second_header_) + ": a new motion begins there" +
@@ -136,11 +167,83 @@ class RowReader {
   /// Column number of a cell; 1 for the whole line.
   int column_of(std::string_view cell) const { return static_cast<int>(cell.data() - line_text_.data()) + 1; }
 
-  void fail(int column, std::string message, std::string hint) {
-    problems_.push_back({Severity::error, place(line_, column), std::move(message), std::move(hint)});
-    if (problems_.size() < k_most_problems) return;
-    problems_.push_back({Severity::note, place(line_, 1), "reading stopped here: there may be more", ""});
-    throw InputError(problems_);
+  /// One fault, or the first of its kind.
+  struct Fault {
+    Diagnostic problem;
+    std::string kind;
+    std::size_t others = 0;  ///< of its kind, in later rows
+  };
+
+  /// Faults of one kind in several rows are reported once.
+  void fail(int column, std::string message, std::string hint, const std::string& kind = "") {
+    fail({Severity::error, place(line_, column), std::move(message), std::move(hint)}, kind);
+  }
+
+  void fail(Diagnostic problem, const std::string& kind) {
+    ++faults_;
+    const auto known = std::find_if(problems_.begin(), problems_.end(),
+                                    [&](const Fault& fault) { return !kind.empty() && fault.kind == kind; });
+    if (known != problems_.end()) {
+      ++known->others;
+    } else {
+      problems_.push_back({std::move(problem), kind});
+    }
+    if (problems_.size() < k_most_problems && faults_ < k_most_faults) return;
+    problems_.push_back(
+        {{Severity::note, place(line_, 1), "reading stopped here: there may be more", ""}, std::string()});
+    refuse();
+  }
+
+  [[noreturn]] void refuse() const {
+    std::vector<Diagnostic> diagnostics;
+    for (const Fault& fault : problems_) {
+      Diagnostic& diagnostic = diagnostics.emplace_back(fault.problem);
+      if (fault.others > 0) diagnostic.message += ", and so in " + rows_text(fault.others) + " below";
+    }
+    throw InputError(diagnostics);
+  }
+
+  // ---- bytes that are no text
+
+  std::string_view without_padding(std::string_view text) {
+    padding_is_here_ = false;
+    const std::size_t end = text.find_last_not_of(k_padding) + 1;  // 0 if there is nothing else
+    if (end == text.size()) return text;
+    if (padding_++ == 0) padding_line_ = line_;
+    padding_is_here_ = true;
+    return text.substr(0, end);
+  }
+
+  /// Text follows the padding.
+  void refuse_padding() {
+    if (std::exchange(padding_is_here_, false)) return;
+    line_ = padding_line_;
+    refuse_binary(k_padding);
+  }
+
+  /// The serial monitors of Arduino's IDE and PlatformIO can write the time of day before each line, as in
+  /// "10:00:00.020 -> 1.5,2.5". It becomes the last cell of a row.
+  std::string_view without_stamp(std::string_view content) {
+    if (columns_.empty()) is_stamped_ = false;
+    for (const std::string_view arrow : {std::string_view(" -> "), std::string_view(" > ")}) {
+      const std::size_t end = content.substr(0, 20).find(arrow);
+      if (end == std::string_view::npos || !read_time_stamp(content.substr(0, end))) continue;
+      const std::string_view rest = trimmed(content.substr(end + arrow.size()));
+      if (columns_.empty()) is_stamped_ = true;
+      if (columns_.empty() || !is_stamped_) return rest;
+      stamped_row_ = std::string(rest) + separator_ + std::string(content.substr(0, end));
+      line_text_ = stamped_row_;
+      return stamped_row_;
+    }
+    return content;
+  }
+
+  /// "#N/A" in the first column is no comment.
+  bool is_row_without_first(std::string_view content) {
+    if (columns_.empty()) return false;
+    split_cells(content, separator_, values_);
+    double value = 0;
+    return values_.size() > 1 && values_.size() == count_ && read_number(values_.front(), value) == Cell::missing;
   }
 
   void refuse_binary(std::string_view text) const {
@@ -154,6 +257,7 @@ class RowReader {
     if (line_ == 1 && text.size() > 1 && (text[0] == '\0' || text[1] == '\0'))
       hint = "it looks like UTF-16 without its byte order mark: save it as UTF-8";
     if (line_ == 1 && text.substr(0, 1) == "\x1F") hint = "it looks compressed: unpack it with gunzip";
+    if (line_ > 1 && *found == '\0') hint = "remove the zero bytes: the log was damaged there";
     if (line_ == 1 && start == "PK") hint = "it looks like a spreadsheet or a zip: export a CSV text";
     const Diagnostic problem{Severity::error, place(line_, static_cast<int>(found - text.begin()) + 1),
                              "contains binary bytes", hint};
@@ -168,10 +272,14 @@ class RowReader {
       stated_separator_ = stated;
       return;
     }
+    header_text_ = text;
+    if (text.starts_with("% ")) text = trimmed(text.substr(1));  // a comment of MATLAB
     for (const char separator : {',', ';', '\t', ' ', stated_separator_}) {
       if (separator == 0 || (stated_separator_ != 0 && separator != stated_separator_)) continue;
-      const std::vector<std::string> names = names_in(text, separator);
+      std::vector<std::string> names = names_in(text, separator);
       if (names.size() > k_most_columns) refuse_many_columns();
+      while (names.size() > 1 && names.back().empty()) names.pop_back();  // after trailing separators
+      if (is_stamped_) names.emplace_back("time");
       Header header = find_columns(names, options_);
       if (!header.has_angles) continue;
       separator_ = separator;
@@ -189,7 +297,7 @@ class RowReader {
 
   void take_header(const std::vector<std::string>& names, Header header) {
     for (Diagnostic& problem : header.problems) fail(1, std::move(problem.message), std::move(problem.hint));
-    if (!problems_.empty()) throw InputError(problems_);
+    if (!problems_.empty()) refuse();
     columns_ = std::move(header.columns);
     found_.notes = std::move(header.notes);
     count_ = names.size();
@@ -229,7 +337,7 @@ class RowReader {
       for (Diagnostic& problem : find_columns(likely_.names, options_).problems)
         fail(1, std::move(problem.message), std::move(problem.hint));
     }
-    throw InputError(problems_);
+    refuse();
   }
 
   const Column* find(const std::string& role) const {
@@ -239,16 +347,59 @@ class RowReader {
   }
 
   bool is_header(const std::vector<std::string_view>& values) const {
-    return std::all_of(columns_.begin(), columns_.end(),
-                       [&](const Column& column) { return values[column.index] == column.name; });
+    return std::all_of(columns_.begin(), columns_.end(), [&](const Column& column) {
+      return (is_stamped_ && column.index + 1 == count_) || is_same_name(values[column.index], column.name);
+    });
+  }
+
+  /// True if a line names the angles, with any separator.
+  bool names_columns(std::string_view text) const {
+    return std::any_of(std::begin(k_separators), std::end(k_separators),
+                       [&](char separator) { return find_columns(names_in(text, separator), options_).has_angles; });
+  }
+
+  // ---- units below the header
+
+  bool is_units_row() const {
+    bool has_unit = false;
+    for (const Column& column : columns_) {
+      const std::string_view cell = without_brackets(values_[column.index]);
+      if (column.quantity == Quantity::none || cell.empty() || cell == "-") continue;
+      if (find_unit(column.quantity, cell) == nullptr) return false;
+      has_unit = true;
+    }
+    return has_unit;
+  }
+
+  void take_units_row() {
+    for (Column& column : columns_) {
+      const Unit* const unit = find_unit(column.quantity, without_brackets(values_[column.index]));
+      if (unit == nullptr || column.is_given) continue;
+      const Unit* const stated = parse_column_name(column.name, column.quantity).unit;
+      if (stated != nullptr && stated != unit) {
+        fail(column_of(values_[column.index]),
+             column.name + " is in " + std::string(stated->name) + " by its name, but in " + std::string(unit->name) +
+                 " by the line below it",
+             "--unit " + column.role + "=" + std::string(unit->name) + " or =" + std::string(stated->name) +
+                 " says which one it is");
+        continue;
+      }
+      column.unit = unit;
+      std::erase_if(found_.notes,
+                    [&](const std::string& note) { return note.starts_with(column.role + ": taken as "); });
+    }
+    if (!problems_.empty()) refuse();
+    found_.notes.push_back("line " + std::to_string(line_) + " has the units of the columns");
   }
 
   /// The logger restarted: its output since the last row is not data.
   void begin_again() {
     if (headers_++ == 0) second_header_ = line_;
-    dropped_ += problems_.size() - problems_at_last_row_ + (cut_off_.message.empty() ? 0 : 1);
-    problems_.resize(problems_at_last_row_);
+    dropped_ += faults_ - faults_at_last_row_ + (cut_off_.message.empty() ? 0 : 1);
+    problems_ = problems_at_last_row_;
+    faults_ = faults_at_last_row_;
     cut_off_ = {};
+    may_have_units_ = true;
     keeper_.begin_again();
   }
 
@@ -301,14 +452,19 @@ class RowReader {
 
   void row(std::string_view text) {
     split_cells(text, separator_, values_);
-    if (values_.size() == count_ + 1 && values_.back().empty())
-      values_.pop_back();  // some loggers end each row with a separator
+    while (values_.size() > count_ && values_.back().empty())
+      values_.pop_back();  // some loggers and spreadsheets end each row with separators
     if (values_.size() == count_ && is_header(values_)) return begin_again();
-    if (!cut_off_.message.empty()) {
-      problems_.push_back(cut_off_);
-      cut_off_ = {};
-      if (problems_.size() >= k_most_problems) throw InputError(problems_);
+    if (text.size() > header_text_.size() && text.ends_with(header_text_)) {
+      ++dropped_;  // the restart came in the middle of a row
+      return begin_again();
     }
+    if (std::exchange(may_have_units_, false) && values_.size() == count_ && is_units_row()) {
+      if (found_.rows == 0) take_units_row();
+      return;
+    }
+    if (found_.rows == 0 && headers_ == 0 && names_columns(text)) return replace_header(text);
+    if (!cut_off_.message.empty()) fail(std::exchange(cut_off_, {}), "count");
     ++found_.rows;
     if (values_.size() != count_) return wrong_count(values_.size());
     numbers_.settle_mark(values_);
@@ -317,6 +473,15 @@ class RowReader {
       if (!take_cell(column, values_[column.index], sample)) return;
     }
     keep(sample);
+  }
+
+  /// The line taken for the header was prose that names the angles.
+  void replace_header(std::string_view text) {
+    columns_.clear();
+    tracks_.clear();
+    found_.notes.clear();
+    ++preamble_;
+    find_header(text);
   }
 
   /// False if the cell is not a value of that column; reports the fault.
@@ -350,12 +515,12 @@ class RowReader {
     const bool is_angle = column.quantity == Quantity::angle && column.unit != nullptr;
     if (is_angle && std::abs(value) * column.unit->factor > radians(k_largest_deg)) {
       fail(column_of(cell), column.name + " = " + shortest(value) + " is not an angle",
-           "leave the cell empty where nothing was logged");
+           "leave the cell empty where nothing was logged", "angle " + column.role);
       return false;
     }
     if (std::abs(value) > (column.quantity == Quantity::time ? k_largest_time : k_largest_value)) {
       fail(column_of(cell), column.name + " = " + shortest(value) + " is too large for a measured value",
-           "leave the cell empty where nothing was logged");
+           "leave the cell empty where nothing was logged", "large " + column.role);
       return false;
     }
     return true;
@@ -365,7 +530,8 @@ class RowReader {
     if (mounted_.insert(column.role).second) {
       mounting = angle;
     } else if (mounting != angle) {
-      fail(column_of(cell), column.name + " changes within the run", "use one file for each mounting of the encoders");
+      fail(column_of(cell), column.name + " changes within the run", "use one file for each mounting of the encoders",
+           "mounting " + column.role);
       return false;
     }
     return true;
@@ -375,15 +541,27 @@ class RowReader {
     const std::string message =
         "the row has " + std::to_string(count) + " values, the header " + std::to_string(count_);
     if (count > count_ && separator_ == ',' && found_.rows == 1) {
-      fail(1, message, "if commas are the decimal marks, separate the values with ; as in 1,5;2,5");
-      throw InputError(problems_);
+      fail(1, message,
+           "if commas are the decimal marks, separate the values with ; as in 1,5;2,5; otherwise name every column");
+      refuse();
     }
-    Diagnostic problem{Severity::error, place(line_, 1), message, "remove or complete the row"};
+    if (names_columns(line_text_)) refuse_other_header();
+    const std::string hint = count == 1       ? "separate the values by the same mark as the names"
+                             : count > count_ ? "name every column, also one of row numbers, or remove the value"
+                                              : "remove or complete the row";
+    Diagnostic problem{Severity::error, place(line_, 1), message, hint};
     if (count < count_) {
       cut_off_ = problem;  // not a fault if it is the last row
     } else {
-      fail(1, problem.message, problem.hint);
+      fail(std::move(problem), "count");
     }
+  }
+
+  /// The logger restarted with other columns.
+  [[noreturn]] void refuse_other_header() {
+    fail(1, "this line names the columns again, but not as the first header",
+         "split the file here and give both files");
+    refuse();
   }
 
   void not_a_number(const Column& column, std::string_view cell) {
@@ -394,15 +572,18 @@ class RowReader {
     if (all_text && found_.rows == 1) {
       return fail(column_of(cell), message, "is this a second header line? Begin it with #");
     }
+    if (all_text && names_columns(line_text_)) refuse_other_header();
     fail(column_of(cell), message,
          column.quantity == Quantity::time
              ? "write numbers, or time stamps as 2025-03-01T10:00:00.020 in all rows"
              : "write one number per cell, with one decimal mark in the whole file; leave "
-               "the cell empty where nothing was logged");
+               "the cell empty where nothing was logged",
+         "number " + column.role);
   }
 
   void keep(const Sample& sample) {
-    problems_at_last_row_ = problems_.size();
+    if (faults_ != faults_at_last_row_) problems_at_last_row_ = problems_;
+    faults_at_last_row_ = faults_;
     if (!tracks_.empty()) return add_to_tracks(sample);
     if (std::isnan(sample.alpha) || (options_.needs_theta && std::isnan(sample.theta))) {
       found_.without_theta += !std::isnan(sample.alpha);
@@ -421,16 +602,17 @@ class RowReader {
   std::vector<std::string_view> values_;
   NumberReader numbers_;
   std::set<std::string> mounted_;  ///< mounting roles that already have their value
-  std::vector<Diagnostic> problems_;
+  std::vector<Fault> problems_, problems_at_last_row_;
   Diagnostic cut_off_;
   std::string_view line_text_;
-  std::string comment_;
+  std::string comment_, header_text_, stamped_row_;
   HeaderLine likely_, last_;
   char separator_ = ',', stated_separator_ = 0;
-  bool above_row_ = false;
-  std::size_t preamble_ = 0, problems_at_last_row_ = 0, headers_ = 0, dropped_ = 0;
+  bool above_row_ = false, is_stamped_ = false, may_have_units_ = true, padding_is_here_ = false;
+  std::size_t preamble_ = 0, headers_ = 0, dropped_ = 0, padding_ = 0;
+  std::size_t faults_ = 0, faults_at_last_row_ = 0;
   std::size_t count_ = 0;
-  long long line_ = 0, second_header_ = 0;
+  long long line_ = 0, second_header_ = 0, padding_line_ = 0;
 };
 
 std::string rows_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " row" : " rows"); }

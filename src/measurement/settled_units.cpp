@@ -125,6 +125,12 @@ class UnitFinder {
       return add_note(std::string("time in ") + spelling + " since 1970");
     }
     const double step = mean_step(samples_);
+    constexpr double k_shortest_step = 1e-6;  // s
+    if (step > 0 && step < k_shortest_step) {
+      return refuse(
+          "the unit of " + shown(column.name) + " is unknown: as s, the rows are " + rounded(step, 3) + " s apart",
+          "end the column's name in its unit (_s, _min, _days), or give --unit time=d for days");
+    }
     if (step > k_longest_step || (column.whole && step >= 1)) {
       return refuse(
           "the unit of " + shown(column.name) + " is unknown: as s, the rows are " + rounded(step, 3) + " s apart",
@@ -160,7 +166,7 @@ class UnitFinder {
     if (column.ticks_per_turn == 0 && column.least >= 0 && column.most < found_ticks_)
       column.ticks_per_turn = found_ticks_;  // of α's encoder, assumed to be of the same type
     if (column.ticks_per_turn == 0) {
-      return refuse(column.role + ": " + shown(column.name) + " dwells " + values_of(column) +
+      return refuse(column.role + ": " + shown(column.name) + " has " + values_of(column) +
                         ", which look like counts of an encoder",
                     "give the counts a turn, --ticks-per-turn " + column.role + "=4096, or their unit: --unit " +
                         column.role + "=deg");

@@ -22,6 +22,7 @@ constexpr std::array k_units = {
     Unit{"ns", "ns nsec nsecs nano nanos nanosecond nanoseconds %time", Quantity::time, "s", 1e-9},
     Unit{"min", "min mins minute minutes", Quantity::time, "s", 60},
     Unit{"h", "h hr hrs hour hours", Quantity::time, "s", 3600},
+    Unit{"d", "d day days", Quantity::time, "s", 86400},
 
     Unit{"deg", "deg degs degree degrees ° º grad", Quantity::angle, "rad", radians(1.0)},
     Unit{"rad", "rad rads radian radians", Quantity::angle, "rad", 1},

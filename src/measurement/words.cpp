@@ -1,5 +1,7 @@
 #include "measurement/words.h"
 
+#include <array>
+
 #include "base/text.h"
 
 namespace fusee::measurement {
@@ -56,16 +58,27 @@ std::string shown(std::string_view text) {
 }
 
 std::string to_utf8(std::string_view bytes) {
+  // The bytes 0x80 to 0x9F of Windows-1252, which Windows writes where Latin-1 has controls.
+  constexpr std::array<unsigned, 32> k_windows = {0x20AC, 0x81,   0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
+                                                  0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0x8D,   0x017D, 0x8F,
+                                                  0x90,   0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,
+                                                  0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x9D,   0x017E, 0x0178};
   if (is_utf8(bytes)) return std::string(bytes);
   std::string text;
   for (const char c : bytes) {
     const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80) {
+    const unsigned character = byte >= 0x80 && byte < 0xA0 ? k_windows.at(byte - 0x80U) : byte;
+    if (character < 0x80) {
       text += c;
-    } else {
-      text += static_cast<char>(0xC0 | (byte >> 6));
-      text += static_cast<char>(0x80 | (byte & 0x3F));
+      continue;
     }
+    if (character < 0x800) {
+      text += static_cast<char>(0xC0 | (character >> 6U));
+    } else {
+      text += static_cast<char>(0xE0 | (character >> 12U));
+      text += static_cast<char>(0x80 | ((character >> 6U) & 0x3F));
+    }
+    text += static_cast<char>(0x80 | (character & 0x3F));
   }
   return text;
 }

@@ -13,7 +13,7 @@ std::string_view trimmed(std::string_view text);
 std::string lower(std::string_view text);
 /// Quotes text for a message: control characters become ?, long text is cut.
 std::string shown(std::string_view text);
-/// Converts Latin-1 to UTF-8; UTF-8 is unchanged.
+/// Converts Latin-1 or Windows-1252 to UTF-8; UTF-8 is unchanged.
 std::string to_utf8(std::string_view bytes);
 
 }  // namespace fusee::measurement

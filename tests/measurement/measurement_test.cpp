@@ -198,7 +198,7 @@ TEST(Measurement, RejectsTextWithoutTable) {
               HasSubstr("run.csv:2:1: error: a line of more than 65536 bytes"));
   EXPECT_THAT(error_of("1,2\n3,4\n"), HasSubstr("there is no header"));
   EXPECT_THAT(error_of("# alpha_deg,theta_deg\n1,2\n3,4\n"), HasSubstr("remove its #"));
-  EXPECT_THAT(error_of("alpha_deg,theta_deg\ndeg,deg\n1,2\n"),
+  EXPECT_THAT(error_of("alpha_deg,theta_deg\nfloat,float\n1,2\n"),
               HasSubstr("is this a second header line? Begin it with #"));
   EXPECT_THAT(error_of("ALPHADEG,theta_deg\n1,2\n"), HasSubstr("the nearest is \"ALPHADEG\""));
   EXPECT_THAT(error_of("alpha_deg,theta_deg\n1e300,2\n"),
@@ -209,8 +209,18 @@ TEST(Measurement, StopsAfterManyErrors) {
   std::string text = "alpha_deg,theta_deg\n";
   for (int i = 0; i < 1000; ++i) text += "1,x\n";
   const std::string errors = error_of(text);
-  EXPECT_EQ(std::count(errors.begin(), errors.end(), 'x'), 20);
+  EXPECT_EQ(std::count(errors.begin(), errors.end(), 'x'), 1);
+  EXPECT_THAT(errors, HasSubstr("\"x\" is not a number, and so in 999 rows below"));
   EXPECT_THAT(errors, HasSubstr("there may be more"));
+}
+
+TEST(Measurement, ReportsFaultOfManyRowsOnce) {
+  std::string text = "alpha_deg,theta_deg,load_N\n";
+  for (int i = 0; i < 50; ++i) text += "1,2 deg,3 N\n";
+  const std::string errors = error_of(text + "1,2\n1,2,3,4\n1,2,3\n");
+  EXPECT_THAT(errors, HasSubstr("run.csv:2:3: error: theta_deg: \"2 deg\" is not a number, and so in 49 rows below"));
+  EXPECT_THAT(errors, HasSubstr("run.csv:52:1: error: the row has 2 values, the header 3, and so in 1 row below"));
+  EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 4);  // a hint below each
 }
 
 TEST(Measurement, OmitsTruncatedLastRow) {
@@ -242,7 +252,7 @@ TEST(Measurement, ReportsLineOfInvalidNumber) {
   EXPECT_THAT(errors, HasSubstr("run.csv:6:1: error: alpha_deg: \"x\" is not a number"));
   EXPECT_THAT(error_of("alpha_deg,theta_deg\n1\n1,2\n"),
               HasSubstr("run.csv:2:1: error: the row has 1 values, the header 2"));
-  EXPECT_THAT(error_of(std::string("alpha_deg,theta_deg\n\0\n", 22)), HasSubstr("binary"));
+  EXPECT_THAT(error_of(std::string("alpha_deg,theta_deg\n1,\0002\n", 25)), HasSubstr("binary"));
 }
 
 TEST(Measurement, CountsRowsWithoutAngle) {

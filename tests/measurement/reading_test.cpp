@@ -113,9 +113,11 @@ TEST(LoggedClock, ContinuesOverflowedCounter) {
     const char* name;
     double tick, size, start;  // s, counts, counts
   };
-  for (const Counter& counter : {Counter{"time_us", 1e-6, 4294967296.0, 4294967296.0 - 3e6},
-                                 Counter{"time_ms", 1e-3, 4294967296.0, 4294967296.0 - 4000},
-                                 Counter{"time_ms", 1e-3, 65536.0, 65536.0 - 4000}}) {
+  for (const Counter& counter :
+       {Counter{"time_us", 1e-6, 4294967296.0, 4294967296.0 - 3e6},
+        Counter{"time_ms", 1e-3, 4294967296.0, 4294967296.0 - 4000}, Counter{"time_ms", 1e-3, 65536.0, 65536.0 - 4000},
+        Counter{"time_us", 1e-6, 2147483648.0, 2147483648.0 - 3e6},
+        Counter{"time_ms", 1e-3, 2147483648.0, 2147483648.0 - 4000}}) {
     const Value time = [&](int row) {
       return whole(std::fmod(counter.start + std::round(time_of(row) / counter.tick), counter.size));
     };
@@ -124,6 +126,14 @@ TEST(LoggedClock, ContinuesOverflowedCounter) {
     EXPECT_EQ(breaks_of(found.run), 0u);
     EXPECT_THAT(found.notes, HasSubstr("the clock's counter ran over 1 time"));
   }
+}
+
+TEST(LoggedClock, ContinuesManyOverflows) {
+  const Value time = [](int row) { return whole(std::fmod(std::round(1e6 * time_of(row)), 65536.0)); };
+  const ReadRun found = read(table("time_us,alpha_deg,theta_deg", {time, alpha(), theta()}));
+  expect_motion(found.run);
+  EXPECT_EQ(breaks_of(found.run), 0u);
+  EXPECT_THAT(found.notes, HasSubstr("the clock's counter ran over 122 times"));
 }
 
 TEST(LoggedClock, RestartBeginsNewMotion) {
@@ -236,10 +246,59 @@ TEST(LoggedTime, ReadsTimeStamps) {
     return time < 86400 ? "23:59:" + fixed(time - 86340, 3) : "00:00:0" + fixed(time - 86400, 3);
   };
   expect_motion(read(table("time,alpha_deg,theta_deg", {of_day, alpha(), theta()})).run);
+  // A clock of 12 hours without its half of the day.
+  const Value of_half_day = [](int row) {
+    const double time = 3596 + time_of(row);
+    return time < 3600 ? "12:59:" + fixed(time - 3540, 3) : "1:00:0" + fixed(time - 3600, 3);
+  };
+  const ReadRun half = read(table("time,alpha_deg,theta_deg", {of_half_day, alpha(), theta()}));
+  expect_motion(half.run);
+  EXPECT_EQ(breaks_of(half.run), 0u);
+  // Excel's export of times with milliseconds.
+  const Value of_hour = [](int row) {
+    const double time = 3596 + time_of(row);
+    return time < 3600 ? "59:" + fixed(time - 3540, 3) : "00:0" + fixed(time - 3600, 3);
+  };
+  expect_motion(read(table("time,alpha_deg,theta_deg", {of_hour, alpha(), theta()})).run);
   EXPECT_DOUBLE_EQ(*read_time_stamp("1970-01-02T00:00:01Z"), 86401);
   EXPECT_DOUBLE_EQ(*read_time_stamp("2025-03-01T10:00:00+02:00"), 1740816000);
-  for (const char* const text : {"2025-03-01", "10", "2025-13-01T10:00:00", "10:61", "10:00:00x", ""})
+  for (const char* const text : {"2025-03-01", "10", "2025-13-01T10:00:00", "10:61", "10:00:00x", "", "60:00.5",
+                                 "32.01.2025 10:00", "01.13.2025 10:00", "13/13/2025 10:00", "1 dog 10:00"})
     EXPECT_FALSE(read_time_stamp(text)) << text;
+}
+
+TEST(LoggedTime, ReadsTimeStampsOfSpreadsheets) {
+  const double morning = *read_time_stamp("2025-03-12T10:00:00.25");
+  for (const char* const text : {"12.03.2025 10:00:00,250", "12.3.25 10:00:00.25", "12-Mar-2025 10:00:00.250",
+                                 "12-M\xC3\xA4r-2025 10:00:00.250", "2025-03-12 10:00:00.25 am"})
+    EXPECT_DOUBLE_EQ(*read_time_stamp(text), morning) << text;
+  // The order of day and month is unknown: only the time of day counts.
+  for (const char* const text : {"03/12/2025 10:00:00.25", "3/12/2025, 10:00:00.25 AM", "12/03/2025 10:00:00,25",
+                                 "3-12-2025 10:00:00.25", "10:00:00.25 a.m.",
+                                 "10:00:00.25\xE2\x80\xAF"
+                                 "AM"})
+    EXPECT_DOUBLE_EQ(*read_time_stamp(text), 36000.25) << text;
+  EXPECT_DOUBLE_EQ(*read_time_stamp("12:00:01 AM"), 1);
+  EXPECT_DOUBLE_EQ(*read_time_stamp("12:00:01 PM"), 43201);
+  EXPECT_DOUBLE_EQ(*read_time_stamp("3/12/2025 1:02:03 PM"), 46923);
+  EXPECT_DOUBLE_EQ(*read_time_stamp("1 days 00:00:01.500000"), 86401.5);
+  EXPECT_DOUBLE_EQ(*read_time_stamp("0 days 00:00:00"), 0);
+  EXPECT_DOUBLE_EQ(*read_time_stamp("59:50.5"), 3590.5);
+}
+
+// Serial numbers of Excel and MATLAB count days.
+TEST(LoggedTime, RefusesDaysTakenForSeconds) {
+  const Value days = [](int row) { return fixed(45717.4 + time_of(row) / 86400, 11); };
+  const std::string text = table("time,alpha_deg,theta_deg", {days, alpha(), theta()});
+  EXPECT_THAT(error_of(text), HasSubstr("the unit of \"time\" is unknown: as s, the rows are 2.3"));
+  EXPECT_THAT(error_of(text), HasSubstr("--unit time=d"));
+  EXPECT_TRUE(read(text, in_units({{"time", "d"}})).run.has_time);
+}
+
+TEST(LoggedTime, ReportsUnknownUnitOfName) {
+  const ReadRun found = read(table("time_jiffies,alpha_deg,theta_deg", {seconds(), alpha(), theta()}));
+  EXPECT_FALSE(found.run.has_time);
+  EXPECT_THAT(found.notes, HasSubstr("column \"time_jiffies\" is not used: \"jiffies\" is no unit of time"));
 }
 
 // ---- angles ---------------------------------------------------------------------------------------------------------
@@ -446,6 +505,103 @@ TEST(LoggedText, SkipsPreamble) {
               HasSubstr("run.csv:3:1: error: there is no column alpha_deg"));
 }
 
+TEST(LoggedText, ReplacesHeaderOfProse) {
+  const ReadRun found = read("alpha and theta of a bench\n" + plain());
+  expect_motion(found.run);
+  EXPECT_THAT(found.notes, HasSubstr("the header is line 2"));
+  // A comment of MATLAB keeps the time.
+  EXPECT_TRUE(read("% " + plain()).run.has_time);
+  EXPECT_EQ(read("% " + plain()).notes, read(plain()).notes);
+}
+
+// Copied from the serial monitor of Arduino's IDE or PlatformIO.
+TEST(LoggedTime, ReadsStampsOfSerialMonitors) {
+  for (const char* const arrow : {" -> ", " > "}) {
+    const std::string header = "10:00:00.000" + std::string(arrow) + "alpha_deg,theta_deg\n";
+    std::string text = "09:59:59.500" + std::string(arrow) + "Ready.\n" + header;
+    for (int row = 0; row < k_rows; ++row) {
+      if (row == 200) text += header;
+      text += "10:00:0" + fixed(time_of(row), 3) + arrow + alpha()(row) + "," + theta()(row) + "\n";
+    }
+    const ReadRun found = read(text);
+    ASSERT_TRUE(found.run.has_time);
+    expect_motion(found.run);
+    EXPECT_EQ(breaks_of(found.run), 1u);
+  }
+}
+
+TEST(LoggedText, TakesUnitsBelowHeader) {
+  const std::vector<Value> columns = {[](int row) { return whole(1000 * time_of(row)); },
+                                      [](int row) { return fixed(radians(alpha_of(row)), 9); },
+                                      [](int row) { return fixed(radians(theta_of(row)), 9); }};
+  for (const char* const units : {"ms,rad,rad", "[ms],[rad],[rad]", "(milliseconds),(Radian),(Radian)"}) {
+    const ReadRun found = read(table(std::string("time,alpha,theta\n") + units, columns));
+    expect_motion(found.run);
+    EXPECT_THAT(found.notes, HasSubstr("line 2 has the units of the columns")) << units;
+  }
+  const std::string load = "time_s,alpha_deg,theta_deg,load\ns,deg,deg,kg\n0,1,2,3\n";
+  EXPECT_NEAR(read(load).run.samples.at(0).load, 3 * 9.80665, 1e-12);
+  EXPECT_THAT(read(load).notes, ::testing::Not(HasSubstr("taken as N")));
+  EXPECT_THAT(error_of(table("time,alpha_deg,theta\nms,rad,rad", columns)),
+              HasSubstr("run.csv:2:4: error: alpha_deg is in deg by its name, but in rad by the line below it"));
+  // Again after a restart.
+  const std::string head = "time,alpha,theta\nms,rad,rad";
+  const ReadRun again = read(table(head, columns, ',', 0, 200) + table(head, columns, ',', 200));
+  expect_motion(again.run);
+  EXPECT_EQ(breaks_of(again.run), 1u);
+}
+
+TEST(LoggedText, ReadsRaggedSeparators) {
+  const std::vector<Value> columns = {seconds(), alpha(), theta()};
+  const std::vector<Value> padded = {seconds(), alpha(), theta(), [](int) { return ",,"; }};
+  expect_motion(read(table("time_s,alpha_deg,theta_deg", padded)).run);
+  expect_motion(read(table("time_s,alpha_deg,theta_deg,,,", columns)).run);
+  EXPECT_THAT(error_of(table("time_s;alpha_deg;theta_deg", columns, '\t')),
+              HasSubstr("the row has 1 values, the header 3, and so in 399 rows below"));
+  EXPECT_THAT(error_of(table("time_s;alpha_deg;theta_deg", columns, '\t')),
+              HasSubstr("separate the values by the same mark as the names"));
+}
+
+TEST(LoggedText, OmitsPaddingAtEnd) {
+  for (const std::string& padding : {std::string(3, '\0'), std::string(200'000, '\0'), std::string("\x1A")}) {
+    const ReadRun found = read(plain() + padding);
+    expect_motion(found.run);
+    EXPECT_THAT(found.notes, HasSubstr("zero bytes at the end (line 403): the log was not closed, they are omitted"));
+  }
+  EXPECT_THAT(error_of(plain() + std::string(5, '\0') + "\n8.1,2,1\n"),
+              HasSubstr("run.csv:403:1: error: contains binary bytes"));
+}
+
+TEST(LoggedText, ReadsTypesetNumbers) {
+  const auto marked = [](const Value& value, const std::string& mark) {
+    return Value([=](int row) {
+      std::string text = value(row);
+      const std::size_t point = text.find('.');
+      const std::size_t end = point == std::string::npos ? text.size() : point;
+      if (end > 3 && text[end - 4] != '-') text.insert(end - 3, mark);
+      return text;
+    });
+  };
+  const Value millis = [](int row) { return whole(1000 * time_of(row)); };
+  for (const char* const mark : {" ", "\xC2\xA0", "\xE2\x80\xAF", "'", "\xE2\x80\x99"})
+    expect_motion(read(table("time_ms;alpha_deg;theta_deg", {marked(millis, mark), alpha(), theta()}, ';')).run);
+  for (const char* const minus : {"\xE2\x88\x92", "\xE2\x80\x93", "\x96"}) {
+    std::string text = plain();
+    for (std::size_t at = text.find('-'); at != std::string::npos; at = text.find('-')) text.replace(at, 1, minus);
+    expect_motion(read(text).run);
+  }
+  EXPECT_THAT(error_of("alpha_deg;theta_deg\n1 2;3\n"), HasSubstr("\"1 2\" is not a number"));
+}
+
+TEST(LoggedText, ReadsMissingValues) {
+  for (const char* const word :
+       {"#N/A", "#NV", "1.#QNAN", "-1.#IND00", "--", "?", "<NA>", "NaT", "#DIV/0!", "...", "-nan(ind)"}) {
+    const std::string text = std::string("load_N,time_s,alpha_deg,theta_deg\n") + word + ",0,1,2\n" + word + ",1,2,3\n";
+    EXPECT_THAT(read(text).run.samples, SizeIs(2)) << word;
+  }
+  EXPECT_THAT(read("alpha_deg,theta_deg\n#1,2\n3,4\n").run.samples, SizeIs(1)) << "a comment";
+}
+
 TEST(LoggedText, AcceptsRepeatedHeader) {
   const std::vector<Value> columns = {seconds(), alpha(), theta()};
   const std::string header = "time_s,alpha_deg,theta_deg";
@@ -460,6 +616,12 @@ TEST(LoggedText, AcceptsRepeatedHeader) {
                               "3.98,1\nets Jun  8 2016\nrst:0x1 (POWERON),boot:0x13\n" + header + "\n" + rest);
   expect_motion(booted.run);
   EXPECT_THAT(booted.notes, HasSubstr("and 3 rows before it were not data"));
+  // The header of a second file with a byte order mark, of another version, or behind a cut row.
+  for (const char* const before : {"\xEF\xBB\xBF", "3.98,12.", "3.98,12.5,3."})
+    expect_motion(read(table(header, columns, ',', 0, 200) + before + header + "\n" + rest).run);
+  expect_motion(read(table(header, columns, ',', 0, 200) + "Time_s, Alpha_deg, Theta_deg\n" + rest).run);
+  EXPECT_THAT(error_of(table(header, columns, ',', 0, 200) + "theta_deg,alpha_deg,time_s\n" + rest),
+              HasSubstr("run.csv:202:1: error: this line names the columns again, but not as the first header"));
 }
 
 std::string utf16(const std::string& text, bool big) {

@@ -48,6 +48,15 @@ TEST(CheckDrawing, RejectsEndsThatAlmostMeet) {
   EXPECT_NEAR(check_named(check_drawing(drawing), "ends_meet").value, 0.01, 1e-12);
 }
 
+// A last line that overshoots the first one has one fault, not two.
+TEST(CheckDrawing, ReportsOvershootOnce) {
+  Drawing drawing = plate();
+  drawing.paths[2] = contour("CUT_OUTER", {{0, 0}, {30, 0}, {30, 30}, {0, 30}, {0, -0.01}}, false);
+  EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("ends_meet"));
+  drawing.paths[2].points = {{0, 0}, {30, 0}, {30, 30}, {15, -1}, {0, 30}, {0, 0.01}};
+  EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("ends_meet", "no_self_crossing", "nothing_outside"));
+}
+
 // The ends of a short line are close, but it was never meant to be closed.
 TEST(CheckDrawing, ShortLineIsOpen) {
   Drawing drawing = plate();

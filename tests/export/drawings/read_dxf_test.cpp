@@ -63,6 +63,19 @@ TEST(ReadDxf, JoinsEndsWithinTolerance) {
   EXPECT_FALSE(only_path(line(0, 0, 10, 0) + line(10, 0.0003, 5, 5) + line(5, 5, 0, 0)).closed);
 }
 
+// A line drawn twice does not open the loop that it belongs to.
+TEST(ReadDxf, DoesNotJoinRepeatedLine) {
+  const std::string square = line(0, 0, 10, 0) + line(10, 0, 10, 10) + line(10, 10, 0, 10) + line(0, 10, 0, 0);
+  for (const std::string& again : {line(0, 0, 10, 0), line(10, 0, 0, 0), square}) {
+    const Drawing drawing = read(dxf_of(square + again));
+    EXPECT_TRUE(drawing.paths.front().closed);
+    std::vector<std::string> failed;
+    for (const Check& check : check_drawing(drawing))
+      if (!check.ok) failed.push_back(check.name);
+    EXPECT_THAT(failed, ElementsAre("no_duplicate_lines")) << again;
+  }
+}
+
 TEST(ReadDxf, SeparatesLayers) {
   EXPECT_EQ(read(dxf_of(line(0, 0, 1, 0, "a") + line(1, 0, 2, 0, "b"))).paths.size(), 2u);
 }
@@ -342,6 +355,27 @@ TEST(ReadDxf, RejectsTruncatedFile) {
   for (std::size_t size = 0; size + 1 < entities_end; ++size)
     EXPECT_NE(message_of(whole.substr(0, size)), "no error") << size;
   EXPECT_EQ(message_of(whole.substr(0, entities_end)), "no error");
+}
+
+TEST(ReadDxf, FindsBlocksInAnyCase) {
+  const std::string block = tags({{0, "BLOCK"}, {2, "Hole"}}) + line(1, 0, 3, 0) + tags({{0, "ENDBLK"}});
+  EXPECT_EQ(only_path(tags({{0, "INSERT"}, {2, "HOLE"}}), block).points.size(), 2u);
+}
+
+// Curves that are not read are not silently missing.
+TEST(ReadDxf, ReportsCurvesThatAreNotRead) {
+  const auto remark = [](const std::string& entity) {
+    const Drawing drawing = read(dxf_of(entity));
+    return drawing.remarks.empty() ? "none" : drawing.remarks.front().text;
+  };
+  EXPECT_EQ(remark(tags({{0, "SPLINE"}, {8, "cut"}, {71, "3"}, {74, "2"}, {11, "0"}, {21, "0"}, {11, "9"}, {21, "0"}})),
+            "this SPLINE has no control points and is not read: export it as a polyline");
+  EXPECT_EQ(remark(tags({{0, "REGION"}, {8, "cut"}})), "this REGION is not read: explode it to lines and arcs");
+  EXPECT_EQ(remark(tags({{0, "CIRCLE"}, {8, "cut"}, {40, "5"}, {210, "1"}, {230, "0"}})),
+            "this CIRCLE lies out of the plane and is not read");
+  EXPECT_EQ(remark(tags({{0, "TEXT"}, {8, "cut"}, {210, "1"}, {230, "0"}})), "none");
+  EXPECT_EQ(check_drawing(read(dxf_of(tags({{0, "REGION"}, {8, "cut"}})))).at(1).where,
+            "the drawing has no lines to cut, and these are not read: REGION");
 }
 
 TEST(ReadDxf, RejectsRecursiveBlocks) {

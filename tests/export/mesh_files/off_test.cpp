@@ -38,6 +38,7 @@ TEST(OffReader, CountsWordsNotLines) {
         std::string("OFF\n4\n2\n5\n0 0\n0 1 0 0 1\n1 0 0 1 0 3 0 1 2 3 0 2 3"),
         std::string("CNOFF 4 2 5 0 0 0 9 9 9 9 0 0 1 1 0 0 9 9 9 9 0 0 1 1 1 0 9 9 9 9 0 0 1 0 1 0 9 9 9 9 0 0 1 3 0 1 "
                     "2 3 0 2 3"),
+        std::string("OFF4 2 5\n") + plain.substr(10), std::string("off\n") + plain.substr(4),
         // A colour that the keyword does not declare, and one of three numbers where four are declared.
         std::string("OFF\n4 2 5\n0 0 0 255 0 0\n1 0 0 255 0 0\n1 1 0 255 0 0\n0 1 0 255 0 0\n3 0 1 2 1 0 0\n3 0 2 3\n"),
         std::string("COFF\n4 2 5\n0 0 0 255 0 0\n1 0 0 255 0 0\n1 1 0 255 0 0\n0 1 0 255 0 0\n3 0 1 2\n3 0 2 3\n")}) {

@@ -165,6 +165,17 @@ TEST(StlAscii, ReadsSolidsOnOneLine) {
       1U);
 }
 
+// Writers add comments, omit "solid", and copies end with zero bytes or the end mark of DOS.
+TEST(StlAscii, ReadsCommentsAndPadding) {
+  const std::string two = std::string(k_ascii_facet) + std::string(k_ascii_facet);  // longer than a binary header
+  const std::string plain = ascii(two);
+  for (const std::string& text :
+       {"# by a tool\n" + plain, "; by a tool\n// again\n" + plain, "solid x\n# a comment\n" + two + "endsolid\n",
+        plain + std::string(200, '\0'), plain + "\x1A", two, two + "endsolid\n"})
+    EXPECT_EQ(facets(read_mesh(text, "x.stl")), facets(read_mesh(plain, "x.stl"))) << text;
+  EXPECT_THAT(error_of(plain + "tail\n", "x.stl"), HasSubstr("expected 'solid', found 'tail'"));
+}
+
 TEST(StlAscii, ReportsDecimalComma) {
   std::string text = ascii(k_ascii_facet);
   text.replace(text.find("0 4 0"), 5, "0 4,5 0");

@@ -59,6 +59,28 @@ const std::string k_triangle =
 
 std::string package(const std::string& model) { return zip_of({{"_rels/.rels", k_rels}, {"3D/part.model", model}}); }
 
+// Names of parts are percent-encoded in relationships.
+TEST(Threemf, FindsPartWithBlankInItsName) {
+  std::string rels = k_rels;
+  rels.replace(rels.find("part.model"), 10, "my%20part.model");
+  const std::string model = "<model><resources><object id=\"1\">" + k_triangle +
+                            "</object></resources><build><item objectid=\"1\"/></build></model>";
+  EXPECT_EQ(read_mesh(zip_of({{"_rels/.rels", rels}, {"3D/my part.model", model}}), "x.3mf").triangles.size(), 1U);
+}
+
+TEST(Threemf, ReportsGeometryOfExtensions) {
+  const auto model = [](const std::string& object) {
+    return package("<model xmlns:b=\"urn:b\"><resources><object id=\"1\">" + object +
+                   "</object></resources><build><item objectid=\"1\"/></build></model>");
+  };
+  const std::string beams = "<b:beamlattice radius=\"1\"><b:beams/></b:beamlattice>";
+  EXPECT_THAT(error_of(model("<mesh><vertices/><triangles/>" + beams + "</mesh>"), "x.3mf"),
+              HasSubstr("an object has no triangles, but a 'beamlattice', which fusee does not read"));
+  EXPECT_THAT(error_of(model("<metadatagroup/><b:booleanshape objectid=\"1\"/>"), "x.3mf"),
+              HasSubstr("but a 'booleanshape'"));
+  EXPECT_EQ(error_of(model("<mesh><vertices/><!-- none --><triangles/></mesh>"), "x.3mf"), "");
+}
+
 std::string model(const std::string& resources, const std::string& items, const std::string& attributes = "") {
   return "<model " + attributes + "><resources>" + resources + "</resources><build>" + items + "</build></model>";
 }
