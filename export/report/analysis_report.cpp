@@ -34,7 +34,7 @@ std::string key_numbers_of(const analysis::AnalysisResult& result, const Mechani
                 with_unit(result.strength->at_knot, "N") + " at a knot");
   if (const auto factor = result.safety_factor())
     numbers.add("Safety factor", readable_rounded(*factor, 3), "against breaking");
-  numbers.add("Motor torque", with_unit(result.largest_torque.value, "N mm"), at_words(result.largest_torque.alpha));
+  numbers.add("Motor torque", with_unit(result.largest_torque.value, "N·mm"), at_words(result.largest_torque.alpha));
   numbers.add("Hysteresis", with_unit(degrees(result.hysteresis.value), "deg"), at_words(result.hysteresis.alpha));
   numbers.add("Joint angle error", with_unit(degrees(result.theta_error.value), "deg"),
               load_words(mechanism) + ", " + at_words(result.theta_error.alpha));

@@ -257,10 +257,44 @@ Figure moving_figure(const Mechanism& mechanism, const profile::SynthesisResult&
   return figure;
 }
 
+// Dimensions of the joint ---------------------------------------------------------------------------------------------
+
+constexpr double k_sketch_width = 380;
+constexpr double k_sketch_height = 460;
+
+/// A horizontal dimension at the height `y`, between two points of the drawing. A short one has its name outside.
+std::string across(const View& view, double from, double to, double y, const std::string& name) {
+  const double left = view({std::min(from, to), 0}).x(), right = view({std::max(from, to), 0}).x();
+  const Vec2 tick(0, 4);
+  std::string svg = svg_line("dimension", {left, y}, {right, y});
+  for (const double x : {left, right}) svg += svg_line("dimension", Vec2(x, y) - tick, Vec2(x, y) + tick);
+  if (right - left > words_width(name, 13) + 8)
+    return svg + svg_words("small halo middle", {0.5 * (left + right), y + 4}, name);
+  return svg +
+         (from < to ? svg_words("small", {right + 6, y + 4}, name) : svg_words("small end", {left - 6, y + 4}, name));
+}
+
+/// A vertical dimension at `x`, between two heights of the drawing, with its name beside it.
+std::string upright(const View& view, double from, double to, double x, const std::string& name) {
+  const double top = view({0, std::max(from, to)}).y(), bottom = view({0, std::min(from, to)}).y();
+  const Vec2 tick(4, 0);
+  std::string svg = svg_line("dimension", {x, top}, {x, bottom});
+  for (const double y : {top, bottom}) svg += svg_line("dimension", Vec2(x, y) - tick, Vec2(x, y) + tick);
+  const bool is_left = x < view({0, 0}).x();
+  return svg +
+         svg_words(is_left ? "small halo end" : "small halo", {x + (is_left ? -7 : 7), 0.5 * (top + bottom) + 4}, name);
+}
+
+/// A radius from a centre to the lower left, with its name on it, because tendons may pass outside.
+std::string radius_of(const View& view, const Vec2& centre, double radius, const std::string& name) {
+  const Vec2 from = view(centre), to = view(centre + radius * unit(radians(215.0)));
+  return svg_line("dimension", from, to) + svg_words("small halo middle", 0.5 * (from + to) + Vec2(0, 4), name);
+}
+
 // Profile -------------------------------------------------------------------------------------------------------------
 
 constexpr double k_profile_width = 480;
-constexpr double k_profile_height = 514;
+constexpr double k_profile_height = 532;
 
 /// A dimension along a radius: a line from the axis to the point, and its length beside the point.
 std::string radius_dimension(const View& view, const Vec2& point) {
@@ -310,10 +344,18 @@ std::string anchors(const View& view, const solid::Pulley& pulley, transmission:
 std::string bore(const View& view, const solid::BodyLayout& layout) {
   std::string svg = curve("hole", view, layout.bore.outline, true);
   for (const Polygon& hole : layout.bore.screw_holes) svg += curve("hole", view, hole, true);
-  if (layout.bore.outline.empty()) return svg;
-  const std::string words = "⌀ " + readable_rounded(2 * distance_to_edges(layout.bore.outline, Vec2::Zero())) +
-                            (layout.bore.circle ? " inside the polygon" : " clear");
-  return svg + svg_words("small halo middle", view({0, 0}) + Vec2(0, layout.bore.radius * view.scale + 17), words);
+  return svg;
+}
+
+/// Below the drawing, because anchors may be anywhere around the bore.
+std::string bore_words(const solid::BoreLayout& bore) {
+  if (bore.outline.empty()) return "";
+  const double clear = distance_to_edges(bore.outline, Vec2::Zero());
+  if (bore.circle) return "bore ⌀ " + readable_rounded(2 * clear) + " inside the polygon";
+  if (bore.kind == Bore::d)
+    return "bore ⌀ " + readable_rounded(2 * bore.radius) + ", " + readable_rounded(bore.radius + clear) +
+           " from the flat";
+  return "bore ⌀ " + readable_rounded(2 * clear) + " clear";
 }
 
 std::string axes(const View& view, double reach) {
@@ -429,6 +471,37 @@ std::vector<Figure> moving_figures(const Mechanism& mechanism, const profile::Sy
           moving_figure(mechanism, synthesis, near, pose, "The pulley with both tendons, larger")};
 }
 
+std::optional<Figure> dimension_figure(const Mechanism& mechanism, const profile::SynthesisResult& synthesis) {
+  if (synthesis.p1.points.empty() || synthesis.p2.points.empty() || synthesis.stroke.empty()) return std::nullopt;
+  const transmission::TransmissionPoint& home = home_of(synthesis.stroke);
+  const Vec2 axis = pulley_axis(mechanism);
+  const double top = mechanism.joint.is_plain() ? mechanism.joint.R : 0;
+  const Guides& guides = mechanism.guides;
+  constexpr double k_below = 52, k_right = 92;
+  Figure figure{k_sketch_width, k_sketch_height, "Dimensions of the joint at home, to scale", {}, {}};
+  const View view = mechanism_view(mechanism, synthesis, {home.theta},
+                                   {30, 24, k_sketch_width - 30 - k_right, k_sketch_height - 32 - k_below});
+  figure.body = scene(mechanism, synthesis, view, {home.alpha, home.theta});
+  const double pins = -guides.OE, low = k_sketch_height - 30;
+  const double first = view(view.high).x() + 14, second = first + 36;
+  // Lines from the points to the dimensions.
+  const auto aid = [](const Vec2& from, const Vec2& to) { return svg_line("grid", from, to); };
+  figure.body += aid(view({0, 0}), {first, view({0, 0}).y()}) + aid(view({0, pins}), {second, view({0, pins}).y()}) +
+                 aid(view(axis), {second, view(axis).y()}) + aid(view({0, pins}), {view({0, 0}).x(), low}) +
+                 aid(view({-guides.EB, pins}), {view({-guides.EB, 0}).x(), low}) +
+                 aid(view({guides.ED, pins}), {view({guides.ED, 0}).x(), low});
+  const double left = view(view.low).x() - 12;
+  if (top > 0)
+    figure.body += aid({left, view({0, 0}).y()}, view({0, 0})) + aid({left, view({0, top}).y()}, view({0, top}));
+  figure.body += across(view, 0, -guides.EB, low, "EB") + across(view, 0, guides.ED, low, "ED");
+  if (guides.OE != 0) figure.body += upright(view, 0, pins, first, "OE");
+  figure.body += upright(view, pins, axis.y(), second, "EF");
+  if (top > 0) figure.body += upright(view, 0, top, left, "R");
+  if (mechanism.joint.drum_radius > 0) figure.body += radius_of(view, {0, 0}, mechanism.joint.drum_radius, "drum");
+  if (mechanism.pulley.law == Law::compensate) figure.body += radius_of(view, axis, mechanism.pulley.r1, "r1");
+  return figure;
+}
+
 Figure profile_figure(const Mechanism& mechanism, const profile::Outline& outline, const solid::Pulley& pulley) {
   const std::string name(transmission::pulley_name(outline.side));
   Figure figure{k_profile_width, k_profile_height, "Profile of " + name, {}, {}};
@@ -441,7 +514,7 @@ Figure profile_figure(const Mechanism& mechanism, const profile::Outline& outlin
   const double low = view.low.x(), high = view.high.x();
   const double reach = std::max(view.high.cwiseAbs().maxCoeff(), view.low.cwiseAbs().maxCoeff());
   view.include({0, 1.12 * reach});
-  view.fit(34, 90, k_profile_width - 68, k_profile_height - 142);
+  view.fit(34, 90, k_profile_width - 68, k_profile_height - 160);
   figure.body = svg_words("heading", {4, 18}, name + ", seen from +z at home") + profile_legend(outline);
   figure.body += curve("flange", view, groove_edge, true) + curve("floor main", view, floor, true);
   figure.body += anchors(view, pulley, outline.side) + bore(view, pulley.layout) + axes(view, reach);
@@ -453,7 +526,9 @@ Figure profile_figure(const Mechanism& mechanism, const profile::Outline& outlin
                  radius_dimension(view, outline.points[outline.active_last].position);
   const std::string words =
       "overall " + readable(high - low, 2) + " mm, active arc " + readable(degrees(active_turn(outline)), 1) + "°";
-  figure.body += width_dimension(view, low, high, k_profile_height - 24, words);
+  figure.body +=
+      width_dimension(view, low, high, k_profile_height - 42, words) +
+      svg_words("small middle", {0.5 * k_profile_width, k_profile_height - 7}, bore_words(pulley.layout.bore));
   return figure;
 }
 

@@ -113,7 +113,7 @@ std::string hanging_words(const PlanProduct& product, const plan::PlannedRun& ru
   return "tip force " + rounded(run.load, 4) + " N, " + (run.load > 0 ? "against" : "along") + " +theta: hang " +
          rounded(mass, 3) + " kg on a cord over a disc of radius " + rounded(declared.joint.R, 4) +
          " mm on the joint's axis (torque " + rounded(std::abs(run.load) * declared.joint.R, 4) +
-         " Nmm at every angle)";
+         " N·mm at every angle)";
 }
 
 std::string run_csv(const PlanProduct& product, std::size_t step) {

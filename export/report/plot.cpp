@@ -309,11 +309,30 @@ namespace {
 Figure laid_out(Plot plot) {
   const Header header = make_header(plot);
   plot.height += header.extra_height;
-  const Frame frame = make_frame(plot, header.extra_height);
+  Frame frame = make_frame(plot, header.extra_height);
+  // A name longer than its axis would run into the legend.
+  const double name = words_width(axis_words(plot.y), k_small_font) + 6;
+  if (frame.height < name) {
+    plot.height += name - frame.height;
+    frame = make_frame(plot, header.extra_height);
+  }
   Figure figure{plot.width, plot.height, plot.title, {}, readout_attributes(plot, frame)};
   figure.body = header.svg + x_axis(plot, frame) + y_axis(plot, frame) + limits(plot, frame) + curves(plot, frame) +
                 marks(plot, frame);
   return figure;
+}
+
+/// Every second point of a dense curve, and all points beside a gap: a narrow layout has half the pixels.
+std::vector<Vec2> thinner(const std::vector<Vec2>& points) {
+  constexpr std::size_t k_dense = 120;
+  if (points.size() < k_dense) return points;
+  std::vector<Vec2> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool is_inside = i > 0 && i + 1 < points.size() && points[i - 1].allFinite() && points[i].allFinite() &&
+                           points[i + 1].allFinite();
+    if (i % 2 == 0 || !is_inside) kept.push_back(points[i]);
+  }
+  return kept;
 }
 
 }  // namespace
@@ -325,6 +344,7 @@ Figure plot_figure(const Plot& plot) {
   Plot narrow = plot;
   narrow.width = k_narrow;
   narrow.height = 0.85 * plot.height;
+  for (PlotSeries& series : narrow.series) series.points = thinner(series.points);
   if (plot.width > k_narrow) figure.narrow.push_back(laid_out(std::move(narrow)));
   return figure;
 }

@@ -229,7 +229,9 @@ std::string key_numbers(const Product& product) {
   }
   add_motor(numbers, product.under_load);
   add_part(numbers, product.pulley);
-  return numbers.html(product.file.mechanism.units);
+  const std::string table = numbers.html(product.file.mechanism.units);
+  const std::optional<Figure> sketch = dimension_figure(mechanism, product.synthesis);
+  return sketch ? "<div class=\"with-sketch\">" + table + in_div(*sketch) + "</div>" : table;
 }
 
 // The part in 3-D -----------------------------------------------------------------------------------------------------

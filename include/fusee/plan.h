@@ -151,7 +151,8 @@ struct Plan {
   int first_run = 1;  ///< number of the first run's file
 };
 
-/// Plans the runs. The joint's law must exist over its range. If no run fits into the minutes, `steps` is empty.
+/// Plans the runs. The joint's law must exist over its range. If no run fits into the minutes, `steps` is empty. Throws
+/// InputError for a load under which the joint has no equilibrium.
 Plan plan_runs(const DeclaredMechanism& declared, const PlanOptions& options = {}, const RunContext& context = {});
 
 }  // namespace fusee::plan

@@ -274,8 +274,8 @@ Reply run_analyze(const Arguments& arguments, Console& console, const RunContext
   if (!result.exists) {
     reply.exit = Exit::infeasible;
     add_obstacles(file.path, result.obstacles, reply);
-    add_advice(result.advice, reply);
-    add_layout_advice(result.layout_advice, reply);
+    add_advice(file.path, result.advice, reply);
+    add_layout_advice(file.path, result.layout_advice, reply);
     reply.fields["conditions"] = to_json(result.obstacles);
     reply.fields["advice"] = to_json(result.advice);
     return reply;

@@ -171,14 +171,15 @@ std::optional<double> unit_of_length(std::string_view word) {
   return std::nullopt;
 }
 
-/// One or several numbers with units, such as "2 ft 3 in".
-std::optional<double> take_length(std::string_view& text) {
+/// One or several numbers with units, such as "2 ft 3 in". A plain number is in `plain`.
+std::optional<double> take_length(std::string_view& text, LengthUnit plain = LengthUnit::mm) {
   std::optional<double> sum;
   while (true) {
     std::string_view rest = text;
     const auto number = take_number(rest);
     if (!number) return sum;
-    const auto unit = unit_of_length(take_word(rest));
+    const std::string word = take_word(rest);
+    const auto unit = word.empty() && plain == LengthUnit::inch ? 25.4 : unit_of_length(word);
     if (!unit) return sum;
     skip(rest, ".");
     sum = sum.value_or(0) + *number * *unit;
@@ -246,17 +247,28 @@ double travel_with(std::string_view horn) {
 
 }  // namespace
 
-Answer<double> read_length(std::string_view typed) {
+Answer<double> read_length(std::string_view typed, LengthUnit plain) {
   const std::string simple = simplified(typed);
   std::string_view text = simple;
   skip_blanks(text);
   for (const std::string_view word : {"diameter", "dia.", "dia", "about", "ca.", "~", "="})
     if (skip(text, word)) skip_blanks(text);
-  const auto length = take_length(text);
+  const auto length = take_length(text, plain);
   skip_blanks(text);
   if (!length || !text.empty()) return not_read(typed, "a length", k_lengths);
   if (!(*length > 0)) return Refusal{"the length must be greater than 0"};
   return in_micrometres(*length);
+}
+
+bool is_in_inches(std::string_view typed) {
+  const std::string simple = simplified(typed);
+  std::string_view text = simple;
+  while (!text.empty()) {
+    const auto unit = unit_of_length(take_word(text));
+    if (unit == 25.4 || unit == 304.8) return true;
+    text.remove_prefix(text.empty() ? 0 : 1);
+  }
+  return false;
 }
 
 Answer<AngleRange> read_range(std::string_view typed) {
@@ -338,10 +350,58 @@ Answer<TypedLoad> read_load(std::string_view typed) {
   return load;
 }
 
-Answer<TypedMotor> read_motor(std::string_view typed) {
-  const std::string simple = simplified(typed);
+namespace {
+
+/// Removes "180 deg" from a motor's name and returns it, rad; 0 for none.
+double extract_travel(std::string& simple) {
+  for (std::size_t at = 0; at < simple.size(); ++at) {
+    if (!is_digit(simple[at]) || (at > 0 && simple[at - 1] != ' ' && simple[at - 1] != ',')) continue;
+    std::string_view rest = std::string_view(simple).substr(at);
+    const std::size_t before = rest.size();
+    const auto angle = take_decimal(rest, false);
+    skip_blanks(rest);
+    for (const std::string_view word : {"degrees", "degree", "deg"}) {
+      if (!angle || !skip(rest, word)) continue;
+      simple.replace(at, before - rest.size(), " ");
+      return radians(*angle);
+    }
+  }
+  return 0;
+}
+
+/// Models of the catalogue whose name has all words; the model of that name alone if there is one.
+std::vector<const MotorModel*> matching_models(const std::vector<std::string>& words) {
+  std::vector<const MotorModel*> found;
+  for (const MotorModel& model : motor_models()) {
+    const std::string name = simplified(model.name);
+    if (model.fits.empty() || words.empty()) continue;
+    if (words.size() == 1 && words.front() == name) return {&model};
+    const auto has = [&name](const std::string& word) { return name.find(word) != std::string::npos; };
+    if (std::all_of(words.begin(), words.end(), has)) found.push_back(&model);
+  }
+  return found;
+}
+
+/// The first horn or shaft that fits a model.
+TypedMotor motor_of(const MotorModel& model) {
+  TypedMotor motor;
+  const std::string& name = model.fits.front();
+  const ShaftType* shaft = find_shaft(name);
+  (shaft != nullptr ? motor.shaft : motor.horn) = name;
+  motor.model = model.name;
+  motor.travel = model.travel;
+  motor.words = fmt::format("{}, {} ({})", model.name,
+                            shaft != nullptr ? shaft->description : find_horn(name)->description, name);
+  return motor;
+}
+
+}  // namespace
+
+Answer<TypedMotor> read_motor(std::string_view typed, LengthUnit plain) {
+  std::string simple = simplified(typed);
+  const double travel = extract_travel(simple);
   std::string_view text = simple;
-  if (const auto diameter = take_length(text); diameter) {
+  if (const auto diameter = take_length(text, plain); diameter) {
     const std::vector<std::string> rest = split_words(text);
     const bool flat = std::any_of(rest.begin(), rest.end(), [](const std::string& word) {
       return word == "d" || word == "d-shaft" || word == "flat";
@@ -354,19 +414,54 @@ Answer<TypedMotor> read_motor(std::string_view typed) {
       if (!(*diameter > 0) || *diameter > field.most)
         return Refusal{
             fmt::format("a shaft of {} mm is not within 0 to {} mm", rounded(*diameter), rounded(field.most))};
-      return TypedMotor{{},   {}, in_micrometres(*diameter),
-                        flat, 0,  fmt::format("a {} shaft of {} mm", flat ? "D" : "round", rounded(*diameter))};
+      TypedMotor motor;
+      motor.bore = in_micrometres(*diameter);
+      motor.flat = flat;
+      motor.travel = motor.typed_travel = travel;
+      motor.words = fmt::format("a {} shaft of {} mm", flat ? "D" : "round", rounded(*diameter));
+      return motor;
     }
   }
-  const std::vector<std::string> words = split_words(simple);
+  std::vector<std::string> words = split_words(simple);
+  std::erase_if(words, [](const std::string& word) {
+    return word == "hobby" || word == "a" || word == "with" || word == "for" || word == "and" || word == "that" ||
+           word == "turns";
+  });
   const std::vector<const ShaftType*> of_shafts = matching(shafts(), words);
   const std::vector<const HornType*> of_horns = matching(horns(), words);
-  if (of_shafts.size() == 1 && (of_horns.empty() || simplified(of_shafts.front()->name) == simple))
-    return TypedMotor{of_shafts.front()->name, {}, 0, false, 0, of_shafts.front()->description};
-  if (of_horns.size() == 1 && of_shafts.empty())
-    return TypedMotor{
-        {}, of_horns.front()->name, 0, false, travel_with(of_horns.front()->name), of_horns.front()->description};
+  TypedMotor motor;
+  motor.typed_travel = travel;
+  const auto model_with = [&words](const std::string& fitting) -> std::string {
+    for (const MotorModel& model : motor_models()) {
+      const bool is_named = std::find(words.begin(), words.end(), simplified(model.name)) != words.end();
+      if (is_named && std::find(model.fits.begin(), model.fits.end(), fitting) != model.fits.end()) return model.name;
+    }
+    return {};
+  };
+  if (of_shafts.size() == 1 && (of_horns.empty() || words == std::vector{simplified(of_shafts.front()->name)})) {
+    motor.shaft = of_shafts.front()->name;
+    motor.model = model_with(motor.shaft);
+    motor.travel = travel;
+    motor.words = of_shafts.front()->description;
+    return motor;
+  }
+  if (of_horns.size() == 1 && of_shafts.empty()) {
+    motor.horn = of_horns.front()->name;
+    motor.model = model_with(motor.horn);
+    motor.travel = travel > 0 ? travel : travel_with(motor.horn);
+    motor.words = of_horns.front()->description;
+    return motor;
+  }
   std::string names;
+  if (of_shafts.empty() && of_horns.empty()) {
+    const std::vector<const MotorModel*> models = matching_models(words);
+    if (models.size() == 1) {
+      motor = motor_of(*models.front());
+      if (travel > 0) motor.travel = motor.typed_travel = travel;
+      return motor;
+    }
+    add_names(names, models);
+  }
   add_names(names, of_shafts);
   add_names(names, of_horns);
   if (!names.empty()) return Refusal{fmt::format("{} fits several entries: {}. Which one?", in_quotes(typed), names)};
@@ -379,13 +474,13 @@ namespace {
 double times(double one, double other) { return std::max(one / other, other / one); }
 
 /// Removes the first length from an answer and returns it. A number that is part of a name ("7x7", "100 lb") is none.
-std::optional<double> extract_diameter(std::string& answer) {
+std::optional<double> extract_diameter(std::string& answer, LengthUnit plain) {
   for (std::size_t at = 0; at < answer.size(); ++at) {
     const bool begins = is_digit(answer[at]) && (at == 0 || answer[at - 1] == ' ');
     if (!begins) continue;
     std::string_view rest = std::string_view(answer).substr(at);
     const std::size_t before = rest.size();
-    const auto length = take_length(rest);
+    const auto length = take_length(rest, plain);
     const std::size_t taken = before - rest.size();
     const bool ends = rest.empty() || rest.front() == ' ' || rest.front() == ',';
     if (!length || !ends) {
@@ -403,7 +498,7 @@ std::optional<double> extract_diameter(std::string& answer) {
 
 }  // namespace
 
-Answer<TypedTendon> read_tendon(std::string_view typed) {
+Answer<TypedTendon> read_tendon(std::string_view typed, LengthUnit plain) {
   std::string simple = simplified(typed);
   std::vector<const TendonType*> types;
   std::optional<double> diameter;
@@ -411,7 +506,7 @@ Answer<TypedTendon> read_tendon(std::string_view typed) {
     if (split_words(simple) == std::vector{simplified(type.name)}) types = {&type};
   std::vector<std::string> words;
   if (types.empty()) {
-    diameter = extract_diameter(simple);
+    diameter = extract_diameter(simple, plain);
     words = split_words(simple);
     std::erase_if(words, [](const std::string& word) {
       return word == "line" || word == "rope" || word == "cord" || word == "cable" || word == "string" ||

@@ -18,8 +18,11 @@ struct Refusal {
 template <class Value>
 using Answer = std::variant<Value, Refusal>;
 
-/// "45", "45 mm", "4.5 cm", "4,5 cm", "1.8 in", "1 3/4\"", "2 ft 3 in", "⌀30". In mm; must be positive.
-Answer<double> read_length(std::string_view text);
+/// "45", "45 mm", "4.5 cm", "4,5 cm", "1.8 in", "1 3/4\"", "2 ft 3 in", "⌀30". In mm; must be positive. A plain number is
+/// in `plain`.
+Answer<double> read_length(std::string_view text, LengthUnit plain = LengthUnit::mm);
+/// True for a length that is typed in inches or feet.
+bool is_in_inches(std::string_view text);
 
 struct AngleRange {
   double low = 0, high = 0;  ///< deg
@@ -36,15 +39,18 @@ struct TypedLoad {
 Answer<TypedLoad> read_load(std::string_view text);
 
 struct TypedMotor {
-  std::string shaft;  ///< a name of the catalogue, or empty
-  std::string horn;   ///< the same
-  double bore = 0;    ///< diameter of any other shaft, mm
-  bool flat = false;  ///< that shaft is a D shaft
-  double travel = 0;  ///< rotation of a hobby servo, rad; 0: unlimited
-  std::string words;  ///< for the summary
+  std::string shaft;        ///< a name of the catalogue, or empty
+  std::string horn;         ///< the same
+  double bore = 0;          ///< diameter of any other shaft, mm
+  bool flat = false;        ///< that shaft is a D shaft
+  std::string model;        ///< a motor of the catalogue by its maker's name, or empty
+  double travel = 0;        ///< rotation of a hobby servo, rad; 0: unlimited
+  double typed_travel = 0;  ///< rotation that was typed beside its name, rad
+  std::string words;        ///< for the summary
 };
-/// A name of the catalogue or part of it ("n20-d3", "MG996R horn", "nema 17 round"), or a shaft ("5 mm", "1/4 in D").
-Answer<TypedMotor> read_motor(std::string_view text);
+/// A name of the catalogue or part of it ("n20-d3", "MG996R horn", "nema 17 round"), a model ("XL430-W250"), or a shaft
+/// ("5 mm", "1/4 in D"). "180 deg" beside it is its travel. A plain number is in `plain`.
+Answer<TypedMotor> read_motor(std::string_view text, LengthUnit plain = LengthUnit::mm);
 
 struct TypedTendon {
   double diameter = 0;  ///< mm
@@ -53,6 +59,6 @@ struct TypedTendon {
   std::string words;
 };
 /// A diameter, a name of the catalogue, or both: "0.6", "hmpe-0.56", "Dyneema 0.6 mm", "steel 1/16 in", "nylon".
-Answer<TypedTendon> read_tendon(std::string_view text);
+Answer<TypedTendon> read_tendon(std::string_view text, LengthUnit plain = LengthUnit::mm);
 
 }  // namespace fusee::cli

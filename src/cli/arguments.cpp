@@ -58,7 +58,7 @@ void refuse_switch_values(const std::vector<Option>& options, const std::vector<
 
 void check_count(const Command& command, const std::vector<std::string>& given) {
   const std::vector<std::string> expected = split(command.positionals, ' ');
-  const std::string usage = "usage: fusee " + std::string(command.name) + " " + std::string(command.positionals);
+  const std::string usage = "usage: fusee " + synopsis(command);
   const bool open_ended = command.positionals.ends_with("...");
   if (given.size() > expected.size() && !open_ended) {
     throw UsageError(

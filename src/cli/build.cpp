@@ -151,9 +151,9 @@ void explain_infeasible(const pipeline::BuildResult& built, Reply& reply) {
   const std::vector<profile::Condition>& conditions =
       has_curves ? product.pulley.conditions : product.synthesis.conditions;
   add_obstacles(product.file.path, conditions, reply);
-  add_advice(built.advice.alone, reply, built.advice.is_exhausted);
-  add_advice_together(built.advice.together, reply);
-  add_layout_advice(built.advice.layout, reply);
+  add_advice(product.file.path, built.advice.alone, reply, built.advice.is_exhausted);
+  add_advice_together(product.file.path, built.advice.together, reply);
+  add_layout_advice(product.file.path, built.advice.layout, reply);
   reply.exit = Exit::infeasible;
   reply.fields["conditions"] = to_json(conditions);
   if (product.under_load.motor) reply.fields["motor"] = formats::motor_json(*product.under_load.motor);

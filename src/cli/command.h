@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -28,7 +29,11 @@ struct Command {
   std::vector<Option> options;   ///< in addition to common_options()
   std::vector<Example> examples;
   std::function<Reply(const Arguments&, Console&, const RunContext&)> run;
+  std::string_view required_options = {};  ///< options without which it does not run, as the usage shows them
 };
+
+/// "compare SPEC --before FILE...": name, arguments and required options.
+std::string synopsis(const Command& command);
 
 // One file a command.
 Command new_command();

@@ -117,7 +117,8 @@ Command compare_command() {
                                 {"-o,--out", "DIR", "folder of comparison.json and report.html\n(default: no files)"}}),
           {{"fusee compare arm.toml --before run_1.csv --after run_2.csv", "what changed in between"},
            {"fusee compare arm.toml --before run_1.csv --after run_2.csv -o compared", "with a page"}},
-          run_compare};
+          run_compare,
+          "--before FILE... --after FILE..."};
 }
 
 }  // namespace fusee::cli

@@ -73,9 +73,15 @@ std::string main_help() {
   return text;
 }
 
+std::string synopsis(const Command& command) {
+  std::string text(command.name);
+  for (const std::string_view part : {command.positionals, command.required_options})
+    text += (part.empty() ? "" : " ") + std::string(part);
+  return text;
+}
+
 std::string command_help(const Command& command) {
-  std::string text = "usage: fusee " + std::string(command.name) + (command.positionals.empty() ? "" : " ") +
-                     std::string(command.positionals) + " [OPTIONS]\n\n";
+  std::string text = "usage: fusee " + synopsis(command) + " [OPTIONS]\n\n";
   text += std::string(command.description) + "\n";
   if (command.positionals.find("SPEC") != std::string_view::npos)
     text += "SPEC is a mechanism file; 'fusee new' prints one.\n";

@@ -83,6 +83,8 @@ profile::Outline outline_of(const formats::Product& product, Side side) {
 }
 
 std::string mm(double value) { return rounded(value, 3) + " mm"; }
+/// A length that was typed keeps its digits.
+std::string typed(double value) { return rounded(value, 6) + " mm"; }
 
 /// "12 mm below O", "24 mm above O", "level with O".
 std::string height_words(double below) {
@@ -95,11 +97,11 @@ std::vector<std::string> legend(const Mechanism& mechanism, double largest) {
   std::vector<std::string> lines;
   const bool plain = mechanism.joint.is_plain();
   if (plain)
-    lines.push_back(fmt::format("C: both tendons end here, {} above O", mm(mechanism.joint.R)));
+    lines.push_back(fmt::format("C: both tendons end here, {} above O", typed(mechanism.joint.R)));
   else if (mechanism.joint.R > largest)
-    lines.push_back(fmt::format("C is {} above O: the load acts there", mm(mechanism.joint.R)));
+    lines.push_back(fmt::format("C is {} above O: the load acts there", typed(mechanism.joint.R)));
   else
-    lines.push_back(fmt::format("C: the load acts here, {} above O", mm(mechanism.joint.R)));
+    lines.push_back(fmt::format("C: the load acts here, {} above O", typed(mechanism.joint.R)));
   lines.emplace_back("O: the joint's axis; + turns C to the right");
   if (!plain) {
     lines.push_back(fmt::format("drum about O, {} in radius", mm(mechanism.joint.drum_radius)));

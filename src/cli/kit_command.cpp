@@ -37,9 +37,9 @@ void explain_no_pulley(const MechanismFile& file, const pipeline::KitOptions& op
   const std::vector<profile::Condition>& conditions =
       has_curves ? built.product.pulley.conditions : built.product.synthesis.conditions;
   add_obstacles(file.path, conditions, reply);
-  add_advice(built.advice.alone, reply, built.advice.is_exhausted);
-  add_advice_together(built.advice.together, reply);
-  add_layout_advice(built.advice.layout, reply);
+  add_advice(file.path, built.advice.alone, reply, built.advice.is_exhausted);
+  add_advice_together(file.path, built.advice.together, reply);
+  add_layout_advice(file.path, built.advice.layout, reply);
   reply.exit = Exit::infeasible;
   reply.fields["conditions"] = to_json(conditions);
   reply.fields["advice"] = to_json(built.advice.alone);
@@ -94,8 +94,8 @@ Reply run_kit(const Arguments& arguments, Console&, const RunContext& context) {
   reply.fields["conditions"] = to_json(plan.conditions);
   if (made.ending == pipeline::KitEnding::no_kit) {
     add_obstacles(file.path, plan.conditions, reply);
-    add_advice(made.advice.alone, reply);
-    add_advice_together(made.advice.together, reply);
+    add_advice(file.path, made.advice.alone, reply);
+    add_advice_together(file.path, made.advice.together, reply);
     reply.fields["advice"] = to_json(made.advice.alone);
     reply.exit = Exit::infeasible;
     return reply;

@@ -40,7 +40,9 @@ std::string options_text(const std::vector<Option>& options) {
 std::string page_of(const Command& command) {
   const std::string name(command.name);
   std::string text = heading("fusee-" + name, command.summary);
-  text += ".SH SYNOPSIS\n.B fusee " + name + "\n" + plain(command.positionals) + " [OPTIONS]\n.SH DESCRIPTION\n";
+  const std::string arguments = synopsis(command).substr(name.size());  // after the blank, if there are any
+  text += ".SH SYNOPSIS\n.B fusee " + name + "\n" +
+          plain(arguments.substr(std::min<std::size_t>(1, arguments.size()))) + " [OPTIONS]\n.SH DESCRIPTION\n";
   for (const std::string& line : split(command.description, '\n')) text += plain(line) + "\n";
   if (!command.options.empty()) text += ".SH OPTIONS\n" + options_text(command.options);
   text += ".SH OPTIONS OF EVERY COMMAND\n" + options_text(common_options()) + ".SH EXAMPLES\n";

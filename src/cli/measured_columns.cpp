@@ -89,9 +89,11 @@ measurement::MeasurementOptions columns_from(const Arguments& arguments) {
     options.ticks_per_turn[given.role] = ticks;
   }
   for (const RoleValue& given : role_values(arguments, "--zero-ticks", "theta=2048", angles)) {
-    if (options.ticks_per_turn.count(given.role) == 0)
-      throw UsageError("--zero-ticks " + given.role + " is the encoder's counts at home",
-                       "give --ticks-per-turn " + given.role + "=N too");
+    const auto unit = options.units.find(given.role);
+    if (unit != options.units.end() && unit->second != "counts" && options.ticks_per_turn.count(given.role) == 0)
+      throw UsageError("--zero-ticks " + given.role + " is the encoder's counts at home, and --unit " + given.role +
+                           "=" + unit->second + " is another unit",
+                       "give --ticks-per-turn " + given.role + "=N, or leave one of them out");
     options.zero_ticks[given.role] = counts("--zero-ticks", given, k_most_counts);
   }
   return options;

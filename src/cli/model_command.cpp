@@ -68,11 +68,12 @@ std::string deg_text(double angle) {
 
 // ---- reply ----------------------------------------------------------------------------------------------------------
 
-void add_changes(const std::vector<pipeline::ModelChange>& changes, Reply& reply) {
+void add_changes(const std::string& file, const std::vector<pipeline::ModelChange>& changes, Reply& reply) {
   Json list = Json::array();
   for (const pipeline::ModelChange& change : changes) {
-    Diagnostic diagnostic = note(Severity::note, "try " + change.words);
-    reply.diagnostics.push_back(diagnostic);
+    const std::string words = "try " + change.words;
+    reply.diagnostics.push_back(change.key.empty() ? note(Severity::note, words)  // an option
+                                                   : about_file(Severity::note, file, words));
     Json entry = {{"text", change.words}};
     if (!change.key.empty()) {
       entry["key"] = change.key;
@@ -89,7 +90,7 @@ bool explain_refusal(const pipeline::ModelResult& result, const pipeline::ModelO
   const auto refuse = [&](const std::string& words) {
     reply.diagnostics.push_back(about_file(Severity::error, product.file.path, words));
     reply.exit = Exit::infeasible;
-    add_changes(result.changes, reply);
+    add_changes(product.file.path, result.changes, reply);
   };
   switch (result.ending) {
     case pipeline::ModelEnding::no_law:

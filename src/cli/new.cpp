@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/questions.h"
 #include "export/mesh_files/mesh_files.h"
+#include "fusee/analysis.h"
 #include "fusee/mechanism_file.h"
+#include "mechanism/catalogue.h"
+#include "mechanism/lengths.h"
 #include "mechanism/linear_relation.h"
 
 namespace fusee::cli {
@@ -56,6 +60,31 @@ std::string with_settings(const std::string& text, const std::string& name, cons
   return write_mechanism(parse_mechanism(converted, name, ".", settings, &warnings, nullptr, files));
 }
 
+/// The torque that the motor has to hold, and whether the catalogue has a motor of that shaft or horn that does.
+Diagnostic motor_note(const pipeline::ChosenLayout& layout) {
+  Mechanism joint = layout.built.product.joint.mechanism;
+  joint.motor = {};
+  joint.motor.enforce = true;  // compares the models of the catalogue, without limits
+  const analysis::MotorCheck motor = *analysis::under_load(joint).motor;
+  const auto fits = [&joint](const MotorModel& model) {
+    return std::any_of(model.fits.begin(), model.fits.end(), [&joint](const std::string& name) {
+      return name == joint.body.shaft || (joint.body.bore == Bore::horn && name == joint.body.horn);
+    });
+  };
+  const MotorModel* strongest = nullptr;
+  for (const MotorModel& model : motor_models())
+    if (fits(model) && (strongest == nullptr || model.stall_torque > strongest->stall_torque)) strongest = &model;
+  const std::string suitable =
+      motor.sufficient_models.empty() ? "no motor of the catalogue does" : "suitable: " + motor.models_text();
+  std::string words = fmt::format("under the load the motor has to hold {} Nmm", rounded(motor.torque.value, 3));
+  if (strongest == nullptr || strongest->stall_torque >= motor.torque.value) {
+    return note(Severity::note, words + ": " + suitable);
+  }
+  words += fmt::format(", and {}, the strongest that fits in the catalogue, {} {} Nmm", strongest->name,
+                       strongest->holds ? "holds" : "stalls at", rounded(strongest->stall_torque, 3));
+  return note(Severity::warning, words, "take a smaller load, or another motor; " + suitable);
+}
+
 /// The file of the answers, or why no layout fits them and which other answers would do.
 Reply ask_questions(const Arguments& arguments, Console& console, const RunContext& context) {
   if (!arguments.positionals().empty()) throw UsageError("--ask takes no template: it asks for the joint");
@@ -66,8 +95,9 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
   Reply reply;
   if (!asked.search.chosen) {
     reply.exit = Exit::infeasible;
-    reply.diagnostics.push_back(
-        note(Severity::error, "no layout fits these answers: " + asked.search.obstacle, "no file was written"));
+    reply.diagnostics.push_back(note(Severity::error,
+                                     "no layout fits these answers: " + lengths_in(asked.units, asked.search.obstacle),
+                                     "no file was written"));
     reply.fields["other_answers"] = Json::array();
     for (const OtherAnswer& other : asked.others) {
       reply.diagnostics.push_back(
@@ -88,9 +118,10 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
     for (const std::string& warning : *warnings) reply.diagnostics.push_back(note(Severity::warning, warning));
   }
   reply.diagnostics.push_back(
-      note(Severity::note,
-           fmt::format("{}: built and checked ({} checks), {} mm wide, turns {} deg", layout.words,
-                       product.checks.size(), rounded(layout.diameter, 3), rounded(degrees(layout.travel), 3))));
+      note(Severity::note, fmt::format("{}: built and checked ({} checks), {} {} wide, turns {} deg", layout.words,
+                                       product.checks.size(), rounded(from_mm(layout.diameter, asked.units), 3),
+                                       unit_word(asked.units), rounded(degrees(layout.travel), 3))));
+  if (!product.file.mechanism.motor.is_there()) reply.diagnostics.push_back(motor_note(layout));
   reply.diagnostics.push_back(note(Severity::note, "save this file, then run 'fusee build' on it"));
   reply.fields["text"] = reply.text;
   reply.fields["layout"] = layout.words;

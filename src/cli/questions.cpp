@@ -15,6 +15,7 @@
 #include "cli/joint_picture.h"
 #include "mechanism/catalogue.h"
 #include "mechanism/field_text.h"
+#include "mechanism/lengths.h"
 
 namespace fusee::cli {
 namespace {
@@ -58,6 +59,9 @@ struct Answers {
   TypedLoad load;
   TypedMotor motor;
   TypedTendon tendon;
+  LengthUnit units = LengthUnit::mm;  ///< of the file
+  LengthUnit plain = LengthUnit::mm;  ///< of lengths without a unit
+  bool may_be_inches = true;          ///< a length that is typed in inches makes a file in inches
 };
 
 struct Question {
@@ -70,8 +74,8 @@ struct Question {
 };
 
 /// A length within the bounds of a key.
-Answer<double> length_for(std::string_view key, std::string_view text) {
-  Answer<double> answer = read_length(text);
+Answer<double> length_for(std::string_view key, std::string_view text, const Answers& answers) {
+  Answer<double> answer = read_length(text, answers.plain);
   const Field& field = *find_field(key);
   const double* length = std::get_if<double>(&answer);
   if (length != nullptr && (*length < field.least || *length > field.most))
@@ -110,12 +114,19 @@ Answer<std::string> stored(Answer<Value> read, Value& place, const std::function
   return words(place);
 }
 
+/// A shaft that was typed in the file's unit; an entry of the catalogue as it stands there.
+std::string motor_words(const Answers& answers) {
+  return answers.motor.bore > 0 ? lengths_in(answers.units, answers.motor.words) : answers.motor.words;
+}
+
 const std::vector<Question>& questions() {
   static const auto fixed_proposal = [](std::string text) {
     return [text = std::move(text)](const Answers&) { return text; };
   };
-  static const std::function<std::string(const double&)> in_mm = [](const double& length) {
-    return rounded(length) + " mm";
+  static const auto length_words = [](const Answers& answers) -> std::function<std::string(const double&)> {
+    return [units = answers.units](const double& length) {
+      return fmt::format("{} {}", rounded(from_mm(length, units)), unit_word(units));
+    };
   };
   static const std::vector<Question> all{
       {"name", "", "What is the joint called?", fixed_proposal("my joint"),
@@ -127,7 +138,8 @@ const std::vector<Question>& questions() {
        }},
       {"length", std::string(k_joint_picture), "How far is C from O (45 mm, 1.8 in)?", fixed_proposal("60 mm"),
        [](Answers& answers, std::string_view text) {
-         return stored(length_for("joint.length_mm", text), answers.length, in_mm);
+         if (answers.may_be_inches) answers.units = is_in_inches(text) ? LengthUnit::inch : LengthUnit::mm;
+         return stored(length_for("joint.length_mm", text, answers), answers.length, length_words(answers));
        }},
       {"range", std::string(k_range_picture), "From which to which angle does it turn (0 80, -30..30, ±30)?",
        fixed_proposal("-30 30"),
@@ -139,7 +151,7 @@ const std::vector<Question>& questions() {
       {"room", std::string(k_room_picture), "How wide may the pulley be (⌀30 mm)?",
        [](const Answers& answers) { return rounded(std::round(std::clamp(0.7 * answers.length, 30.0, 80.0))) + " mm"; },
        [](Answers& answers, std::string_view text) {
-         return stored(length_for("pulley.EF_mm", text), answers.room, in_mm);
+         return stored(length_for("pulley.EF_mm", text, answers), answers.room, length_words(answers));
        }},
       {"load", std::string(k_load_picture), "Which load (10 N, 0.5 kg, 2 lbf, 0.8 Nm)?", fixed_proposal("10 N"),
        [](Answers& answers, std::string_view text) {
@@ -148,16 +160,16 @@ const std::vector<Question>& questions() {
       {"motor", list_of_motors(), "The motor: a name of this list, or the diameter of its shaft (5 mm, 5 mm D)?",
        fixed_proposal("5 mm"),
        [](Answers& answers, std::string_view text) {
-         return stored<TypedMotor>(read_motor(text), answers.motor, [](const TypedMotor& motor) {
-           const std::string travel =
-               motor.travel > 0 ? fmt::format("; turns {} deg", rounded(degrees(motor.travel))) : "";
-           return motor.words + travel;
+         return stored<TypedMotor>(read_motor(text, answers.plain), answers.motor, [&answers](const TypedMotor& motor) {
+           return motor_words(answers) +
+                  (motor.travel > 0 ? fmt::format("; turns {} deg", rounded(degrees(motor.travel))) : "");
          });
        }},
       {"tendon", list_of_tendons(), "The tendon: diameter, material or both (0.6 mm, Dyneema 0.6, steel 1.2)?",
        fixed_proposal("1 mm"), [](Answers& answers, std::string_view text) {
-         return stored<TypedTendon>(read_tendon(text), answers.tendon,
-                                    [](const TypedTendon& tendon) { return tendon.words; });
+         return stored<TypedTendon>(
+             read_tendon(text, answers.plain), answers.tendon,
+             [&answers](const TypedTendon& tendon) { return lengths_in(answers.units, tendon.words); });
        }}};
   return all;
 }
@@ -206,6 +218,7 @@ std::optional<std::string> put(Console& console, std::size_t number, Answers& an
 
 DeclaredMechanism joint_of(const Answers& answers) {
   DeclaredMechanism mechanism = default_mechanism();
+  mechanism.units = answers.units;
   mechanism.name = answers.name;
   mechanism.joint.R = answers.length;
   mechanism.joint.theta_min = radians(answers.range.low);
@@ -225,11 +238,23 @@ DeclaredMechanism joint_of(const Answers& answers) {
     body.bore = answers.motor.flat ? Bore::d : Bore::round;
     body.bore_diameter = answers.motor.bore;
   }
+  if (!answers.motor.model.empty()) mechanism.motor.model = answers.motor.model;
+  mechanism.motor.travel = answers.motor.typed_travel;
   return mechanism;
 }
 
+/// A length of the layout has four digits in inches. One that was typed is exact.
+std::string length_text(const Field& field, double length, LengthUnit units) {
+  const bool is_typed = field.table == "tendon" || field.table == "body" || field.key == "length_mm";
+  if (units == LengthUnit::mm || is_typed) return length_value_text(length, units);
+  return rounded(from_mm(length, units), 4);
+}
+
 std::string value_text(const Field& field, const DeclaredMechanism& mechanism) {
-  const auto number = [&](int end) { return number_text(field, mechanism, end); };
+  const auto number = [&](int end) {
+    return is_length(field.key) ? length_text(field, field.get(mechanism, end), mechanism.units)
+                                : number_text(field, mechanism, end);
+  };
   if (field.kind == FieldKind::number) return number(0);
   if (field.kind == FieldKind::range || field.kind == FieldKind::point)
     return fmt::format("[{}, {}]", number(0), number(1));
@@ -239,7 +264,8 @@ std::string value_text(const Field& field, const DeclaredMechanism& mechanism) {
 
 /// The keys of answers and layout; all others have their defaults.
 std::vector<std::string> keys_of(const DeclaredMechanism& mechanism) {
-  std::string keys =
+  std::string keys = mechanism.units == LengthUnit::inch ? "units " : "";
+  keys +=
       "name joint.length_mm joint.range_deg guides.EB_mm guides.ED_mm guides.OE_mm guides.radius_mm pulley.EF_mm "
       "pulley.r1_mm pulley.law tendon.diameter_mm tendon.modulus_MPa tendon.bend_ratio ";
   if (mechanism.joint.drum_radius > 0) keys += "joint.drum_radius_mm joint.attachment1_mm joint.attachment2_mm ";
@@ -250,6 +276,8 @@ std::vector<std::string> keys_of(const DeclaredMechanism& mechanism) {
     keys += "body.shaft";
   else
     keys += mechanism.body.bore == Bore::horn ? "body.bore body.horn" : "body.bore body.bore_diameter_mm";
+  if (mechanism.motor.model != Motor{}.model) keys += " motor.model";
+  if (mechanism.motor.travel > 0) keys += " motor.travel_deg";
   return split(keys, ' ');
 }
 
@@ -354,17 +382,31 @@ class Layouts {
 std::string about(const pipeline::ChosenLayout& layout, const Answers& answers) {
   std::string words = layout.words;
   words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
-  return fmt::format(
-      "{}. The pulley is {} mm wide (room {} mm) and turns {} deg over the range; the load pulls a "
-      "tendon with {} N. Motor: {}. Tendon: {}.",
+  const std::string pulley = fmt::format(
+      "{}. The pulley is {} mm wide (room {} mm) and turns {} deg over the range; the load pulls a tendon with {} N.",
       words, rounded(layout.diameter, 3), rounded(answers.room), rounded(degrees(layout.travel), 3),
-      rounded(layout.tension, 3), answers.motor.words, answers.tendon.words);
+      rounded(layout.tension, 3));
+  return fmt::format("{} Motor: {}. Tendon: {}.", lengths_in(answers.units, pulley), motor_words(answers),
+                     lengths_in(answers.units, answers.tendon.words));
+}
+
+bool sets_units(const Setting& setting) { return setting.key == "units"; }
+
+/// The unit of lengths that --set units=inch selects.
+LengthUnit units_of(const std::vector<Setting>& settings) {
+  const auto found = std::find_if(settings.rbegin(), settings.rend(), sets_units);
+  if (found == settings.rend()) return LengthUnit::mm;
+  std::string unit = found->value;
+  std::erase(unit, '"');
+  return unit == "inch" ? LengthUnit::inch : LengthUnit::mm;
 }
 
 }  // namespace
 
 AskedMechanism ask_for_mechanism(Console& console, const std::vector<Setting>& settings, const RunContext& context) {
   Answers answers;
+  answers.units = answers.plain = units_of(settings);
+  answers.may_be_inches = settings.empty();  // numbers of --set are in the file's unit
   std::vector<std::string> understood;
   for (std::size_t i = 0; i < questions().size(); ++i) {
     const auto answer = put(console, i, answers, questions()[i].proposal(answers));
@@ -380,17 +422,19 @@ AskedMechanism ask_for_mechanism(Console& console, const std::vector<Setting>& s
   }
   const Layouts layouts(settings, context);
   while (true) {
-    AskedMechanism asked{layouts.search(answers, context), {}, {}};
+    AskedMechanism asked{layouts.search(answers, context), {}, {}, answers.units};
     if (asked.search.chosen) {
       const pipeline::ChosenLayout& layout = *asked.search.chosen;
-      asked.text = settings.empty() ? file_of(layout.file.mechanism, about(layout, answers))
+      const bool sets_units_alone = std::all_of(settings.begin(), settings.end(), sets_units);
+      asked.text = sets_units_alone ? file_of(layout.file.mechanism, about(layout, answers))
                                     : write_mechanism(layout.file.mechanism);
-      console.tell("\n" + joint_picture(layout.built.product) + "\n");
+      console.tell("\n" + lengths_in(answers.units, joint_picture(layout.built.product)) + "\n");
       return asked;
     }
     asked.others = layouts.others(answers);
     if (asked.others.empty()) return asked;
-    console.report({Severity::error, {}, "no layout fits these answers: " + asked.search.obstacle, {}});
+    console.report(
+        {Severity::error, {}, "no layout fits these answers: " + lengths_in(answers.units, asked.search.obstacle), {}});
     const OtherAnswer& other = asked.others.front();
     const auto number = static_cast<std::size_t>(other.question - 1);
     if (!put(console, number, answers, other.answer)) return asked;

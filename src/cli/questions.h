@@ -24,6 +24,7 @@ struct AskedMechanism {
   pipeline::LayoutSearch search;
   std::string text;                 ///< the file; "" without a layout
   std::vector<OtherAnswer> others;  ///< without a layout
+  LengthUnit units = LengthUnit::mm;
 };
 
 /// Asks on stderr and reads lines from stdin. An empty line takes the proposal; an answer that cannot be used is asked

@@ -88,17 +88,18 @@ void add_obstacles(const std::string& file, const std::vector<profile::Condition
   }
 }
 
-void add_advice(const std::vector<profile::Change>& advice, Reply& reply, bool is_exhausted) {
+void add_advice(const std::string& file, const std::vector<profile::Change>& advice, Reply& reply, bool is_exhausted) {
   for (const profile::Change& change : advice)
-    reply.diagnostics.push_back(note(Severity::note, "try " + profile::setting_words(change)));
+    reply.diagnostics.push_back(about_file(Severity::note, file, "try " + profile::setting_words(change)));
   const auto is_number = [](const profile::Change& change) { return change.to_word.empty(); };
   if (std::none_of(advice.begin(), advice.end(), is_number))
-    reply.diagnostics.push_back(
-        note(Severity::note, is_exhausted ? "no change of a single number makes it feasible"
-                                          : "no change of a single number was found that makes it feasible"));
+    reply.diagnostics.push_back(about_file(Severity::note, file,
+                                           is_exhausted
+                                               ? "no change of a single number makes it feasible"
+                                               : "no change of a single number was found that makes it feasible"));
 }
 
-void add_layout_advice(const std::optional<profile::LayoutAdvice>& advice, Reply& reply) {
+void add_layout_advice(const std::string& file, const std::optional<profile::LayoutAdvice>& advice, Reply& reply) {
   if (!advice) return;
   std::string lines;
   Json settings = Json::array();
@@ -106,24 +107,24 @@ void add_layout_advice(const std::optional<profile::LayoutAdvice>& advice, Reply
     lines += (lines.empty() ? "" : "\n        ") + key + " = " + value;
     settings.push_back({{"key", key}, {"value", value}});
   }
-  reply.diagnostics.push_back(
-      note(Severity::note, "or " + advice->text + " ('fusee new " + advice->template_name + "' shows one)", lines));
+  reply.diagnostics.push_back(about_file(
+      Severity::note, file, "or " + advice->text + " ('fusee new " + advice->template_name + "' shows one)", lines));
   reply.fields["advice_layout"] = {
       {"text", advice->text}, {"template", advice->template_name}, {"settings", std::move(settings)}};
 }
 
-void add_advice_together(const std::vector<profile::Change>& advice, Reply& reply) {
+void add_advice_together(const std::string& file, const std::vector<profile::Change>& advice, Reply& reply) {
   if (advice.empty()) return;
   std::string both;
   for (const profile::Change& change : advice)
     both += (both.empty() ? "" : " together with ") + profile::setting_words(change);
-  reply.diagnostics.push_back(note(Severity::note, "try " + both));
+  reply.diagnostics.push_back(about_file(Severity::note, file, "try " + both));
 }
 
 void explain_without_law(const std::string& file, const profile::SynthesisResult& without_law, Reply& reply) {
   reply.exit = Exit::infeasible;
   add_obstacles(file, without_law.conditions, reply);
-  add_advice(without_law.advice, reply);
+  add_advice(file, without_law.advice, reply);
 }
 
 Diagnostic note(Severity severity, std::string message, std::string hint) {
@@ -134,8 +135,8 @@ Diagnostic note(Severity severity, std::string message, std::string hint) {
   return diagnostic;
 }
 
-Diagnostic about_file(Severity severity, std::string file, std::string message) {
-  Diagnostic diagnostic = note(severity, std::move(message));
+Diagnostic about_file(Severity severity, std::string file, std::string message, std::string hint) {
+  Diagnostic diagnostic = note(severity, std::move(message), std::move(hint));
   diagnostic.place.file = std::move(file);
   return diagnostic;
 }

@@ -45,17 +45,18 @@ Json to_json(const std::vector<profile::Change>& advice);
 /// Adds an error for each failed condition, and a note for each change that would help.
 void add_obstacles(const std::string& file, const std::vector<profile::Condition>& conditions, Reply& reply);
 /// `is_exhausted`: every number was searched over its whole range.
-void add_advice(const std::vector<profile::Change>& advice, Reply& reply, bool is_exhausted = true);
+void add_advice(const std::string& file, const std::vector<profile::Change>& advice, Reply& reply,
+                bool is_exhausted = true);
 /// Adds a note and the field "advice_layout" for another layout; nothing if there is none.
-void add_layout_advice(const std::optional<profile::LayoutAdvice>& advice, Reply& reply);
+void add_layout_advice(const std::string& file, const std::optional<profile::LayoutAdvice>& advice, Reply& reply);
 /// Adds a note for changes that only help together; nothing if there are none.
-void add_advice_together(const std::vector<profile::Change>& advice, Reply& reply);
+void add_advice_together(const std::string& file, const std::vector<profile::Change>& advice, Reply& reply);
 
 /// Explains that a joint has no law θ(α): Exit::infeasible, conditions and advice.
 void explain_without_law(const std::string& file, const profile::SynthesisResult& without_law, Reply& reply);
 
 /// A diagnostic without file position. about_file() makes one for a whole file.
 Diagnostic note(Severity severity, std::string message, std::string hint = {});
-Diagnostic about_file(Severity severity, std::string file, std::string message);
+Diagnostic about_file(Severity severity, std::string file, std::string message, std::string hint = {});
 
 }  // namespace fusee::cli

@@ -127,11 +127,13 @@ class ColumnFinder {
     column.name = names_[index];
     column.quantity = quantity_of(role);
     const auto unit = options_.units.find(role);
-    if (const auto ticks = options_.ticks_per_turn.find(role); ticks != options_.ticks_per_turn.end()) {
+    const auto ticks = options_.ticks_per_turn.find(role);
+    const auto zero = options_.zero_ticks.find(role);
+    const bool has_ticks = ticks != options_.ticks_per_turn.end(), has_zero = zero != options_.zero_ticks.end();
+    if (has_ticks || has_zero) {
       column.unit = find_unit(Quantity::angle, "counts");
-      column.ticks_per_turn = ticks->second;
-      const auto zero = options_.zero_ticks.find(role);
-      column.zero_ticks = zero == options_.zero_ticks.end() ? 0 : zero->second;
+      column.ticks_per_turn = has_ticks ? ticks->second : 0;  // 0: settle_units()
+      column.zero_ticks = has_zero ? zero->second : 0;
       column.is_given = true;
     } else if (unit != options_.units.end()) {
       column.unit = find_unit(column.quantity, unit->second);

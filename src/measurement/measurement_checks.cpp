@@ -94,8 +94,7 @@ std::string wrong_zero(const transmission::TargetMotion& law, const Measurement&
     if (std::abs(off) < radians(30.0)) continue;
     return run.name + ": theta is " + rounded(degrees(off), 3) +
            " deg away from the declared angle at the same alpha: set both zeros at home (alpha = theta = 0), or "
-           "subtract "
-           "them in the log (of counts: --zero-ticks theta=N)";
+           "subtract them in the log (of counts: --zero-ticks alpha=N --zero-ticks theta=N, the counts at home)";
   }
   return {};
 }

@@ -648,8 +648,8 @@ void check_roles(const MeasurementOptions& options) {
       throw InputError("", "give counts a turn for alpha or theta, 2 or more (negative if they fall)");
   }
   for (const auto& [role, ticks] : options.zero_ticks) {
-    if (options.ticks_per_turn.count(role) == 0)
-      throw InputError("", "counts of " + role + " at home also need the counts a turn");
+    if (member_of(role) == nullptr || quantity_of(role) != Quantity::angle || !std::isfinite(ticks))
+      throw InputError("", "give counts at home for alpha or theta");
   }
 }
 

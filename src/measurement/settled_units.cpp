@@ -142,8 +142,12 @@ class UnitFinder {
 
   void find_angle_unit(Column& column) {
     if (!(column.most >= column.least)) column.unit = usual_unit(Quantity::angle);  // empty
-    if (column.unit != nullptr && column.unit->is_counts() && !column.whole && column.ticks_per_turn == 0)
+    if (column.unit != nullptr && column.unit->is_counts() && !column.whole && column.ticks_per_turn == 0) {
+      if (column.is_given)
+        return refuse(shown(column.name) + " has " + values_of(column) + ", which are no counts of an encoder",
+                      "leave out --zero-ticks " + column.role + ", or give --ticks-per-turn " + column.role + "=N too");
       column.unit = nullptr;  // "raw" data of something else
+    }
     if (column.unit == nullptr) {
       find_unit_of_values(column);
     } else if (column.unit->is_counts()) {
@@ -173,7 +177,8 @@ class UnitFinder {
     }
     found_ticks_ = column.ticks_per_turn;
     add_note(column.role + ": " + values_of(column) + ", taken as counts of " + rounded(column.ticks_per_turn, 9) +
-             " a turn (--ticks-per-turn " + column.role + "=N overrides this)");
+             " a turn" + (column.zero_ticks != 0 ? ", " + rounded(column.zero_ticks, 9) + " at home" : "") +
+             " (--ticks-per-turn " + column.role + "=N overrides this)");
   }
 
   void find_unit_of_values(Column& column) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 
 #include "base/json.h"
 #include "base/text.h"
@@ -9,6 +10,25 @@
 
 namespace fusee {
 namespace {
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// Keys whose explanation has this word, such as "dyneema"; "" if there is none.
+std::string keys_with(std::string_view word) {
+  constexpr std::size_t k_least_letters = 3, k_most_keys = 4;
+  if (word.size() < k_least_letters) return {};
+  std::string keys;
+  std::size_t count = 0;
+  for (const Field& field : fields()) {
+    if (lower_case(explain(field.name())).find(lower_case(std::string(word))) == std::string::npos) continue;
+    if (count++ < k_most_keys) keys += (keys.empty() ? "" : ", ") + field.name();
+  }
+  return count > k_most_keys ? keys + " or " + std::to_string(count - k_most_keys) + " more" : keys;
+}
 
 /// The fields that match a word: a dotted name, a key (in every table that has it), a table, or all for "".
 std::vector<const Field*> matching_fields(std::string_view word) {
@@ -24,8 +44,11 @@ std::vector<const Field*> matching_fields(std::string_view word) {
   }
   if (!found.empty()) return found;
   const std::string nearest = nearest_word(word, names);
+  const std::string keys = nearest.empty() ? keys_with(word) : "";
   throw InputError("", "there is no key " + in_quotes(word),
-                   nearest.empty() ? "fusee explain lists all keys" : "did you mean " + nearest + "?");
+                   !nearest.empty() ? "did you mean " + nearest + "?"
+                   : !keys.empty()  ? "the word occurs in fusee explain " + keys
+                                    : "fusee explain lists all keys");
 }
 
 /// One entry of the catalogue.

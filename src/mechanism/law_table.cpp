@@ -20,7 +20,11 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-bool parse_number(std::string_view text, double& value) {
+/// A number with a decimal point, or with a decimal comma where commas do not separate.
+bool parse_number(std::string_view written, double& value, bool decimal_comma) {
+  std::string text(written);
+  if (decimal_comma && std::count(text.begin(), text.end(), ',') == 1 && text.find('.') == std::string::npos)
+    std::replace(text.begin(), text.end(), ',', '.');
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
@@ -50,7 +54,7 @@ struct PairRow {
   double second = 0;
 };
 
-/// Parser for a table of two columns.
+/// Parser for a table of two columns. Comma, semicolon or tab separates: the header decides.
 class PairTableReader {
  public:
   PairTableReader(const PairColumns& columns, const std::string& file, std::vector<Diagnostic>& problems)
@@ -113,10 +117,13 @@ class PairTableReader {
  private:
   template <typename Check>
   void read_line(int line, std::string_view text, Check check) {
-    const std::size_t comma = text.find(',');
-    const std::string_view first = trimmed(text.substr(0, comma));
-    const std::string_view second =
-        comma == std::string_view::npos ? std::string_view() : trimmed(text.substr(comma + 1));
+    if (!header_read_) {
+      const std::size_t separator = text.find_first_of(",;\t");
+      if (separator != std::string_view::npos) separator_ = text[separator];
+    }
+    const std::size_t at = text.find(separator_);
+    const std::string_view first = trimmed(text.substr(0, at));
+    const std::string_view second = at == std::string_view::npos ? std::string_view() : trimmed(text.substr(at + 1));
     if (!header_read_) {
       header_read_ = true;
       if (first == columns_.first && second == columns_.second) return;
@@ -124,7 +131,8 @@ class PairTableReader {
                   columns_.hint);
     }
     PairRow row{line, 0, 0};
-    if (!parse_number(first, row.first) || !parse_number(second, row.second)) {
+    const bool decimal_comma = separator_ != ',';
+    if (!parse_number(first, row.first, decimal_comma) || !parse_number(second, row.second, decimal_comma)) {
       return fail(line, in_quotes(text) + " is not two finite numbers", columns_.hint);
     }
     if (rows_.size() == columns_.most_rows) {
@@ -138,6 +146,7 @@ class PairTableReader {
   std::vector<Diagnostic>& problems_;
   std::vector<PairRow> rows_;
   bool header_read_ = false;
+  char separator_ = ',';
 };
 
 /// Checks a row of θ(α). Returns false to drop the row; problems that keep the row are reported as well.

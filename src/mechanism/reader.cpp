@@ -67,6 +67,18 @@ std::string described(const toml::node& node) {
   }
 }
 
+/// The parser's description, which has escaped line feeds and tabs already. It may quote the file's bytes.
+std::string syntax_error(std::string_view description) {
+  // Strips the prefix of "Error while parsing key-value pair: expected …".
+  const std::size_t colon = description.find(": ");
+  if (description.starts_with("Error") && colon != std::string_view::npos) description.remove_prefix(colon + 2);
+  std::string text = "not TOML: " + unicode_escaped(description.substr(0, k_max_text_length));
+  constexpr std::string_view k_line_feed = "'\\n'";
+  if (const std::size_t at = text.find(k_line_feed); at != std::string::npos)
+    text.replace(at, k_line_feed.size(), "the end of the line");
+  return text;
+}
+
 /// Advice for a line that is not TOML, such as `key = 17,0` or `key = word`.
 std::string syntax_hint(std::string_view text, std::size_t line) {
   for (; line > 1 && !text.empty(); --line) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
@@ -191,12 +203,7 @@ void MechanismReader::parse(std::string_view text) {
   try {
     root_ = toml::parse(text, name_);
   } catch (const toml::parse_error& error) {
-    // Strips the prefix of "Error while parsing key-value pair: expected …". The rest may quote the file's bytes.
-    std::string_view what = error.description();
-    const std::size_t colon = what.find(": ");
-    if (what.substr(0, 5) == "Error" && colon != std::string_view::npos) what.remove_prefix(colon + 2);
-    throw InputError(Diagnostic{Severity::error, place_of(error.source(), name_),
-                                "not TOML: " + as_shown(what, k_max_text_length),
+    throw InputError(Diagnostic{Severity::error, place_of(error.source(), name_), syntax_error(error.description()),
                                 syntax_hint(text, static_cast<std::size_t>(error.source().begin.line))});
   }
 }

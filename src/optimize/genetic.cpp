@@ -115,7 +115,7 @@ const EvolutionMaker& evolution_maker() {
   static const LoadedModule module = load_module("fusee-evolution", k_evolution_maker);
   if (module.found == nullptr)
     throw InputError("", "evolutionary search is unavailable: " + module.why_not,
-                     "use --method certified, which does not need it");
+                     "install it; of the searches, only fusee optimize --method certified does not need it");
   return *static_cast<const EvolutionMaker*>(module.found);
 }
 

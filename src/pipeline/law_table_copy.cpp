@@ -10,13 +10,20 @@ namespace {
 constexpr std::size_t k_largest_law = 8 << 20;
 constexpr std::size_t k_largest_spec = 1 << 20;
 
+/// True if the text alone, without --set, is this mechanism. It may be none: --set may supply a key that it lacks.
+bool is_complete(const std::string& text, const MechanismFile& file, FileAccess& files) {
+  try {
+    const std::filesystem::path folder = std::filesystem::path(file.path).parent_path();
+    return parse_mechanism(text, file.path, folder, {}, nullptr, nullptr, files) == file.mechanism;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 DeclaredText own_text(const MechanismFile& file, FileAccess& files) {
-  const std::filesystem::path path = file.path;
   if (!file.sha256.empty()) {
-    std::string text = read_file(path, k_largest_spec, files);
-    if (sha256(text) == file.sha256 &&
-        parse_mechanism(text, file.path, path.parent_path(), {}, nullptr, nullptr, files) == file.mechanism)
-      return {std::move(text), false};
+    std::string text = read_file(file.path, k_largest_spec, files);
+    if (sha256(text) == file.sha256 && is_complete(text, file, files)) return {std::move(text), false};
   }
   return {write_mechanism(file.mechanism), true};
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "base/text.h"
 #include "fusee/analysis.h"
 #include "fusee/joint.h"
 #include "fusee/transmission.h"
@@ -77,6 +79,17 @@ std::vector<double> usual_loads(const DeclaredMechanism& declared, const Planned
   return {0.0, load, 0.5 * load, -load};
 }
 
+/// Throws InputError for a load under which the joint has no equilibrium: no run with it shows anything.
+void refuse_unheld_loads(const DeclaredMechanism& declared, const PlannedRun& slow, const std::vector<double>& loads) {
+  const bool no_limit = declared.transmission.has_value();
+  for (const double load : loads) {
+    if (load == 0 || no_limit) continue;
+    if (is_borne(under_load(declared, slow, load).front(), std::numeric_limits<double>::infinity())) continue;
+    throw InputError("", "the joint has no equilibrium under a load of " + rounded(load, 6) + " N",
+                     "choose smaller loads: a tendon bears " + rounded(bearable(declared), 2) + " N");
+  }
+}
+
 }  // namespace
 
 double Bench::largest_load() const {
@@ -92,6 +105,7 @@ Bench bench_of(const DeclaredMechanism& declared, const PlanOptions& options) {
   bench.speeds = options.speeds.empty() ? std::vector<double>{way / k_slow_cycle, way / k_fast_cycle} : options.speeds;
   std::sort(bench.speeds.begin(), bench.speeds.end());
   const PlannedRun slow{.from = bench.from, .to = bench.to, .speed = bench.speeds.front()};
+  refuse_unheld_loads(declared, slow, options.loads);
   bench.loads = options.loads.empty() ? usual_loads(declared, slow, options.noise) : options.loads;
   std::stable_partition(bench.loads.begin(), bench.loads.end(), [](double load) { return load == 0; });
   return bench;

@@ -259,7 +259,7 @@ class Calibrate(harness.Scratch):
     def test_rejects_reading_options(self):
         for option, message in (("--unit time=furlong", "units: s, ms, us"), ("--unit tim=ms", "did you mean 'time'"), ("--unit ms", "role=value"),
                              ("--ticks-per-turn load=4096", "no role 'load'"), ("--ticks-per-turn alpha=many", "'many' is none"),
-                             ("--ticks-per-turn alpha=1", "2 or more"), ("--zero-ticks theta=2048", "give --ticks-per-turn theta=N too")):  # fmt: skip
+                             ("--ticks-per-turn alpha=1", "2 or more"), ("--zero-ticks theta=2048 --unit theta=rad", "give --ticks-per-turn theta=N, or")):  # fmt: skip
             self.expect(f"calibrate joint.toml run_1.csv {option}", 2, err=message)
 
     def test_rejects_unreadable_runs(self):

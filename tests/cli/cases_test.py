@@ -118,7 +118,8 @@ CASES = [
     ("build .", 3, "^$", "is a directory"),
     ("build empty.toml", 3, "^$", "empty.toml"),
     ("build binary.toml", 3, "^$", "binary.toml"),
-    ("build broken.toml", 3, "^$", "broken.toml:2:"),
+    ("build broken.toml", 3, "^$", "broken.toml:2:.*saw the end of the line\n"),
+    ("build arm.toml --dry-run --set pulley.r1_mm=60", 4, "^$", "arm.toml: note: try pulley.r1_mm = "),
     ("build unknown.toml", 3, "^$", "unknown.toml:3:1: .*lenght_mm.*length_mm"),
     ("build many.toml", 3, "^$", "many.toml:3:.*many.toml:4:.*many.toml:6:.*many.toml:8:.*linear.*many.toml:10:"),
     ("build /dev/zero", 3, "^$", "is not a regular file"),
@@ -181,6 +182,9 @@ CASES = [
     ("explain pulley.r1_mm", 0, "mm", "^$"),
     ("explain pulley", 0, "EF_mm.*r1_mm", "^$"),
     ("explain pulley.r1_m", 3, "^$", "r1_mm"),
+    ("explain Dyneema", 3, "^$", "the word occurs in fusee explain tendon\\.diameter_mm"),
+    ("explain xyzzy", 3, "^$", "fusee explain lists all keys"),
+    ("compare", 2, "^$", "usage: fusee compare SPEC --before FILE... --after FILE..."),
     ("explain --schema", 0, "\"\\$schema\"", "^$"),
 ]
 

@@ -38,6 +38,13 @@ def links(path):
             yield target, (path.parent / file).resolve() if file else path, place
 
 
+class Examples(unittest.TestCase):
+    def test_find_their_files(self):
+        for page in files(".md"):
+            with self.subTest(str(page.relative_to(harness.SOURCE))):
+                self.assertNotIn("No such file", page.read_text())
+
+
 class Links(unittest.TestCase):
     def test_have_valid_targets(self):
         pages = files(".md")

@@ -6,6 +6,7 @@ import math
 import os
 import pathlib
 import random
+import re
 import shutil
 import signal
 import struct
@@ -46,6 +47,14 @@ class Build(harness.Scratch):
         for name in ["a/b", "a:b"]:
             self.expect(f"build arm.toml --set name={name}", 0)
         self.assertEqual(len([path for path in (self.folder / "out").iterdir() if path.name.startswith("arm.name=a_b")]), 2)
+
+    def test_setting_supplies_missing_key(self):
+        text = (self.folder / "arm.toml").read_text()
+        (self.folder / "less.toml").write_text(re.sub(r"(?m)^r1_mm.*$", "", text))
+        self.expect("build less.toml", 3, "^$", "r1_mm")
+        self.expect("build less.toml --set pulley.r1_mm=16 -o less", 0)
+        self.expect("build less/mechanism.toml -o again", 0)
+        self.assertEqual(self.files("less")["pulley.stl"], self.files("again")["pulley.stl"])
 
     def test_print_opens_again(self):
         self.expect("build arm.toml --set pulley.r1_mm=15 -o trial", 0)

@@ -71,6 +71,10 @@ class Plan(harness.Scratch):
             with self.subTest(words):
                 self.expect(f"plan arm.toml {words}", 2, "^$", "error: ")
 
+    def test_refuses_load_without_equilibrium(self):
+        self.expect("plan arm.toml --loads 0,999999", 3, "^$", "no equilibrium under a load of 999999 N.*choose smaller loads: a tendon bears")
+        self.assertFalse((self.folder / "out").exists())
+
     def test_reports_joint_without_law(self):
         self.expect("plan arm.toml --set joint.range_deg=[-170,170]", 4, "^$", "error")
 

@@ -80,8 +80,8 @@ class Questions(harness.Scratch):
         self.assertLessEqual(alpha[1] - alpha[0], 180)
 
     def test_lengths(self):
-        for typed, length in (("45 mm", "45 mm"), ("4.5 cm", "45 mm"), ("4,5 cm", "45 mm"), ("1.8 in", "45.72 mm"), ('1.8"', "45.72 mm"),
-                              ('1 3/4"', "44.45 mm"), ("0.5 m", "500 mm"), ("2 ft 3 in", "685.8 mm")):
+        for typed, length in (("45 mm", "45 mm"), ("4.5 cm", "45 mm"), ("4,5 cm", "45 mm"), ("1.8 in", "1.8 in"), ('1.8"', "1.8 in"),
+                              ('1 3/4"', "1.75 in"), ("0.5 m", "500 mm"), ("2 ft 3 in", "27 in")):
             self.assertIn(f"length: {length}", self.understood("a", typed)[0], typed)
 
     def test_ranges(self):
@@ -131,6 +131,38 @@ class Questions(harness.Scratch):
             out, err = self.ask(typed, code=3)
             self.assertEqual(out, "")
             self.assertIn("no usable answer in 50 tries", err)
+
+    def test_inches_make_a_file_in_inches(self):
+        for words, length, room, tendon in (("new --ask", "1.8 in", '1 1/4"', "0.024 in"), ("new --ask --set units=inch", "1.8", "1.25", "0.024")):
+            text, asked = self.ask(answers(length=length, room=room, tendon=tendon), words=words)
+            read = tomllib.loads(text)
+            self.assertEqual((read["units"], read["joint"]["length_mm"], read["tendon"]["diameter_mm"]), ("inch", 1.8, 0.024))
+            self.assertIn("room 1.25 in", text.replace("\n# ", " "))
+            self.assertIn("→ 1.25 in", asked)
+            self.assertRegex(asked, r"0\.\d+ in wide")
+            self.assertNotRegex(asked.split("[1 mm]: ")[1], r"\d mm")
+            self.assertIn("C is 1.8 in above O", asked)
+            self.assertNotRegex(text.split("schema")[1], r'= .*\d{6}|" mm')
+            self.builds(text, 31.75)
+        # A unit beside --set is read, but the file's unit is that of --set.
+        self.assertNotIn("inch\"", self.ask(answers(length="1.8 in"), words="new --ask --set units=mm")[0])
+
+    def test_motor_is_compared_with_the_load(self):
+        text, asked = self.ask(answers("elbow", "250 mm", "±60", "80", "50 N", "nema17-d5", "2 mm"))
+        self.assertRegex(asked, r"warning: under the load the motor has to hold \d+ Nmm, and NEMA17-48mm, the strongest that fits in the catalogue, holds \d+ Nmm")
+        self.assertIn("suitable: ", asked)
+        asked = self.ask(answers(length="60", span="±20", room="42", load="1 N", motor="disc-25T-M3", tendon="1"))[1]
+        self.assertRegex(asked, r"note: under the load the motor has to hold [\d.]+ Nmm: suitable: ")
+
+    def test_motor_by_its_makers_name_is_in_the_file(self):
+        for typed, motor, body in (("XL430-W250", {"model": "XL430-W250"}, ("horn", "dynamixel-xl430")),
+                                   ("MG996R horn", {"model": "MG996R"}, ("horn", "disc-25T-M3")),
+                                   ("hobby servo, 25-tooth horn, 180 deg", {"travel_deg": 180}, ("horn", "disc-25T-M3")),
+                                   ("NEMA17-40mm", {"model": "NEMA17-40mm"}, ("shaft", "nema17-d5"))):
+            text, _ = self.ask(answers(length="60", span="±20", room="42", load="1 N", motor=typed, tendon="1"))
+            read = tomllib.loads(text)
+            self.assertEqual((read["motor"], read["body"][body[0]]), (motor, body[1]), typed)
+            self.builds(text, 42)
 
     def test_impossible_answers_name_an_answer_that_works(self):
         out, err = self.ask(answers(room="8 mm", motor="nema17-d5"), 4)

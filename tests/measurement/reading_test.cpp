@@ -370,6 +370,14 @@ TEST(LoggedAngles, ReportUnitOfWholeNumbers) {
   const ReadRun found = read(logged(4096, 2048), roles);
   EXPECT_NEAR(degrees(found.run.samples[100].alpha - found.run.samples[0].alpha), alpha_of(100) - alpha_of(0), 0.1);
   EXPECT_THAT(found.notes, HasSubstr("taken as counts of 4096 a turn (--ticks-per-turn alpha=N overrides this)"));
+  MeasurementOptions home = roles;
+  home.zero_ticks = {{"alpha", 2048}, {"theta", 2048}};
+  const ReadRun from_home = read(logged(4096, 2048), home);
+  EXPECT_NEAR(degrees(from_home.run.samples[100].alpha), alpha_of(100), 0.05);
+  EXPECT_NEAR(degrees(from_home.run.samples[100].theta), theta_of(100), 0.05);
+  EXPECT_THAT(from_home.notes, HasSubstr("taken as counts of 4096 a turn, 2048 at home (--ticks-per-turn"));
+  const std::string fractions = table("time_s,motor,joint", {seconds(), alpha(), theta()});
+  EXPECT_THAT(error_of(fractions, home), HasSubstr("which are no counts of an encoder"));
   const ReadRun wrapped = read(logged(2000, 100, 2000), roles);
   EXPECT_THAT(wrapped.notes, HasSubstr("taken as counts of 2000 a turn"));
   EXPECT_THAT(error_of(logged(20000, 0), roles), HasSubstr("which look like counts of an encoder"));

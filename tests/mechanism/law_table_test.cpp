@@ -32,6 +32,23 @@ TEST(LawTable, ReadsSpreadsheetFormats) {
   EXPECT_EQ(rows[1].theta, radians(-15));
 }
 
+TEST(LawTable, ReadsDecimalCommas) {
+  std::vector<Diagnostic> problems;
+  const std::string header = "alpha_deg;theta_deg\n";
+  const std::vector<LawRow> rows =
+      parse_law_table(header + "-90,5;-30\n-45;-15,25\n0;0,0\n45.5;15\n90;30\n", "law.csv", k_joint, problems);
+  EXPECT_THAT(problems, IsEmpty());
+  ASSERT_THAT(rows, SizeIs(5));
+  EXPECT_EQ(rows[0].alpha, radians(-90.5));
+  EXPECT_EQ(rows[1].theta, radians(-15.25));
+  EXPECT_EQ(rows[3].alpha, radians(45.5));
+  EXPECT_THAT(errors_of(header + "-1.000,5;-30\n"), HasSubstr("2 \"-1.000,5;-30\" is not two finite numbers"));
+  EXPECT_THAT(errors_of(header + "-90;-30;1\n"), HasSubstr("2 \"-90;-30;1\" is not two finite numbers"));
+
+  parse_law_table("alpha_deg\ttheta_deg\n-90,5\t-30\n-45\t-15\n0\t0\n90\t30\n", "law.csv", k_joint, problems);
+  EXPECT_THAT(problems, IsEmpty());
+}
+
 TEST(LawTable, ReportsLineOfEachError) {
   EXPECT_THAT(errors_of(""), HasSubstr("0 the table is empty"));
   EXPECT_THAT(errors_of("theta_deg,alpha_deg\n1,2\n"), HasSubstr("1 the columns are \"theta_deg,alpha_deg\""));

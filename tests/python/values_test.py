@@ -98,6 +98,18 @@ class Values(unittest.TestCase):
         with self.assertRaises(TypeError):
             self.values["built"].files["pulley.stl"] = b""
 
+    def test_angles_are_in_degrees_too(self):
+        built, analysis = self.values["built"], self.values["analysis"]
+        self.assertEqual(built.as_built.max_theta_error_deg, np.degrees(built.as_built.max_theta_error_rad))
+        np.testing.assert_array_equal(built.as_built.theta_deg, np.degrees(built.as_built.theta_rad))
+        self.assertFalse(built.as_built.theta_deg.flags.writeable)
+        self.assertEqual(analysis.theta_error_deg.value, np.degrees(analysis.theta_error_rad.value))
+        self.assertEqual(analysis.theta_error_deg.alpha_deg, np.degrees(analysis.theta_error_rad.alpha_rad))
+        self.assertIn("max_theta_error_deg", dir(built.as_built))
+        for name in ("max_theta_eror_deg", "_deg", "slack_deg"):
+            with self.assertRaisesRegex(AttributeError, f"no attribute '{name}'"):
+                getattr(built.as_built, name)
+
     def test_arrays_are_read_only(self):
         count = 0
         for value in self.each():

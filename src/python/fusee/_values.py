@@ -1,12 +1,13 @@
-"""The results of the verbs: frozen values with read-only arrays. Every name has the unit."""
+"""The results of the verbs: frozen values with read-only arrays. Every name has the unit; angles have two, rad and deg."""
 
 from __future__ import annotations
 
 import dataclasses
 import json
+import math
 from collections import abc
 from dataclasses import dataclass
-from typing import Any, Dict, Optional, Tuple, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple, TypeVar, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,6 +53,16 @@ def _shown(value: object) -> str:
     return repr(value)
 
 
+def _in_degrees(radians: Any) -> Any:
+    if isinstance(radians, np.ndarray):
+        return _frozen(np.degrees(radians))
+    if isinstance(radians, tuple):
+        return tuple(_in_degrees(part) for part in radians)
+    if isinstance(radians, Extreme):
+        return dataclasses.replace(radians, value=math.degrees(radians.value))
+    return None if radians is None else math.degrees(radians)
+
+
 class Value:
     """Compares by content, arrays included. Unpickled values are frozen, too."""
 
@@ -66,6 +77,18 @@ class Value:
     def __repr__(self) -> str:
         parts = ", ".join(f"{part.name}={_shown(getattr(self, part.name))}" for part in _parts(self) if part.repr)
         return f"{type(self).__name__}({parts})"
+
+    if not TYPE_CHECKING:  # a type checker would accept any name
+
+        def __getattr__(self, name: str) -> Any:
+            """An angle in degrees: max_theta_error_deg of max_theta_error_rad."""
+            radians = name[:-4] + "_rad"
+            if name.endswith("_deg") and radians in self.__dict__:
+                return _in_degrees(self.__dict__[radians])
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
+        def __dir__(self) -> abc.Iterable[str]:
+            return [*object.__dir__(self), *(name[:-4] + "_deg" for name in self.__dict__ if name.endswith("_rad"))]
 
     def __getstate__(self) -> Dict[str, Any]:
         return {name: _frozen(value) if isinstance(value, np.ndarray) else value for name, value in self.__dict__.items()}

@@ -40,6 +40,25 @@ TEST(MechanismFigures, HaveMovableGroups) {
   EXPECT_EQ(turn.rfind("rotate(90 ", 0), 0u) << "α > 0 is clockwise, as SVG turns: " << turn;
 }
 
+TEST(DimensionFigure, NamesEachLengthOfTheTable) {
+  const auto names_in = [](const Mechanism& mechanism) {
+    const auto figure = dimension_figure(mechanism, profile::synthesise(mechanism));
+    std::vector<std::string> names;
+    if (!figure) return names;
+    pugi::xml_document document;
+    EXPECT_TRUE(document.load_string(inline_svg(*figure).c_str()));
+    for (const auto& words : document.select_nodes("//text")) {
+      const double x = words.node().attribute("x").as_double(), y = words.node().attribute("y").as_double();
+      EXPECT_TRUE(x >= 10 && x <= figure->width - 20 && y >= 10 && y <= figure->height - 5) << x << " " << y;
+      names.emplace_back(words.node().text().as_string());
+    }
+    return names;
+  };
+  EXPECT_THAT(names_in(testing::forearm()), ::testing::IsSupersetOf({"R", "EB", "ED", "OE", "EF", "r1", "C", "G"}));
+  Mechanism bare;
+  EXPECT_FALSE(dimension_figure(bare, profile::SynthesisResult()));
+}
+
 TEST(MovingFigures, GiveTheirOrigin) {
   const Mechanism mechanism = testing::forearm();
   const auto figures = moving_figures(mechanism, profile::synthesise(mechanism));

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <pugixml.hpp>
@@ -150,6 +151,39 @@ TEST(PlotFigure, HasNarrowLayout) {
     const auto values = read_back(document, series.name);
     ASSERT_EQ(values.size(), series.points.size());
     for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(values[i].y(), series.points[i].y(), 2e-3);
+  }
+}
+
+TEST(PlotFigure, NarrowLayoutHasHalfThePoints) {
+  Plot plot = sample_plot();
+  plot.series.resize(1);
+  plot.series[0].points.clear();
+  for (int i = 0; i <= 200; ++i) plot.series[0].points.emplace_back(i, i == 101 ? k_nan : 0.01 * i * i);
+  const Figure figure = plot_figure(plot);
+  const auto moves = [](const Figure& layout) {
+    const std::string svg = inline_svg(layout);
+    const std::size_t from = svg.find("data-series=\"r1\" d=\""), to = svg.find("\"/>", from);
+    return std::pair{std::count(svg.begin() + static_cast<long>(from), svg.begin() + static_cast<long>(to), 'L'),
+                     std::count(svg.begin() + static_cast<long>(from), svg.begin() + static_cast<long>(to), 'M')};
+  };
+  Figure wide = figure;
+  wide.narrow.clear();
+  EXPECT_EQ(moves(wide), (std::pair<long, long>{198, 2}));
+  EXPECT_EQ(moves(figure.narrow.front()), (std::pair<long, long>{99, 2}));
+}
+
+TEST(PlotFigure, LongAxisNameStaysBelowTheLegend) {
+  Plot plot = sample_plot();
+  plot.y.label = "measured less the declared model";
+  plot.height = 200;
+  const Figure figure = plot_figure(plot);
+  for (const Figure* layout : {&figure, &figure.narrow.front()}) {
+    const auto document = parsed(*layout);
+    std::istringstream frame(document.child("svg").attribute("data-plot").as_string());
+    double left = 0, top = 0, width = 0, height = 0;
+    frame >> left >> top >> width >> height;
+    EXPECT_GE(height, words_width("measured less the declared model (mm)", 12));
+    EXPECT_LE(top + height, layout->height - 40);
   }
 }
 

@@ -226,7 +226,11 @@ TEST(Report, ExplainsPolyhole) {
   EXPECT_THAT(report_html(product), Not(HasSubstr("printed corners cut inside")));
   product.pulley.layout.bore.circle = solid::RoundHole{Vec2::Zero(), 5.2};
   EXPECT_THAT(report_html(product), HasSubstr("a polygon of 4 sides on purpose: printed corners cut inside"));
-  EXPECT_THAT(report_html(product), HasSubstr("⌀ 5.2 inside the polygon"));
+  EXPECT_THAT(report_html(product), HasSubstr("bore ⌀ 5.2 inside the polygon"));
+  product.pulley.layout.bore.circle = std::nullopt;
+  product.pulley.layout.bore.kind = Bore::d;
+  product.pulley.layout.bore.radius = 3;
+  EXPECT_THAT(report_html(product), HasSubstr("bore ⌀ 6, 5.6 from the flat"));
 }
 
 TEST(Report, GivesMountingInstructions) {
