@@ -1,4 +1,4 @@
-// The whole-loop table of the documentation: whole_loop SPEC.toml LOAD_N [EFFECT]. On standard output Markdown.
+// Prints the whole-loop table of the documentation as Markdown: whole_loop SPEC.toml LOAD_N [EFFECT].
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>

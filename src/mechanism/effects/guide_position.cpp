@@ -47,8 +47,8 @@ EffectParameter place_part(std::string name, double& (*number)(Imperfections&), 
 
 }  // namespace
 
-// Four parameters for two pins. A rotation of both pins about the joint is equivalent to a zero of the joint and of the
-// pulleys; the priors keep such undetermined combinations small.
+// Four parameters for two pins. A rotation of both pins about the joint is equivalent to zero errors of joint and
+// pulleys. The priors keep such undetermined combinations small.
 Effect guide_position(JointKind) {
   Effect effect;
   effect.name = "guide_position";
