@@ -248,8 +248,8 @@ RewoundPart rewind_unrecognised(const joint::IdentifiedJoint& joint, const solid
 RewoundPart rewind_moved_mesh(const joint::IdentifiedJoint& joint, const solid::TriangleMesh& mesh) {
   const auto [layout, expected] = expected_part(joint);
   if (!is_finite(mesh)) return rewind_unrecognised(joint, layout, mesh);
-  const double as_it_lies = deviation_in_place(mesh, layout, expected);
-  if (as_it_lies <= k_as_made) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
+  const double in_place = deviation_in_place(mesh, layout, expected);
+  if (in_place <= k_as_made) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
   const std::vector<solid::PlacementResult> found =
       find_all(mesh, expected, joint.mechanism.tendon.diameter * layout.scale);
   if (found.front().status == solid::PlacementStatus::unknown) return rewind_unrecognised(joint, layout, mesh);
@@ -259,7 +259,7 @@ RewoundPart rewind_moved_mesh(const joint::IdentifiedJoint& joint, const solid::
     worst = std::max(worst, result.placement.deviation);
     placements.push_back(result.placement);
   }
-  if (!(worst < k_clearly_better * as_it_lies)) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
+  if (!(worst < k_clearly_better * in_place)) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
   for (const solid::PlacementResult& result : found) refuse(result);
   return rewind_placed(joint, placements, layout.scale);
 }
