@@ -8,7 +8,7 @@
 namespace fusee::formats {
 namespace {
 
-// The straight was constructed to touch the arc, in other arithmetic.
+// Tolerance of the contact of straight and arc, which was constructed in different arithmetic, mm.
 constexpr double k_touches = 1e-7;
 // Up to this angle an arc of one span has a weight well away from 0.
 constexpr double k_widest_seat = radians(150);
