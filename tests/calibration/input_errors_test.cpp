@@ -1,5 +1,4 @@
-// Files and logs that were written wrongly, of joints that were made and measured rightly: by a rig that shares no code
-// with the fit.
+// Files and logs with errors, of faultless joints. The data are from a rig that shares no code with the fit.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -20,7 +19,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// As a bench would have logged it.
+/// Reads the logs as those of a bench.
 measurement::Measurement logged(const std::vector<rig::Log>& logs) {
   measurement::Measurement measurement;
   for (std::size_t i = 0; i < logs.size(); ++i) {
@@ -41,7 +40,7 @@ Bench random_bench(std::uint64_t seed) {
   return {joint.declared, logged(rig::log_runs(joint, {}, rig::full_protocol(0.05 * joint.declared.joint.R)))};
 }
 
-/// Joints of the rig, of either law, both with nothing alike on both sides …
+/// Random unsymmetric joints of the rig: one with law = "compensate", one with law = "linear".
 const Bench& compensating() {
   static const Bench bench = random_bench(3 * 7919);
   return bench;
@@ -75,8 +74,8 @@ Calibration calibrated(const DeclaredMechanism& file, measurement::Measurement d
   return calibrate(file, data, options);
 }
 
-/// Rms over all rows with nothing fitted, rad: no rows are left out, as in the trial of an input error.
-double left_by(const DeclaredMechanism& file, const measurement::Measurement& data) {
+/// Rms over all rows with nothing fitted, rad. As in the test of a hypothesis, no rows are left out.
+double residual_of(const DeclaredMechanism& file, const measurement::Measurement& data) {
   return calibrated(file, data, false).before.rms;
 }
 
@@ -142,7 +141,7 @@ TEST(InputErrors, ReportInvertedRatio) {
               ElementsAre(AllOf(HasSubstr("pulley.ratio = "), HasSubstr("alpha per theta?"))));
 }
 
-/// Data as logged with other signs or in another unit.
+/// The data with other signs or in another unit.
 measurement::Measurement times(measurement::Measurement data, double alpha, double theta) {
   for (measurement::Run& run : data.runs) {
     for (measurement::Sample& sample : run.samples) {
@@ -190,7 +189,7 @@ TEST(InputErrors, AreReportedIfNoEffectExplainsData) {
   EXPECT_EQ(errors[0].key, "guides.OE_mm");
   EXPECT_THAT(errors[0].declared, ElementsAre(14.0));
   EXPECT_THAT(errors[0].would_be, ElementsAre(-14.0));
-  const double left = left_by(rig_data("a_declared_right").right, bench.data);
+  const double left = residual_of(rig_data("a_declared_right").right, bench.data);
   EXPECT_NEAR(errors[0].rms, left, 0.1 * left);
   EXPECT_LT(errors[0].rms, 1.1 * found.noise.rms);
   EXPECT_EQ(input_error_words(errors[0]), "guides.OE_mm = -14 in place of 14 would explain the data to " +
@@ -228,7 +227,7 @@ TEST(InputErrors, AllowEffectBesideThem) {
 
 TEST(InputErrors, AllowUnmodelledCauseBesideThem) {
   Bench bench = rig_data("f_not_in_any_catalogue");
-  const double left = left_by(bench.right, bench.data);
+  const double left = residual_of(bench.right, bench.data);
   bench.right.guides.OE *= -1;
   const std::vector<LikelyInputError> errors = errors_of(bench.right, bench.data);
   ASSERT_EQ(errors.size(), 1u);
