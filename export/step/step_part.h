@@ -69,7 +69,7 @@ struct StepPrism {
   std::vector<StepContour> inner = {};
   double low = 0;
   double high = 0;
-  /// A plane that limits the prism, seen along its normal.
+  /// A plane that limits the prism to the part below it, seen along its normal.
   struct Ceiling {
     Vec3 point, normal;
   };
