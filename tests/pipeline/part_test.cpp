@@ -130,7 +130,7 @@ TEST_F(MadePart, MovedPartHasSameAngles) {
 }
 
 TEST_F(MadePart, FaultRemainsAfterMove) {
-  // Half a per cent too small: the part fits no better elsewhere, so it is not moved, and its error remains.
+  // Half a percent too small: the part fits no better elsewhere, so it is not moved, and its error remains.
   const solid::TriangleMesh small = changed([](Vec3& v) { v.head<2>() *= 0.995; });
   const profile::RewindResult unmoved = pipeline::rewind_part({*mechanism_, {}}, small);
   EXPECT_EQ(pipeline::rewind_moved_part({*mechanism_, {}}, small).place, pipeline::PartPlace::as_made);
