@@ -11,7 +11,7 @@
 namespace fusee::calibration {
 
 /// Every effect of the kind, with bounds and starts shifted so that a number is the change from `before`: play may
-/// shrink by as much as it was. For a joint declared by a ratio the joint sensor's zero is one of them.
+/// shrink to zero. For a joint declared by a ratio the joint sensor's zero is one of them.
 std::vector<fusee::Effect> changes_from(const Imperfections& before, JointKind kind);
 
 /// For each effect of `fit`, in order: 1 / s. s is the standard error of a factor on the effect's contribution (1 as
