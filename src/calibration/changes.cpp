@@ -82,9 +82,9 @@ Eigen::VectorXd shared_discrepancy(const Evidence& evidence, const Fit& fit) {
 /// number.
 class ClusteredVariance {
  public:
-  void take(std::size_t cluster, double done, double left) {
-    products_[cluster] += done * left;
-    squares_ += done * done;
+  void take(std::size_t cluster, double contribution, double residual) {
+    products_[cluster] += contribution * residual;
+    squares_ += contribution * contribution;
   }
   double value() const {
     const double count = static_cast<double>(products_.size());
@@ -136,11 +136,11 @@ StateDifference state_difference(const Evidence& evidence, const Fit& none, cons
   Eigen::Index at = 0;
   for (const Block& block : evidence.blocks) {
     for (const std::size_t row : block.rows) {
-      const double left = shared[at++];
+      const double discrepancy = shared[at++];
       if (block.run < evidence.earlier->runs) continue;
-      const double apart = none.residual[static_cast<Eigen::Index>(row)] - left;
+      const double apart = none.residual[static_cast<Eigen::Index>(row)] - discrepancy;
       before += apart * apart;
-      after += std::pow(changed.residual[static_cast<Eigen::Index>(row)] - left, 2);
+      after += std::pow(changed.residual[static_cast<Eigen::Index>(row)] - discrepancy, 2);
       rows += 1;
     }
   }

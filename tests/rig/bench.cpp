@@ -459,19 +459,19 @@ double Bench::solve_balance(std::array<LowerSpan, 2>& below, const Conditions& a
   if (std::isnan(now)) return now;
   if (std::abs(now) <= dry) return theta_;
   const double towards = now > 0 ? 1.0 : -1.0;
-  const auto left = [&](double way) { return towards * excess_torque(below, theta_ + towards * way, at) - dry; };
+  const auto unbalanced = [&](double way) { return towards * excess_torque(below, theta_ + towards * way, at) - dry; };
   double low = 0;
   double at_low = std::abs(now) - dry;
   double high = std::max(1e-6, 1.2 * std::abs(step_));
-  double at_high = left(high);
+  double at_high = unbalanced(high);
   while (at_high > 0) {
     low = high;
     at_low = at_high;
     high *= 2.0;
     if (!(std::abs(theta_ + towards * high) < furthest_)) return std::numeric_limits<double>::quiet_NaN();
-    at_high = left(high);
+    at_high = unbalanced(high);
   }
-  return theta_ + towards * find_root_between(low, at_low, high, at_high, 1e-12, left);
+  return theta_ + towards * find_root_between(low, at_low, high, at_high, 1e-12, unbalanced);
 }
 
 /// Fixed point of displacements that depend on the forces: compliant pins, and elongations that depend on tension.
