@@ -839,8 +839,8 @@ std::optional<double> Selector::square_deviation(const Fit& fit, Eigen::Index pl
       std::find(fit.parameters.begin(), fit.parameters.end(), best.parameters[static_cast<std::size_t>(place)]);
   if (own == fit.parameters.end()) return {};
   const Eigen::Index k = own - fit.parameters.begin();
-  const double apart = fit.x[k] - best.x[place];
-  return apart * apart + selection_.temperature * std::max(0.0, fit.posterior.covariance(k, k));
+  const double deviation = fit.x[k] - best.x[place];
+  return deviation * deviation + selection_.temperature * std::max(0.0, fit.posterior.covariance(k, k));
 }
 
 /// Variance of each number: the weighted mean over all sets that contain it, and at least its variance with any

@@ -69,10 +69,10 @@ std::vector<double> steps_in_time(const Evidence& evidence, const Fit& base) {
   std::vector<double> times;
   const std::vector<double> tried = times_to_try(times_of_rows(evidence));
   if (tried.empty()) return times;
-  const double apart = 0.02 * (tried.back() - tried.front());
+  const double spacing = 0.02 * (tried.back() - tried.front());
   for (const double time : by_evidence(evidence, base, tried)) {
     const bool new_place =
-        std::none_of(times.begin(), times.end(), [&](double other) { return std::abs(other - time) < apart; });
+        std::none_of(times.begin(), times.end(), [&](double other) { return std::abs(other - time) < spacing; });
     if (new_place) times.push_back(time);
     if (times.size() == k_slip_times) break;
   }

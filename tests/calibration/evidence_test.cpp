@@ -244,8 +244,8 @@ TEST(Play, LooseRowsRestPushedOrAnywhere) {
   // Half of each: the sum of both, and ln 2 per row because its kind is unknown.
   Eigen::VectorXd mixed = noise;
   mixed.tail(count / 2) = far.tail(count / 2);
-  const double apart = 0.5 * noise.head(count / 2).squaredNorm() / (floor * floor) + count / 2 * (2.3076 + 0.4950);
-  EXPECT_NEAR(cost_of_rows(mixed, loose, floor), apart + count * std::log(2.0) + fitted, 0.15 * count);
+  const double separate = 0.5 * noise.head(count / 2).squaredNorm() / (floor * floor) + count / 2 * (2.3076 + 0.4950);
+  EXPECT_NEAR(cost_of_rows(mixed, loose, floor), separate + count * std::log(2.0) + fitted, 0.15 * count);
 }
 
 TEST(Play, DensityIntegratesToOne) {

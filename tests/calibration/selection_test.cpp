@@ -79,7 +79,7 @@ measurement::Measurement logged(const DeclaredMechanism& declared, const Imperfe
 
 const std::vector<Plan> k_full = {{0, 1}, {3, 1}, {0, 8}, {1.5, 1}, {-3, 1}};
 
-double apart(const std::vector<std::vector<double>>& one, const std::vector<std::vector<double>>& other) {
+double rms_difference(const std::vector<std::vector<double>>& one, const std::vector<std::vector<double>>& other) {
   double squares = 0;
   double rows = 0;
   for (std::size_t i = 0; i < one.size(); ++i) {
@@ -111,7 +111,7 @@ Imperfections well_seen(const DeclaredMechanism& declared, const fusee::Effect& 
   const joint::BenchLog log = measurement::bench_log(measurement);
   const joint::Readings as_declared = joint::predict(declared, {}, log);
   double size = 1;
-  for (int i = 0; i < 60 && apart(joint::predict(declared, moved(size), log), as_declared) < 8 * k_noise; ++i)
+  for (int i = 0; i < 60 && rms_difference(joint::predict(declared, moved(size), log), as_declared) < 8 * k_noise; ++i)
     size *= 1.25;
   return moved(size);
 }
@@ -138,7 +138,7 @@ TEST_P(EveryEffect, IsIdentifiedInDataThatContainIt) {
   ASSERT_NE(effect, nullptr);
   const Imperfections truth = well_seen(declared, *effect);
   const joint::BenchLog log = measurement::bench_log(logged(declared, {}, k_full));
-  if (apart(joint::predict(declared, truth, log), joint::predict(declared, {}, log)) < 3 * k_noise)
+  if (rms_difference(joint::predict(declared, truth, log), joint::predict(declared, {}, log)) < 3 * k_noise)
     GTEST_SKIP() << "however large, it hardly moves this joint";
   CalibrationOptions options;
   options.audit = false;  // it only adds members to groups
@@ -173,7 +173,7 @@ TEST(Selection, FindsGrooveFrictionOfSoftTendon) {
   const std::vector<Plan> plans = {{0, 1}, {10, 1}, {0, 8}, {5, 1}, {-10, 1}};
   const measurement::Measurement measurement = logged(declared, truth, plans);
   const joint::BenchLog log = measurement::bench_log(measurement);
-  EXPECT_GT(apart(joint::predict(declared, truth, log), joint::predict(declared, {}, log)), 5 * k_noise);
+  EXPECT_GT(rms_difference(joint::predict(declared, truth, log), joint::predict(declared, {}, log)), 5 * k_noise);
   CalibrationOptions options;
   options.audit = false;
   const Calibration found = calibrate(declared, measurement, options);

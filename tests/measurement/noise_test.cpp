@@ -213,14 +213,14 @@ TEST(NoiseFloor, EstimatesColour) {
   }
 }
 
-/// Alternating dwells at both ends, of `rows` rows each. The joint settles differently at each visit, by `apart` rms.
-Measurement dwells_at_ends(double noise, double apart, int rows) {
+/// Alternating dwells at both ends, of `rows` rows each. The joint settles differently at each visit, by `scatter` rms.
+Measurement dwells_at_ends(double noise, double scatter, int rows) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   Measurement measurement;
   Run& run = measurement.runs.emplace_back();
   for (int visit = 0; visit < 400; ++visit) {
-    const double landed = apart * normal(random), alpha = visit % 2 == 0 ? 0.0 : 1.0;
+    const double landed = scatter * normal(random), alpha = visit % 2 == 0 ? 0.0 : 1.0;
     const std::size_t first = run.samples.size();
     for (int i = 0; i < rows; ++i) {
       Sample sample;
