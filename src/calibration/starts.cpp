@@ -36,7 +36,7 @@ std::vector<double> times_to_try(std::vector<double> rows) {
   return times;
 }
 
-/// Times by the evidence of a step of any size beside the base and the discrepancy, likeliest first.
+/// Times ordered by the evidence of a step of any size at each, beside the base and the discrepancy; likeliest first.
 std::vector<double> by_evidence(const Evidence& evidence, const Fit& base, const std::vector<double>& times) {
   const std::vector<double> rows = times_of_rows(evidence);
   Tangent tangent = tangent_of(evidence, base);

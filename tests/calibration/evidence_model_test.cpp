@@ -73,13 +73,13 @@ TEST(EvidenceModel, IntegratesParameterOverItsPrior) {
   tangent.prior = Eigen::VectorXd::Constant(1, 0.5);
   tangent.caliper_information = Eigen::MatrixXd::Zero(1, 1);
   // At the mode, where a fit ends.
-  const double summit = evidence_model.at(tangent, amplitudes).step[0];
-  tangent.x[0] = summit;
-  tangent.residual -= summit * slope;
+  const double mode = evidence_model.at(tangent, amplitudes).step[0];
+  tangent.x[0] = mode;
+  tangent.residual -= mode * slope;
   const double found = evidence_model.at(tangent, amplitudes).log_evidence - without;
   double sum = 0;
-  const double step = 1e-4, reference = log_density(r - summit * slope, D, amplitudes, 0.1);
-  for (double x = summit - 0.5; x < summit + 0.5; x += step)
+  const double step = 1e-4, reference = log_density(r - mode * slope, D, amplitudes, 0.1);
+  for (double x = mode - 0.5; x < mode + 0.5; x += step)
     sum += step * std::exp(log_density(r - x * slope, D, amplitudes, 0.1) + calibration::log_prior(x, 0.5) - reference);
   EXPECT_NEAR(found, std::log(sum) + reference - log_density(r, D, amplitudes, 0.1), 0.02);
 }
@@ -124,8 +124,8 @@ TEST(EvidenceModel, FindsAmplitudesAndDropsAbsentFamilies) {
   EXPECT_NEAR(found.amplitudes.noise, 0.1, 0.01);
 }
 
-// From one noise floor on, a discrepancy has the prior odds of an effect. The model's own error, a fixed family, has no
-// penalty.
+// The penalty of a discrepancy grows up to the prior odds of an effect, at an rms of one noise floor. The model's own
+// error, a fixed family, has no penalty.
 TEST(EvidenceModel, PenalizesDiscrepancyUpToOneFloor) {
   std::mt19937 random(5);
   calibration::Discrepancy D = two_families(50, random);

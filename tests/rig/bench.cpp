@@ -231,11 +231,12 @@ void Bench::build_link(BenchTendon& tendon, std::size_t side, const DeclaredMech
 void Bench::add_sheath(BenchTendon& tendon, const DeclaredMechanism& declared) const {
   const Sheath& sheath = declared.sheath;
   tendon.guide = {tendon.axis + Vec2(sheath.exit_across, sheath.exit_above), 0.0};
-  const double give = std::max(0.0, (sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0) + hidden_.sheath_give);
+  const double compliance =
+      std::max(0.0, (sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0) + hidden_.sheath_compliance);
   const double holds = std::max(0.0, sheath.mu * sheath.bend + hidden_.sheath_friction);
   for (int i = 0; i <= k_sheath_bends; ++i) {
     const double share = (i == 0 || i == k_sheath_bends ? 0.5 : 1.0) / k_sheath_bends;
-    tendon.sheath.push_back({share * sheath.length, share * give, i == 0 ? 0.0 : holds / k_sheath_bends});
+    tendon.sheath.push_back({share * sheath.length, share * compliance, i == 0 ? 0.0 : holds / k_sheath_bends});
   }
 }
 
@@ -249,7 +250,7 @@ double Bench::pull_through(std::vector<SheathPiece>& sheath, const Cord& cord, d
   for (SheathPiece& piece : sheath) {
     piece.bristle = bend_bristle(piece.bristle, slipped);
     tension *= std::exp(-piece.holds * piece.bristle);
-    const double material = cord.material(piece.length - piece.give * (tension - home), tension);
+    const double material = cord.material(piece.length - piece.compliance * (tension - home), tension);
     slipped += material - piece.material;
     piece.material = material;
   }
@@ -540,7 +541,7 @@ double Bench::to(double pulley, double alpha, const Conditions& conditions) {
     for (std::size_t side = 0; side < 2; ++side) {
       const auto own = static_cast<Eigen::Index>(3 * side);
       all[own] = longer_[side].preview(at);
-      all.segment<2>(own + 1) = hidden_.frame_give * (push[side] - tendons_[side].home_push);
+      all.segment<2>(own + 1) = hidden_.frame_compliance * (push[side] - tendons_[side].home_push);
     }
     return all;
   };

@@ -82,9 +82,9 @@ std::vector<Fault> tendon_faults() { return {
      return {{"outward1_mm", h.pin_outward[0]}, {"down1_mm", h.pin_down[0]}, {"outward2_mm", h.pin_outward[1]}, {"down2_mm", h.pin_down[1]}};
    }},
   {.split = "named", .name = "frame_compliance", .first = 1e-3, .most = 0.2,
-   .set = [](H& h, double s, const C&, const J&) { h.frame_give = s; },
+   .set = [](H& h, double s, const C&, const J&) { h.frame_compliance = s; },
    .kin = {"tendon_stretch"},
-   .numbers = [](const H& h, const J&) -> Numbers { return {{"mm_per_N", h.frame_give}}; }},
+   .numbers = [](const H& h, const J&) -> Numbers { return {{"mm_per_N", h.frame_compliance}}; }},
 
   {.split = "wide", .name = "idler_friction", .first = 0.1, .most = 1.5,
    .set = [](H& h, double s, const C&, const J&) { h.bearing_friction = s; },
@@ -95,11 +95,11 @@ std::vector<Fault> tendon_faults() { return {
    .kin = {"capstan_friction"},
    .numbers = [](const H& h, const J& j) -> Numbers { return {{"mu_bend", j.declared.sheath.mu * j.declared.sheath.bend + h.sheath_friction}}; }},
   {.split = "wide", .name = "sheath_stiffness", .first = 0.01, .most = 0.1,
-   .set = [](H& h, double s, const C&, const J&) { h.sheath_give = s; },
+   .set = [](H& h, double s, const C&, const J&) { h.sheath_compliance = s; },
    .kin = {"tendon_stretch", "frame_compliance"},  // springs along the tendon
    .numbers = [](const H& h, const J& j) -> Numbers {
      const double stiffness = j.declared.sheath.stiffness;
-     return {{"mm_per_N", (stiffness > 0 ? 1.0 / stiffness : 0.0) + h.sheath_give}};
+     return {{"mm_per_N", (stiffness > 0 ? 1.0 / stiffness : 0.0) + h.sheath_compliance}};
    }},
 
   {.split = "tuning", .name = "lump", .first = 0.1, .most = 3.0,
