@@ -192,9 +192,9 @@ TendonText text_of(const model::WrappedTendon& tendon, bool ends_in_C) {
 std::vector<std::string> way_words(const ModelProduct& product) {
   const model::TendonModel& model = *product.tendons;
   const Mechanism& mechanism = product.mechanism;
-  const std::string held = number_of(model.constrained);
+  const std::string constrained = number_of(model.constrained);
   const std::string pin = mechanism.guides.kind == GuideKind::idler ? "idler" : "pin";
-  const std::string taken = model.length.c.size() == 2 ? " is its radius times alpha: P" + held + " is round."
+  const std::string taken = model.length.c.size() == 2 ? " is its radius times alpha: P" + constrained + " is round."
                                                        : " is a polynomial of alpha (degree 4).";
   const std::string misses =
       "It misses theta(alpha) by " + at_most_deg(model.error) + " deg at most, over the whole range.";
@@ -203,14 +203,14 @@ std::vector<std::string> way_words(const ModelProduct& product) {
     return {
         "Both tendons run over their pins; MuJoCo wraps them round cylinders and spheres only, so that below its pin "
         "each ends",
-        "at a fixed point. The length of tendon " + held + " taken in by pulley P" + held + taken, misses + draws,
-        "its length follows from theta. No friction at the pins: MuJoCo's tendons have none."};
+        "at a fixed point. The length of tendon " + constrained + " taken in by pulley P" + constrained + taken,
+        misses + draws, "its length follows from theta. No friction at the pins: MuJoCo's tendons have none."};
   }
   std::vector<std::string> lines{
       std::string(mechanism.joint.drum_radius > 0 ? "Tendons run over the link's drum and their "
                                                   : "Tendons run over their ") +
           pin + "s; MuJoCo wraps them round cylinders and spheres only, so that below its " + pin + " each ends",
-      "at a fixed point. The length of tendon " + held + " taken in by pulley P" + held + taken};
+      "at a fixed point. The length of tendon " + constrained + " taken in by pulley P" + constrained + taken};
   const bool both = model.omission[0].empty() && model.omission[1].empty();
   lines.push_back(misses + (both ? draws : ""));
   if (both) lines.push_back("its length follows from theta.");
@@ -249,7 +249,7 @@ std::string mujoco_tendons_xml(const ModelProduct& product) {
   const model::TendonModel& model = *product.tendons;
   const Mechanism& mechanism = product.mechanism;
   const SimulatedBody body = body_of(product);
-  const std::string held = number_of(model.constrained);
+  const std::string constrained = number_of(model.constrained);
   std::vector<std::string> coupling = way_words(product);
   coupling.push_back(k_compliance);
   std::string world, link = drum(mechanism), tendons;
@@ -269,7 +269,7 @@ std::string mujoco_tendons_xml(const ModelProduct& product) {
   const double drawn = mechanism.seen_pitch_radius() > 0 ? 0 : 0.01 * mechanism.joint.R;
   return opening(product, body, coupling) + bodies(product, body, pins(mechanism, drawn) + world, link) +
          "  <tendon>\n" + tendons + "    <fixed name=\"wound\">\n      <joint joint=\"alpha\" coef=\"" + number(arm) +
-         "\"/>\n    </fixed>\n  </tendon>\n  <equality>\n    <tendon tendon1=\"tendon_" + held +
+         "\"/>\n    </fixed>\n  </tendon>\n  <equality>\n    <tendon tendon1=\"tendon_" + constrained +
          "\" tendon2=\"wound\" polycoef=\"" + numbers(over_arm(model.length, arm).c) + "\" " + stiff(body) +
          "/>\n  </equality>\n" + ending(product, body);
 }

@@ -162,9 +162,9 @@ SimulatedBody body_of(const ModelProduct& product) {
   body.kv = 2 * std::sqrt(body.kp * inertia);
   // Constraints deflect by (1 − d) a t², with impedance d, time constant t, and a the acceleration that the load would
   // give link and motor if they were free. 1e-5 rad is a tenth of a table's allowed error.
-  constexpr double k_softness = 1e-4, k_give = 1e-5;
+  constexpr double k_softness = 1e-4, k_deflection = 1e-5;
   const double turned = heaviest * (1 / link + 1 / body.armature);
-  const double most_constant = turned > 0 ? std::sqrt(k_give / (k_softness * turned)) : 1;
+  const double most_constant = turned > 0 ? std::sqrt(k_deflection / (k_softness * turned)) : 1;
   const double step = std::min({1e-3, 0.1 * std::sqrt(inertia / body.kp), most_constant / k_steps_per_constant});
   body.timestep = std::stod(rounded(step, 1));
   if (body.timestep > step) body.timestep = std::stod(rounded(0.5 * step, 1));

@@ -11,11 +11,11 @@ namespace fusee::formats::model_words {
 
 /// Twelve digits.
 std::string number(double value);
-/// Nine digits: the accuracy of a fit, equal for every compiler.
+/// Nine digits: the accuracy of a fit. Further digits differ between compilers.
 std::string coefficient(double value);
 /// The shortest C literal that reads back as the same float: "1.5f".
 std::string c_float(float value);
-/// Degrees rounded up to a millionth, as an upper bound.
+/// Upper bound in degrees: two digits, rounded up, and at least 0.000001.
 std::string at_most_deg(double angle);
 
 /// The meaning and source of α and θ in these files.
@@ -24,7 +24,8 @@ std::vector<std::string> of_curve(const model::JointCurve& curve, const ModelPro
 std::string xml_comment(const std::vector<std::string>& lines);
 std::string xml_attribute(const std::string& text);
 
-/// The link and the pulley for a simulator. SI units. `words` names every assumption in addition to the file.
+/// The link and the pulley for a simulator. SI units. `words`: each value that is assumed because
+/// the file does not have it.
 struct SimulatedBody {
   double mass = 0;           ///< of the link, kg
   double lever = 0;          ///< from O along OC to the centre of that mass, m

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: small pieces of text.
+/// Internal: texts of the calibration's pages about names, effects and discrepancies.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace fusee::formats {
 
 std::string open_words(const std::string& name);  ///< "tendon_stretch" → "tendon stretch"
 std::string first_upper(std::string words);
-/// "compliance" and " % per decade", as it is set behind a number, of "compliance_percent_per_decade".
+/// A parameter's name, and its unit as it follows a number: "compliance", " % per decade".
 struct NameAndUnit {
   std::string name, unit;
 };
@@ -26,7 +26,7 @@ std::string unmodelled_words(const calibration::FoundEffect& effect);
 /// "Perhaps joint sensor gain (gain = 1.26 % …) acts too: with both … held-out runs are predicted best."; "" if no member
 /// of its group is reported beside it.
 std::string beside_words(const calibration::FoundEffect& effect, const std::string& load_unit);
-/// "0.021° rms, place: the same at a place whichever way …"
+/// "0.021° rms, place: equal at each angle for all directions, loads and speeds …"
 std::string discrepancy_words(const calibration::DiscrepancyComponent& part);
 
 }  // namespace fusee::formats

@@ -11,7 +11,7 @@ namespace {
 
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-/// Conversions to degrees and per cent add rounding errors. Without the last digits, 30° is 30 as in the file.
+/// Conversions to degrees and percent add rounding errors. Without the last digits, 30° is 30 as in the file.
 Json as_written(double value) {
   constexpr int k_digits = 12;
   double rounded_value = value;

@@ -44,13 +44,13 @@ std::string side_json(const Product& product, std::size_t i) {
   const helical_solid::SpiralPlace& place = i == 0 ? helix.pulley.p1 : helix.pulley.p2;
   const std::vector<transmission::TransmissionPoint>& stroke = product.synthesis.stroke;
   // Rise per mm in the direction of the joint. That distance is shorter than the path in the tendon's own plane.
-  const auto climb = [&](std::size_t k) {
+  const auto rise = [&](std::size_t k) {
     const transmission::TendonPoint& tendon = i == 0 ? stroke[k].t1 : stroke[k].t2;
     return -place.direction * std::tan(side.stroke[k].slope) / std::abs(std::cos(tendon.lower_normal));
   };
   return "{\"rows\":" + drawn_rows(side.spiral, place) +
          ",\"z\":" + numbers_text(stroke.size(), 4, [&](std::size_t k) { return place.height(side.stroke[k].z); }) +
-         ",\"climb\":" + numbers_text(stroke.size(), 6, climb) +
+         ",\"climb\":" + numbers_text(stroke.size(), 6, rise) +
          ",\"fleet\":" + numbers_text(stroke.size(), 4, [&](std::size_t k) { return degrees(side.stroke[k].fleet); }) +
          "}";
 }

@@ -19,7 +19,7 @@ namespace {
 /// Enough for the shape of every stroke, and for a person who sets them one by one.
 constexpr int k_rows_a_stroke = 120;
 
-/// Four digits, for values with an uncertainty of some tens of per cent.
+/// Four digits, for values with an uncertainty of some tens of percent.
 Json size(double value) { return std::isfinite(value) ? Json(std::stod(rounded(value, 4))) : Json(); }
 
 std::string_view word(plan::BenchChange change) {

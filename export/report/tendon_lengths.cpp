@@ -58,13 +58,12 @@ TendonLength length_on_helix(const Product& product, const helical_solid::Helica
   });
   // P1's tendon stays wound at its spiral's last row, P2's at its first.
   const helix::SpiralRow& end = left ? rows.back() : rows.front();
-  const double climb = end.z - home->z;
+  const double rise = end.z - home->z;
   TendonLength result;
   result.side = anchor.side;
   result.joint_knot = attachment(product.joint.mechanism, anchor.side, 0.0);
   result.pulley_knot = product.pulley.layout.scale * anchor.pocket;
-  result.between_knots =
-      home->free + std::hypot(climb, climb / side.spiral.slope) + (anchor.pocket - anchor.exit).norm();
+  result.between_knots = home->free + std::hypot(rise, rise / side.spiral.slope) + (anchor.pocket - anchor.exit).norm();
   result.cut = cut_length(result.between_knots + 2.0 * tendon_end(product.joint.mechanism.tendon));
   result.lap_at_home = std::abs(end.turn - side.spiral.row_at(home->z).turn);
   const helix::SpiralRow& used = rows.at(left ? side.spiral.last_used : side.spiral.first_used);

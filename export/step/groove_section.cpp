@@ -8,7 +8,7 @@
 namespace fusee::formats {
 namespace {
 
-// The straight was constructed to touch the arc, in other arithmetic.
+// Tolerance of the contact of straight and arc, which was constructed in different arithmetic, mm.
 constexpr double k_touches = 1e-7;
 // Up to this angle an arc of one span has a weight well away from 0.
 constexpr double k_widest_seat = radians(150);
@@ -18,9 +18,9 @@ std::optional<double> seat_turn(const std::vector<solid::GroovePoint>& wall, dou
   const solid::GroovePoint &groove_edge = wall.back(), &last = wall[wall.size() - 2];
   const double lean = std::atan2(groove_edge.dz - last.dz, groove_edge.offset - last.offset);
   // The straight touches the arc: its distance from the centre equals the radius.
-  const double apart = std::abs((radius - last.offset) * std::sin(lean) + last.dz * std::cos(lean));
+  const double distance = std::abs((radius - last.offset) * std::sin(lean) + last.dz * std::cos(lean));
   const double end = radius * (1 - std::sin(lean));
-  if (std::abs(apart - radius) > k_touches || end > groove_edge.offset - 1e-3) return std::nullopt;
+  if (std::abs(distance - radius) > k_touches || end > groove_edge.offset - 1e-3) return std::nullopt;
   return 0.5 * k_pi - lean;
 }
 

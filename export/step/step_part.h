@@ -39,9 +39,9 @@ enum class StepZone { p1, p2, hub };
 struct StepBand {
   /// Ruled, unless both rows are circles. Each row has its own knots.
   std::vector<StepSpline> lower = {}, upper = {};
-  /// A groove's seat: in every half-plane through the axis along the normal, an arc given by the row of its corners and
-  /// their weight. seat_radius 0: straight. If both rows are circles, the torus has its centre at this radius and
-  /// height.
+  /// A groove's seat is an arc in every half-plane along the normal. Its tangents meet in the row `corner`, whose poles
+  /// have this weight. seat_radius 0: straight. If both rows are circles, the seat is a torus about the circle with the
+  /// radius seat_middle at the height seat_z.
   double seat_radius = 0;
   double seat_middle = 0;
   double seat_z = 0;
@@ -69,7 +69,7 @@ struct StepPrism {
   std::vector<StepContour> inner = {};
   double low = 0;
   double high = 0;
-  /// A plane that limits the prism, seen along its normal.
+  /// A plane that limits the prism to the part below it, seen along its normal.
   struct Ceiling {
     Vec3 point, normal;
   };
@@ -123,7 +123,7 @@ struct StepSkin {
     std::vector<double> knots;
     std::vector<Vec3> poles;
   };
-  /// Through the corner of its two tangents, with the weight of that corner.
+  /// An arc whose end tangents meet in `corner`, a pole with this weight.
   struct Arc {
     Vec3 corner;
     double weight = 1;
@@ -168,7 +168,7 @@ struct StepSkin {
 
 struct StepPart {
   std::string name;
-  std::vector<double> sectors;  ///< directions at which the rows are cut, and the first a turn on
+  std::vector<double> sectors;  ///< directions at which the rows are cut, and the first again after a turn
   std::vector<StepRow> rows;    ///< from the bottom up
   std::vector<StepBand> bands;  ///< one fewer than rows
   std::optional<StepHub> hub = {};

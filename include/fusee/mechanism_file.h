@@ -50,7 +50,8 @@ struct Field {
   std::vector<std::string_view> choices;  ///< allowed values of a choice
   std::string_view meaning;               ///< explanation in one line
 
-  /// Value in the key's unit (mm for lengths, whatever the file's `units`), for number, range and point only. `end`: 0 or 1 for range and point.
+  /// Value in the key's unit (mm for lengths, whatever the file's `units`), for number, range and point only. `end`: 0 or
+  /// 1 for range and point.
   std::function<double(const DeclaredMechanism&, int end)> get;
   std::function<void(DeclaredMechanism&, int end, double value)> set;
   /// Text of a choice, text or boolean ("true"/"false").
@@ -78,7 +79,7 @@ const FormerKey* find_former_key(std::string_view name);
 
 /// The value of a number, or of one end of a range, in the key's unit.
 double number_of(const Mechanism& mechanism, const Field& field, int end = 0);
-/// Sets a number, or one end of a range, in the file's unit. Bounds are not checked.
+/// Sets a number, or one end of a range, in the key's unit. Bounds are not checked.
 void set_number(Mechanism& mechanism, const Field& field, int end, double value);
 
 /// The number with the fewest digits, in the key's unit, that reads back as the stored value. Only for number, range
@@ -90,7 +91,7 @@ struct NumberKey {
   const Field* field = nullptr;
   int end = 0;
 
-  /// The number in the file's unit.
+  /// The number in the key's unit.
   double get(const DeclaredMechanism& mechanism) const { return field->get(mechanism, end); }
   void set(DeclaredMechanism& mechanism, double value) const { field->set(mechanism, end, value); }
 };

@@ -89,8 +89,8 @@ std::vector<const fusee::EffectParameter*> unread_numbers(const DeclaredMechanis
 //
 // Each candidate run is simulated with each cause of the catalogue at its usual size (EffectParameter::prior). Two
 // causes are resolved if their responses differ by more than the noise and by more than the accuracy of the model.
-// Runs are chosen greedily by gain per minute. The model is linear in the causes, so sizes are right to some tens of
-// per cent.
+// Runs are chosen greedily by gain per minute. The model is linear in the causes, so sizes are right to some tens
+// of percent.
 
 /// Conditions at the bench.
 struct PlanOptions {

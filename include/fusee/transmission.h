@@ -1,5 +1,6 @@
 /// \file
-/// The target motion θ(α): tendon paths over pins and sheaths, moment arms, support functions and tensions.
+/// The target motion θ(α): tendon paths over pins and sheaths, moment arms, support functions and tensions. Numbers in
+/// brackets are the paper's equations.
 #pragma once
 
 #include <array>

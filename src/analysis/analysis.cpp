@@ -219,10 +219,10 @@ std::optional<Strength> likely_strength(const Tendon& tendon) {
   double least = std::numeric_limits<double>::infinity();
   for (const TendonType& type : tendon_types()) {
     const double stiffer = times(type.modulus, tendon.modulus);
-    const double apart = stiffer * times(type.diameter, tendon.diameter);
-    if (stiffer > alike || apart >= least) continue;
+    const double factor = stiffer * times(type.diameter, tendon.diameter);
+    if (stiffer > alike || factor >= least) continue;
     nearest = &type;
-    least = apart;
+    least = factor;
   }
   if (nearest == nullptr) return std::nullopt;
   const double thicker = tendon.diameter / nearest->diameter;

@@ -34,8 +34,8 @@ std::vector<Demand> demands(const UnderLoad& load) {
   return all;
 }
 
-/// Lowest speed of the joint over the stroke, with its place. Speed falls with torque, in a straight line down to
-/// stall; a motor that holds its torque reaches its speed with it. The magnitude of the torque counts: a load that
+/// Lowest speed of the joint over the stroke, with its place. Speed falls linearly with torque down to stall; a motor
+/// that `holds` runs at full speed under any torque up to its limit. The magnitude of the torque counts: a load that
 /// drives the motor does not speed it up.
 Extreme lowest_joint_speed(const MotorModel& motor, const std::vector<Demand>& all, bool loaded) {
   Extreme lowest{std::numeric_limits<double>::infinity(), 0};

@@ -1,6 +1,6 @@
 /// \file
-/// Pulleys made for one mechanism in another one, with inextensible tendons: joint angle, excess length, and the derivatives of
-/// both.
+/// A joint with pulleys that were made for another mechanism, and with inextensible tendons: joint angle, excess length,
+/// and the derivatives of both.
 #pragma once
 
 #include <string_view>
@@ -15,7 +15,7 @@ struct RigidPoint {
   double excess = 0;  ///< excess length of tendon 2 at that θ, mm; negative: it would have to stretch
 };
 
-/// The joint with tendons of the length that they have at home.
+/// The joint with tendons that are as long as their paths at home.
 class RigidJoint {
  public:
   RigidJoint(const joint::MadePulleys& made, const Mechanism& mounted);

@@ -48,16 +48,16 @@ void FileAccess::read(const ReadRequest& request, const TakeBlock& take) {
   constexpr std::size_t k_least = std::size_t{1} << 12, k_most = std::size_t{1} << 18;
   const std::size_t room = std::clamp(size + 1, k_least, k_most);
   const auto block = std::make_unique_for_overwrite<char[]>(room);
-  std::size_t left = request.limit;
+  std::size_t remaining = request.limit;
   for (;;) {
     const ssize_t count = ::read(file.number(), block.get(), room);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw InputError(name, "cannot be read: " + error_text(errno));
     if (count == 0) return;
     // Files of /proc report no size.
-    if (static_cast<std::size_t>(count) > left)
+    if (static_cast<std::size_t>(count) > remaining)
       throw InputError(name, fmt::format("is larger than {} bytes", request.limit), "is it the right file?");
-    left -= static_cast<std::size_t>(count);
+    remaining -= static_cast<std::size_t>(count);
     take({block.get(), static_cast<std::size_t>(count)});
   }
 }

@@ -113,7 +113,7 @@ Staging::Staging(const fs::path& place, StagingSite site) : Staging(site) {
 }
 
 void Staging::remove() const {
-  if (entry_exists(old())) return;  // the next run needs both
+  if (entry_exists(old())) return;  // the next run needs old/ and new/
   std::error_code ignored;
   fs::remove_all(path_, ignored);
   fs::remove_all(root_ / "obsolete", ignored);

@@ -18,7 +18,7 @@ namespace {
 constexpr int k_rounds = 4;
 constexpr int k_most_added = 3;
 constexpr std::size_t k_tries = 3;
-/// Share of the size of the found effect: smaller effects cannot cause it.
+/// Least size of a true cause, as a share of the size of the found effect.
 constexpr double k_as_large = 0.5;
 
 /// Columns of an effect's chords over the rows in use.
@@ -251,7 +251,7 @@ Auditor::Set Auditor::search(const SyntheticDataset& data, Set set) const {
     candidates.resize(std::min(candidates.size(), k_tries));
     double reached = score_of(here, set);
     Set better;
-    Posterior true_cause;
+    Posterior better_posterior;
     for (const auto& [predicted, i] : candidates) {
       Set wider = set;
       wider.push_back(i);
@@ -260,11 +260,11 @@ Auditor::Set Auditor::search(const SyntheticDataset& data, Set set) const {
       if (!(score > reached)) continue;
       reached = score;
       better = wider;
-      true_cause = std::move(posterior);
+      better_posterior = std::move(posterior);
     }
     if (better.empty()) break;
     set = better;
-    here = true_cause;
+    here = std::move(better_posterior);
   }
   return set;
 }

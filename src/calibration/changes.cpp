@@ -71,7 +71,7 @@ std::vector<fusee::Effect> changes_from(const Imperfections& before, JointKind k
 
 namespace {
 
-/// Discrepancy beside `fit` without its families of single runs and strokes, rows in use.
+/// Discrepancy beside `fit` at the rows in use, without the families of single runs and strokes.
 Eigen::VectorXd shared_discrepancy(const Evidence& evidence, const Fit& fit) {
   return sum_of_families(evidence.evidence_model->discrepancy(), fit.posterior.coefficients, [](Factor factor) {
     return factor != Factor::run && factor != Factor::drift && factor != Factor::stroke;
@@ -82,9 +82,9 @@ Eigen::VectorXd shared_discrepancy(const Evidence& evidence, const Fit& fit) {
 /// number.
 class ClusteredVariance {
  public:
-  void take(std::size_t cluster, double done, double left) {
-    products_[cluster] += done * left;
-    squares_ += done * done;
+  void take(std::size_t cluster, double contribution, double residual) {
+    products_[cluster] += contribution * residual;
+    squares_ += contribution * contribution;
   }
   double value() const {
     const double count = static_cast<double>(products_.size());
@@ -98,9 +98,9 @@ class ClusteredVariance {
   double squares_ = 0;
 };
 
-/// `done`: contribution of the change to every run of both states; `left`: residual of the fit beside the shared
-/// discrepancy.
-double size_by_scatter(const Evidence& evidence, const Eigen::VectorXd& done, const Eigen::VectorXd& left) {
+/// `contribution`: of the change to all rows of both states; `residual`: of the fit beside the shared discrepancy, at
+/// the rows in use.
+double size_by_scatter(const Evidence& evidence, const Eigen::VectorXd& contribution, const Eigen::VectorXd& residual) {
   const std::size_t first = evidence.earlier->runs, runs = evidence.measurement.runs.size();
   std::array<ClusteredVariance, 2> states;
   Eigen::Index at = 0;
@@ -109,7 +109,8 @@ double size_by_scatter(const Evidence& evidence, const Eigen::VectorXd& done, co
     const bool is_later = block.run >= first;
     const bool is_alone = (is_later ? runs - first : first) < 2;
     for (const std::size_t row : block.rows)
-      states[is_later ? 1 : 0].take(is_alone ? b : block.run, done[static_cast<Eigen::Index>(row)], left[at++]);
+      states[is_later ? 1 : 0].take(is_alone ? b : block.run, contribution[static_cast<Eigen::Index>(row)],
+                                    residual[at++]);
   }
   const double variance = states[0].value() + states[1].value();
   return variance > 0 ? 1.0 / std::sqrt(variance) : std::numeric_limits<double>::infinity();
@@ -121,12 +122,12 @@ std::vector<double> sizes_by_scatter(const Evidence& evidence, const Fit& fit) {
   const JointKind kind = kind_of(*evidence.declared);
   const Imperfections& before = evidence.earlier->joint;
   joint::Forward forward(*evidence.declared, evidence.log);
-  const Eigen::VectorXd left = fit.residual(evidence.rows()) - shared_discrepancy(evidence, fit);
+  const Eigen::VectorXd residual = fit.residual(evidence.rows()) - shared_discrepancy(evidence, fit);
   const Eigen::VectorXd whole = flat(forward(changed(before, fit.at, kind)));
   std::vector<double> all;
   for (const fusee::Effect* effect : fit.effects)
     all.push_back(
-        size_by_scatter(evidence, whole - flat(forward(changed(before, without(fit.at, *effect), kind))), left));
+        size_by_scatter(evidence, whole - flat(forward(changed(before, without(fit.at, *effect), kind))), residual));
   return all;
 }
 
@@ -136,11 +137,11 @@ StateDifference state_difference(const Evidence& evidence, const Fit& none, cons
   Eigen::Index at = 0;
   for (const Block& block : evidence.blocks) {
     for (const std::size_t row : block.rows) {
-      const double left = shared[at++];
+      const double discrepancy = shared[at++];
       if (block.run < evidence.earlier->runs) continue;
-      const double apart = none.residual[static_cast<Eigen::Index>(row)] - left;
-      before += apart * apart;
-      after += std::pow(changed.residual[static_cast<Eigen::Index>(row)] - left, 2);
+      const double unchanged = none.residual[static_cast<Eigen::Index>(row)] - discrepancy;
+      before += unchanged * unchanged;
+      after += std::pow(changed.residual[static_cast<Eigen::Index>(row)] - discrepancy, 2);
       rows += 1;
     }
   }

@@ -26,10 +26,10 @@ constexpr Eigen::Index k_simple = 6;
 constexpr Eigen::Index k_plain = 3;
 constexpr Eigen::Index k_rough = 18;
 /// Short length scale as a share of the span, and nodes of its kernel.
-constexpr double k_bend = 0.06;
+constexpr double k_short_scale = 0.06;
 constexpr int k_nodes = 41;
 /// Decay lengths behind a reversal as shares of the span: from a stiff drive's to a sheathed cable's.
-constexpr std::array k_ways = {0.02, 0.06, 0.2};
+constexpr std::array k_decay_lengths = {0.02, 0.06, 0.2};
 
 /// Orthonormal Legendre polynomials over the span: shapes with a number of bends, each equally likely.
 Eigen::MatrixXd smooth_curves(const std::vector<RowFacts>& facts, Eigen::Index count) {
@@ -45,7 +45,9 @@ Eigen::MatrixXd smooth_curves(const std::vector<RowFacts>& facts, Eigen::Index c
 /// Eigenfunctions of a Gaussian process of a short length scale: φ φᵀ is its covariance. Local errors are equally
 /// likely anywhere.
 Eigen::MatrixXd rough_curves(const std::vector<RowFacts>& facts) {
-  const auto kernel = [](double a, double b) { return std::exp(-0.5 * (a - b) * (a - b) / (k_bend * k_bend)); };
+  const auto kernel = [](double a, double b) {
+    return std::exp(-0.5 * (a - b) * (a - b) / (k_short_scale * k_short_scale));
+  };
   const auto node = [](Eigen::Index i) { return static_cast<double>(i) / (k_nodes - 1); };
   Eigen::MatrixXd K(k_nodes, k_nodes);
   for (Eigen::Index i = 0; i < k_nodes; ++i) {
@@ -92,7 +94,7 @@ Eigen::VectorXd column(const std::vector<RowFacts>& facts, const Part& part) {
   return all;
 }
 
-/// One column for each value of a key, about their common mean.
+/// One column for each value of a key: `part` in the rows with that value, else 0.
 Eigen::MatrixXd indicators(const std::vector<RowFacts>& facts, std::size_t RowFacts::*key, const Part& part) {
   std::map<std::size_t, Eigen::Index> place;
   for (const RowFacts& row : facts) place.try_emplace(row.*key, static_cast<Eigen::Index>(place.size()));
@@ -114,11 +116,11 @@ Eigen::MatrixXd curves_of_runs(const std::vector<RowFacts>& facts, const Eigen::
 
 /// Exponential decays behind a reversal.
 Eigen::MatrixXd transients(const std::vector<RowFacts>& facts, const Part& part) {
-  Eigen::MatrixXd all(static_cast<Eigen::Index>(facts.size()), static_cast<Eigen::Index>(k_ways.size()));
+  Eigen::MatrixXd all(static_cast<Eigen::Index>(facts.size()), static_cast<Eigen::Index>(k_decay_lengths.size()));
   for (std::size_t i = 0; i < facts.size(); ++i) {
-    for (std::size_t k = 0; k < k_ways.size(); ++k)
+    for (std::size_t k = 0; k < k_decay_lengths.size(); ++k)
       all(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-          part(facts[i]) * std::exp(-facts[i].since / k_ways[k]);
+          part(facts[i]) * std::exp(-facts[i].since / k_decay_lengths[k]);
   }
   return all;
 }
@@ -184,7 +186,8 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
   }
   const auto one = [](const RowFacts&) { return 1.0; };
   if (evidence.measurement.runs.size() > 1) builder.add(Factor::run, indicators(facts, &RowFacts::run, one));
-  // A difference between states must exceed the scatter between runs of one state. One run each does not show it.
+  // A difference between states must exceed the scatter between runs of one state, which one run of each state does not
+  // show.
   if (evidence.earlier && evidence.measurement.runs.size() > 2) {
     builder.add(Factor::run, curves_of_runs(facts, bent.middleCols(1, k_plain - 1), one));
     builder.add(Factor::run, curves_of_runs(facts, plain, direction));
@@ -193,10 +196,10 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
   if (evidence.blocks.size() <= k_thresholds.most_strokes && strokes_span_places(evidence))
     builder.add(Factor::stroke, indicators(facts, &RowFacts::block, one));
   const std::vector<Eigen::Index> rows = evidence.rows();
-  // for a joint declared by its ratio: response of one of compliance 1 to a unit of load
+  // For a joint declared by its ratio the deflection is the load, as with a compliance of 1.
   if (deflection.size() > 0) {
-    const Eigen::VectorXd yielding = deflection(rows);
-    const Eigen::MatrixXd even = yielding.asDiagonal() * smooth;
+    const Eigen::VectorXd used_deflection = deflection(rows);
+    const Eigen::MatrixXd even = used_deflection.asDiagonal() * smooth;
     const Eigen::MatrixXd odd = column(facts, [](const RowFacts& r) { return r.direction; }).asDiagonal() * even;
     builder.add(Factor::model_error, even, k_thresholds.model_error);
     builder.add(Factor::model_error, odd, k_thresholds.model_error);

@@ -1,6 +1,6 @@
 /// \file
-/// Model discrepancy: families of smooth functions of place, direction, load, speed and time, each of one unknown
-/// amplitude.
+/// Model discrepancy: families of smooth functions of place, direction, load, speed and time. Each family has one
+/// unknown amplitude.
 #pragma once
 
 #include <Eigen/Dense>
@@ -28,7 +28,7 @@ enum class Factor {
   model_error,      ///< error of the model itself
 };
 
-/// Neighbouring columns of one amplitude: the rms of their sum over all rows.
+/// Neighbouring columns with a common amplitude, which is the rms of their sum over all rows.
 struct Family {
   Factor factor = Factor::place;
   Eigen::Index first = 0;
@@ -42,7 +42,7 @@ struct Discrepancy {
   std::vector<Family> families;
 };
 
-/// Sum of the families of the factors for which `is_in` is true, rows in use. `coefficients`: of all columns.
+/// Sum over the families whose factor `is_in` accepts, for the rows in use. `coefficients`: one for each column.
 Eigen::VectorXd sum_of_families(const Discrepancy& discrepancy, const Eigen::VectorXd& coefficients,
                                 const std::function<bool(Factor)>& is_in);
 

@@ -62,7 +62,7 @@ struct Angles {
   double joint_step = 0;
 };
 
-/// Median step. Between rows of one dwell noise alone moves the joint's angle.
+/// Median step while the motor moves. Within a dwell, only noise changes the joint's angle.
 double median_step(const Eigen::VectorXd& angle, const Eigen::VectorXd& motor) {
   std::vector<double> steps;
   for (Eigen::Index i = 1; i < angle.size(); ++i) {
@@ -195,7 +195,7 @@ struct FactorSelection {
   std::vector<std::pair<const FactorWords*, double>> factors;  ///< with the evidence that each added, nats
 };
 
-/// Amplitudes without any factor. A considered error of the model itself keeps its fixed amplitude.
+/// Amplitudes without any factor. The error of the model itself, if considered, keeps its fixed amplitude.
 Amplitudes no_discrepancy(const EvidenceModel& evidence_model, bool (*is_considered)(Factor)) {
   Amplitudes amplitudes = evidence_model.without_discrepancy();
   const std::vector<Family>& families = evidence_model.discrepancy().families;
@@ -241,7 +241,7 @@ FactorSelection select_factors(const EvidenceModel& evidence_model, const Tangen
 
 namespace {
 
-/// Excess of the noise over the floor, rad². A floor from few repeats is exceeded by chance.
+/// Excess of the noise over the floor, rad². A floor from few repeats may be exceeded by chance.
 double noise_beyond_floor(const Evidence& evidence, double noise) {
   const double ratio = std::pow(noise / evidence.floor, 2);
   const double rows = evidence.evidence_model->independent_share() * static_cast<double>(evidence.rows_used());

@@ -140,8 +140,9 @@ bool harms_a_level(const Evidence& evidence, const HeldOutWithDiscrepancy& held,
 
 /// Standard error of the gain: 2 rms(curve) rms(residual) / √(independent rows).
 double error_of(const Evidence& evidence, const Gain& gain, double curve_rms) {
-  const double left = std::sqrt(std::max(0.0, gain.before - gain.mean));
-  return 2.0 * curve_rms * left / std::sqrt(std::max(1.0, gain.rows * evidence.evidence_model->independent_share()));
+  const double residual_rms = std::sqrt(std::max(0.0, gain.before - gain.mean));
+  return 2.0 * curve_rms * residual_rms /
+         std::sqrt(std::max(1.0, gain.rows * evidence.evidence_model->independent_share()));
 }
 
 std::string why_not(const Evidence& evidence, const HeldOutWithDiscrepancy& by_factor, const Gain& gain,

@@ -435,8 +435,8 @@ class BlockMaker {
   }
 
   bool in_one_place(const SegmentKind& a, const SegmentKind& b) const {
-    const double apart = (a.is_dwell ? k_dwell_tolerance : k_one_way) * (alphas_.any() ? alphas_.size() : 0.0);
-    return std::abs(a.from - b.from) <= apart && std::abs(a.to - b.to) <= apart;
+    const double tolerance = (a.is_dwell ? k_dwell_tolerance : k_one_way) * (alphas_.any() ? alphas_.size() : 0.0);
+    return std::abs(a.from - b.from) <= tolerance && std::abs(a.to - b.to) <= tolerance;
   }
 
   bool are_alike(const SegmentKind& a, const SegmentKind& b, bool anywhere) const {

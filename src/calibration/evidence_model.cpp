@@ -244,8 +244,9 @@ Amplitudes EvidenceModel::reestimate(const TangentSums& sums, const Posterior& n
     squares += now.step.dot(sums.JJ * now.step) - 2.0 * now.step.dot(sums.Jr) + 2.0 * now.step.dot(sums.JD * a);
   const double freedom = k_thresholds.noise_freedom;
   const double rows = independent_share_ * sums.rows;
-  const double left = freedom + std::max(1.0, rows - determined);
-  better.noise = std::max(floor_, std::sqrt((freedom * floor_ * floor_ + independent_share_ * squares) / left));
+  const double degrees_of_freedom = freedom + std::max(1.0, rows - determined);
+  better.noise =
+      std::max(floor_, std::sqrt((freedom * floor_ * floor_ + independent_share_ * squares) / degrees_of_freedom));
   return better;
 }
 

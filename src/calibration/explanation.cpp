@@ -160,9 +160,9 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
 std::vector<std::string> null_combinations(const Evidence& evidence, const Selection& selection) {
   std::vector<std::string> all;
   for (const Rival* rival : rivals_as_good(evidence, selection)) {
-    const double apart = rms_apart(evidence, rival->fit.residual, selection.best.residual);
+    const double difference = rms_apart(evidence, rival->fit.residual, selection.best.residual);
     all.push_back(with_numbers(evidence, selection.best, *rival->accepted) + " or " +
-                  with_numbers(evidence, rival->fit, *rival->rival) + ": " + rounded(degrees(apart), 2) +
+                  with_numbers(evidence, rival->fit, *rival->rival) + ": " + rounded(degrees(difference), 2) +
                   "° rms apart in these runs");
   }
   return all;

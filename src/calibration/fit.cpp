@@ -17,13 +17,13 @@ namespace {
 
 constexpr int k_most_steps_down = 8;
 constexpr int k_chords = 3;
-/// Passes by the amplitudes of the place before.
+/// Passes, each with the amplitudes of the previous mode.
 constexpr int k_passes = 3;
 /// Rounds of amplitudes during the descent.
 constexpr int k_few_rounds = 3;
 /// Factor on a step that lowered the density.
 constexpr double k_shorter = 0.3;
-/// Nats: a step that predicted less is the last.
+/// Nats: a step that gained less is the last.
 constexpr double k_least_gain = 0.05;
 /// Nats: a step that predicts less, a seventieth of a standard error, is not simulated. At 2e-3 a group of one joint in
 /// six takes in four members more (random joints of tests/rig).
@@ -100,8 +100,9 @@ double play_penalty(const Evidence& evidence, const Fit& fit) {
 double loose_row_penalty(const Evidence& evidence, const Fit& fit) {
   const EvidenceModel& evidence_model = *evidence.evidence_model;
   const std::vector<Eigen::Index> rows = evidence.rows();
-  const Eigen::VectorXd left = fit.residual(rows) - evidence_model.discrepancy().columns * fit.posterior.coefficients;
-  const LooseRows mixture = loose_rows(left, fit.loose(rows), evidence.floor);
+  const Eigen::VectorXd residual =
+      fit.residual(rows) - evidence_model.discrepancy().columns * fit.posterior.coefficients;
+  const LooseRows mixture = loose_rows(residual, fit.loose(rows), evidence.floor);
   double nats = evidence_model.independent_share() * mixture.nats;
   if (fit.x.size() == 0 || mixture.extra_information.isZero()) return nats;
   const Eigen::MatrixXd extra_information =
@@ -331,14 +332,14 @@ Fit Fitter::fit_least_squares(const Fit& fit) const {
     const Eigen::VectorXd step = least_squares_step(damped(sums, damping), best.x, ridge);
     Fit next = evaluate_at(best.effects, step_within_bounds(best, of_free_numbers(best, step)), best.loose_row);
     next.J = best.J;
-    const double left = is_finite(evidence(), next) ? sums_at(next).rr : sums.rr;
-    if (left >= sums.rr) {
+    const double squares = is_finite(evidence(), next) ? sums_at(next).rr : sums.rr;
+    if (squares >= sums.rr) {
       damping = std::max(k_least_damping, k_more_damping * damping);
       continue;
     }
     best = linearize_at(next.effects, next.at, next.loose_row);
     damping /= k_more_damping;
-    if (left > (1.0 - k_least_of_squares) * sums.rr) break;
+    if (squares > (1.0 - k_least_of_squares) * sums.rr) break;
   }
   return with_evidence(std::move(best));
 }
@@ -364,8 +365,8 @@ Fit Fitter::refine(Fit fit) const {
 /// too soon.
 Amplitudes Fitter::amplitudes_without_discrepancy(const Fit& fit) const {
   Amplitudes alone = evidence().evidence_model->without_discrepancy();
-  const Eigen::VectorXd left = tangent_of(evidence(), fit).residual;
-  alone.noise = std::max(alone.noise, left.norm() / std::sqrt(static_cast<double>(left.size())));
+  const Eigen::VectorXd residual = tangent_of(evidence(), fit).residual;
+  alone.noise = std::max(alone.noise, residual.norm() / std::sqrt(static_cast<double>(residual.size())));
   return alone;
 }
 
@@ -444,8 +445,8 @@ Fit Fitter::with_evidence(Fit fit) const {
   return fit;
 }
 
-/// Two states are predicted with the discrepancy, which other runs at the same load and speed show. A whole level left
-/// out would leave none of them, so runs are left out one by one.
+/// Two states are predicted with the discrepancy, which other runs at the same load and speed determine. Without a whole
+/// level there would be no such run, so single runs are held out.
 void Fitter::hold_out_of(Fit& fit) const {
   if (evidence().earlier) {
     fit.by_run = hold_out_with_discrepancy(evidence(), fit, fit.posterior.amplitudes, evidence().run_folds).with_all;

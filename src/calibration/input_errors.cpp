@@ -31,8 +31,8 @@ measurement::Measurement corrected_data(measurement::Measurement data, const Inp
 /// Hypothesis compared with the data.
 struct Trial {
   InputErrorHypothesis hypothesis;
-  double left = std::numeric_limits<double>::infinity();  ///< held-out rms with nothing fitted, rad
-  double floor = 0;                                       ///< rad
+  double residual = std::numeric_limits<double>::infinity();  ///< held-out rms with nothing fitted, rad
+  double floor = 0;                                           ///< rad
 };
 
 Trial test_hypothesis(InputErrorHypothesis hypothesis, const measurement::Measurement& as_read, double floor) {
@@ -47,7 +47,7 @@ Trial test_hypothesis(InputErrorHypothesis hypothesis, const measurement::Measur
   if (evidence.blocks.size() < 2) return trial;
   joint::Forward forward(trial.hypothesis.joint, evidence.log, trial.hypothesis.drawn);
   const Fit fit = Fitter(evidence, forward).fit({}, {});
-  if (fit.usable) trial.left = held_out_rms(fit);
+  if (fit.usable) trial.residual = held_out_rms(fit);
   return trial;
 }
 
@@ -56,7 +56,7 @@ std::vector<Trial> test_hypotheses(const DeclaredMechanism& declared, const meas
   std::vector<Trial> all;
   for (InputErrorHypothesis& hypothesis : input_error_hypotheses(declared))
     all.push_back(test_hypothesis(std::move(hypothesis), as_read, floor));
-  std::stable_sort(all.begin(), all.end(), [](const Trial& a, const Trial& b) { return a.left < b.left; });
+  std::stable_sort(all.begin(), all.end(), [](const Trial& a, const Trial& b) { return a.residual < b.residual; });
   return all;
 }
 
@@ -65,7 +65,7 @@ bool is_explained(const Calibration& found) {
          found.verdict == CalibrationVerdict::no_effect;
 }
 
-bool is_within(const Trial& trial, double floors) { return trial.left <= floors * trial.floor; }
+bool is_within(const Trial& trial, double floors) { return trial.residual <= floors * trial.floor; }
 
 /// Errors that a hypothesis must reduce, rad.
 struct Baseline {
@@ -89,16 +89,16 @@ bool is_simpler(const Trial& trial, const Baseline& baseline) {
 
 /// True if the corrected file is so much nearer to the data that another cause beside the error may stay unexplained.
 bool is_clear(const Trial& trial, const Baseline& baseline) {
-  return std::isfinite(baseline.by_effects) ? trial.left * k_thresholds.input_error_clear < baseline.by_effects
+  return std::isfinite(baseline.by_effects) ? trial.residual * k_thresholds.input_error_clear < baseline.by_effects
                                             : is_within(trial, k_thresholds.input_error_large);
 }
 
 /// True if the corrected file explains the data, alone or with effects, by the rules of every calibration.
 bool explains(Trial& trial, const measurement::Measurement& as_read, const Baseline& baseline) {
   LikelyInputError& error = trial.hypothesis.error;
-  error.rms = trial.left;
+  error.rms = trial.residual;
   if (is_simpler(trial, baseline)) return true;
-  if (baseline.is_explained || k_thresholds.input_error_gain * trial.left > baseline.by_effects) return false;
+  if (baseline.is_explained || k_thresholds.input_error_gain * trial.residual > baseline.by_effects) return false;
   if (error.pulley_as_declared || !is_within(trial, k_thresholds.input_error_large)) return is_clear(trial, baseline);
   const Calibration found = calibrate(trial.hypothesis.joint, corrected_data(as_read, trial.hypothesis));
   if (!is_explained(found)) return is_clear(trial, baseline);
@@ -131,10 +131,10 @@ bool is_input_error_obvious(const DeclaredMechanism& declared, const measurement
   const measurement::Measurement data = with_fewer_rows(as_read, k_rows);
   const double floor = std::max(measurement::noise_floor(as_read).rms, 1e-9);
   const Trial as_it_stands = test_hypothesis({{}, declared, declared}, data, floor);
-  if (!std::isfinite(as_it_stands.left) || is_within(as_it_stands, k_thresholds.input_error_large)) return false;
+  if (!std::isfinite(as_it_stands.residual) || is_within(as_it_stands, k_thresholds.input_error_large)) return false;
   const std::vector<Trial> all = test_hypotheses(declared, data, floor);
   if (all.empty()) return false;
-  const Baseline baseline{as_it_stands.left, as_it_stands.left, false};
+  const Baseline baseline{as_it_stands.residual, as_it_stands.residual, false};
   // A fault of any known size may be present beside the error.
   return is_simpler(all.front(), baseline) ||
          (is_within(all.front(), k_thresholds.input_error_large) && is_clear(all.front(), baseline));
@@ -151,9 +151,9 @@ std::vector<LikelyInputError> find_input_errors(const DeclaredMechanism& declare
   std::vector<LikelyInputError> errors;
   double best = 0;  // held-out rms of the best
   for (Trial& trial : test_hypotheses(declared, data, floor)) {
-    const bool ties = errors.empty() || trial.left <= k_thresholds.input_error_tie * best;
+    const bool ties = errors.empty() || trial.residual <= k_thresholds.input_error_tie * best;
     if (!ties || !explains(trial, data, baseline)) break;
-    if (errors.empty()) best = trial.left;
+    if (errors.empty()) best = trial.residual;
     errors.push_back(trial.hypothesis.error);
   }
   return errors;

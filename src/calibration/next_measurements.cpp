@@ -203,9 +203,9 @@ class Proposals {
     for (const Alternative& other : others_) {
       double squares = 0;
       for (const EffectParameter* number : numbers) {
-        const double apart = reading_by_hand(*number, found_, *evidence_.declared) -
-                             reading_by_hand(*number, *other.at, *evidence_.declared);
-        squares += std::pow(apart / number->by_hand.uncertainty, 2);
+        const double difference = reading_by_hand(*number, found_, *evidence_.declared) -
+                                  reading_by_hand(*number, *other.at, *evidence_.declared);
+        squares += std::pow(difference / number->by_hand.uncertainty, 2);
       }
       proposal.margins.push_back(std::sqrt(squares) / k_thresholds.distinguished);
     }
@@ -245,13 +245,13 @@ class Proposals {
     };
     for (std::size_t i = 0; i < others_.size(); ++i) {
       if (proposal.margins[i] < k_least_told) continue;
-      const double apart = proposal.margins[i] * k_thresholds.distinguished;
+      const double margin = proposal.margins[i] * k_thresholds.distinguished;
       const std::string unit = distinguished.empty() ? " × the uncertainty)" : " ×)";
       distinguished += distinguished.empty() ? "" : ", ";
       if (others_[i].found != named) distinguished += others_[i].found->name + " from ";
       named = others_[i].found;
       distinguished += (others_[i].name == k_unmodelled ? "an unmodelled cause" : others_[i].name) + " (" +
-                       rounded(std::min(apart, 999.0), 2) + unit;
+                       rounded(std::min(margin, 999.0), 2) + unit;
       separate(others_[i].found->name);
       separate(others_[i].name);
     }

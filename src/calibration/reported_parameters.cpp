@@ -31,11 +31,11 @@ bool is_better(const HeldOutErrors& one, const HeldOutErrors& than) {
 }
 
 HeldOutErrors held_out_errors_of_mode(const Evidence& evidence, const Estimate& mode, bool with_curve) {
-  const auto left = [&](const std::vector<Fold>& folds) {
+  const auto mean_square = [&](const std::vector<Fold>& folds) {
     const HeldOutWithDiscrepancy held = hold_out_with_discrepancy(evidence, mode.fit, *mode.beside, folds);
     return (with_curve ? held.with_place : held.effects).mean_square;
   };
-  return {left(evidence.run_folds), left(evidence.factor_folds)};
+  return {mean_square(evidence.run_folds), mean_square(evidence.factor_folds)};
 }
 
 /// Members of groups beside the found set that a table can correct.
@@ -74,8 +74,8 @@ EffectSet unmodelled_curves(const Evidence& evidence) {
 
 /// Least-squares fits of the set, perhaps with another member of a group, without and with a curve.
 struct LeastSquaresFits {
-  Fit reported;
-  Fit handed_over;
+  Fit reported;     ///< without a curve
+  Fit handed_over;  ///< with a curve, for the correction
 };
 
 LeastSquaresFits fit_best_least_squares(const Evidence& evidence, FitterPool& pool, const Selection& selection) {
@@ -103,8 +103,8 @@ class LazyLeastSquares {
   std::optional<LeastSquaresFits> fitted_;
 };
 
-/// Least-squares numbers, and the empirical curve of their residual. Other factors than place and direction are left out
-/// of its estimate: they would take over a part of the curve, which alone would not predict.
+/// Least-squares numbers, and the empirical curve of their residual. Only place and direction enter its estimate. Other
+/// factors would take over a part of the curve, and the curve alone would predict less.
 ReportedParameters report_least_squares(const Evidence& evidence, const LeastSquaresFits& squares) {
   ReportedParameters reported{{squares.handed_over, {}}, squares.reported, {}};
   if (!squares.handed_over.usable) return reported;
@@ -131,8 +131,8 @@ std::size_t least_needed(const Selection& selection) {
   double least_residual = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < selection.without.size(); ++i) {
     const Fit& others = selection.without[i];
-    const double left = others.by_run.mean_square + others.by_factor.mean_square;
-    if (others.usable && left < least_residual) least = i, least_residual = left;
+    const double residual = others.by_run.mean_square + others.by_factor.mean_square;
+    if (others.usable && residual < least_residual) least = i, least_residual = residual;
   }
   return least;
 }
@@ -153,7 +153,7 @@ ReportedParameters best_answer(const Evidence& evidence, const Selection& select
 
 bool is_beyond_model_error(Factor factor) { return factor != Factor::model_error; }
 
-/// `answer` with the discrepancy beside its reported estimate. Least squares leave nothing to an error of the model.
+/// `answer` with the discrepancy beside its reported estimate. Beside least squares, no error of the model is assumed.
 ValidatedAnswer with_residual(const Evidence& evidence, const Selection& selection, ValidatedAnswer answer) {
   const Fit& fit = answer.reported.estimate.fit;
   const bool is_mode = fit.at == selection.best.at;

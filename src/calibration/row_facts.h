@@ -14,11 +14,11 @@ struct RowFacts {
   double place = 0;             ///< 0 … 1 over the measured range of α
   double direction = 0;
   double since = 0;  ///< travel since the stroke began, as a share of the range
-  double load = 0;   ///< load by the largest load
-  double speed = 0;  ///< speed of its run by the largest speed
+  double load = 0;   ///< load / largest load
+  double speed = 0;  ///< speed of its run / largest speed
   double time = 0;   ///< time within its run, −1 … 1
-  /// Share of the session's total by then, 0 … 1, or 0 throughout without any: time by the bench's clock, travel of the
-  /// motor, load changes.
+  /// Shares of the session's totals up to this row, 0 … 1 (all 0 if the total is 0): time by the bench's clock, travel
+  /// of the motor, and load changes.
   double session = 0, way = 0, loading = 0;
   std::size_t run = 0;
   std::size_t block = 0;

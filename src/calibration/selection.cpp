@@ -557,8 +557,8 @@ std::vector<Fit> Selector::reduce_best() const {
   return all;
 }
 
-/// The best pairs, each effect in a few of them only: a candidate of slack predicts a gain beside any other effect and
-/// keeps none of it.
+/// The best pairs, each effect in a few of them only: slack, for one, predicts a gain beside any other effect, and the
+/// fit confirms none of it.
 std::vector<CandidatePair> best_of_each(std::vector<CandidatePair> pairs, std::size_t most) {
   std::stable_sort(pairs.begin(), pairs.end(), [](const CandidatePair& a, const CandidatePair& b) {
     return a.predicted_score > b.predicted_score;
@@ -622,8 +622,8 @@ std::vector<CandidatePair> Selector::pairs_beside(const Fit& base,
 }
 
 /// Exchanges none, one or two members for one or two other effects, since either exchange alone may lower the score.
-/// True if a better set was found. Without this step and four searches that followed it 19 of 21 effects are held in
-/// place of 21 (18 joints from seed 950001).
+/// True if a better set was found. Without this step and the four that followed it, the reported groups contain 19 of 21
+/// effects instead of all (18 joints from seed 950001).
 bool Selector::exchange_members() {
   const double before = score(selection_.best);
   const std::vector<Fit> bases = reduce_best();
@@ -661,8 +661,8 @@ bool Selector::exchange_members() {
   return score(*ranked().front()) > before + k_thresholds.least_improvement;
 }
 
-/// True if one of its numbers is at a bound: the data require more of it than any joint has, so another cause. Searched
-/// numbers may end at a bound, and zero is none.
+/// True if one of the effect's numbers is at a bound. The data then require more of the effect than any joint has, so the
+/// cause is another one. Searched numbers may end at a bound, and a bound at zero does not count.
 bool is_at_bound(const Fit& fit, const fusee::Effect& effect) {
   return std::any_of(effect.parameters.begin(), effect.parameters.end(), [&](const EffectParameter& parameter) {
     return !parameter.searched && value_of(fit.at, parameter) != 0 && !is_idle(parameter, fit.at) &&
@@ -679,8 +679,8 @@ bool predicts(const Evidence& evidence, const Fit& with, const Fit& without) {
              with.by_run.mean_square + with.by_factor.mean_square;
 }
 
-/// All visited sets, each by its score over the temperature. Wider sets of `best` that were not fitted count by their
-/// predicted score. If the noise exceeds the floor, the model is wrong by as much, and the temperature rises.
+/// All visited sets, each by its score over the temperature. Sets wider than `best` that were not fitted count by
+/// their predicted score. If the noise exceeds the floor, the model is wrong by as much, and the temperature rises.
 std::vector<WeightedSet> Selector::weigh_sets() {
   const Fit& best = selection_.best;
   const double misfit = std::max(1.0, best.posterior.amplitudes.noise / evidence_.floor);
@@ -697,8 +697,8 @@ std::vector<WeightedSet> Selector::weigh_sets() {
   return sets;
 }
 
-/// True if the set is likelier without it, or it predicts nothing, or only at a bound. Two groups that each contain the
-/// other's effect may both seem certain.
+/// True if the set is likelier without the effect, or the effect predicts nothing, or one of its numbers is at a bound.
+/// Two groups that each contain the other's effect may both seem certain.
 bool Selector::is_unsupported(const fusee::Effect& effect, const Fit& others) const {
   const Fit& best = selection_.best;
   if (!others.usable) return false;
@@ -711,7 +711,7 @@ CredibleGroup Selector::group_of(const std::vector<WeightedSet>& sets, const fus
                         k_thresholds.least_gain);
 }
 
-/// True if it, or any effect of the catalogue in its place, is as certain as a reported effect must be.
+/// True if the effect, or any effect of the catalogue in its place, is as certain as a reported effect must be.
 bool Selector::is_certain_with_group(const std::vector<WeightedSet>& sets, const fusee::Effect& effect) const {
   return credible_group(sets, selection_.best.effects, effect, k_thresholds.most_false_positives).absence_probability <=
          k_thresholds.most_false_positives;
@@ -725,9 +725,9 @@ bool Selector::leaves_unexplained(const Fit& fit) const {
 bool Selector::is_completed_beside(const Fit& others) const {
   const DiscrepancyFit beside_others = describe_discrepancy(evidence_, others);
   if (!is_unexplained(beside_others, evidence_.floor)) return false;
-  const DiscrepancyFit candidates_beside_best = describe_discrepancy(evidence_, selection_.best);
-  return candidates_beside_best.rms < k_thresholds.residual_share * beside_others.rms ||
-         !is_unexplained(candidates_beside_best, evidence_.floor);
+  const DiscrepancyFit beside_best = describe_discrepancy(evidence_, selection_.best);
+  return beside_best.rms < k_thresholds.residual_share * beside_others.rms ||
+         !is_unexplained(beside_best, evidence_.floor);
 }
 
 /// Drops an effect that is not certain even with its group, or predicts nothing: that with the highest absence
@@ -839,8 +839,8 @@ std::optional<double> Selector::square_deviation(const Fit& fit, Eigen::Index pl
       std::find(fit.parameters.begin(), fit.parameters.end(), best.parameters[static_cast<std::size_t>(place)]);
   if (own == fit.parameters.end()) return {};
   const Eigen::Index k = own - fit.parameters.begin();
-  const double apart = fit.x[k] - best.x[place];
-  return apart * apart + selection_.temperature * std::max(0.0, fit.posterior.covariance(k, k));
+  const double deviation = fit.x[k] - best.x[place];
+  return deviation * deviation + selection_.temperature * std::max(0.0, fit.posterior.covariance(k, k));
 }
 
 /// Variance of each number: the weighted mean over all sets that contain it, and at least its variance with any

@@ -36,7 +36,7 @@ std::vector<double> times_to_try(std::vector<double> rows) {
   return times;
 }
 
-/// Times by the evidence of a step of any size beside the base and the discrepancy, likeliest first.
+/// Times ordered by the evidence of a step of any size at each, beside the base and the discrepancy; likeliest first.
 std::vector<double> by_evidence(const Evidence& evidence, const Fit& base, const std::vector<double>& times) {
   const std::vector<double> rows = times_of_rows(evidence);
   Tangent tangent = tangent_of(evidence, base);
@@ -69,10 +69,10 @@ std::vector<double> steps_in_time(const Evidence& evidence, const Fit& base) {
   std::vector<double> times;
   const std::vector<double> tried = times_to_try(times_of_rows(evidence));
   if (tried.empty()) return times;
-  const double apart = 0.02 * (tried.back() - tried.front());
+  const double spacing = 0.02 * (tried.back() - tried.front());
   for (const double time : by_evidence(evidence, base, tried)) {
     const bool new_place =
-        std::none_of(times.begin(), times.end(), [&](double other) { return std::abs(other - time) < apart; });
+        std::none_of(times.begin(), times.end(), [&](double other) { return std::abs(other - time) < spacing; });
     if (new_place) times.push_back(time);
     if (times.size() == k_slip_times) break;
   }

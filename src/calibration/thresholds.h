@@ -46,7 +46,7 @@ struct Thresholds {
   double reporting_penalty = 6.0;
   /// Difference in nats up to which two sets are equally likely.
   double as_good = 4.0;
-  /// Degrees of freedom of the noise floor.
+  /// Degrees of freedom of the noise floor as a prior of the noise. A floor with fewer is badly known.
   double noise_freedom = 30.0;
 
   // ---- reported effects ----
@@ -59,7 +59,7 @@ struct Thresholds {
   /// Absence probability above which an effect is not reported. Between the false-positive rate and this, its group
   /// contains `unmodelled`. 48 joints: of 10 effects that were lost 6 were in the likeliest set.
   double most_absence_probability = 0.3;
-  /// Share to which an effect that uncertain must lower the unexplained residual to be reported nevertheless. Joint
+  /// An effect that uncertain is reported nevertheless if it lowers the unexplained residual to this share. Joint
   /// 950018: without this rule an offset is dropped, 4.4 noise floors remain in place of 2, and the held-out error is
   /// 2.0 times as large.
   double residual_share = 0.8;
@@ -69,12 +69,12 @@ struct Thresholds {
   /// Absence probability at which a group is complete.
   double complete_group_absence = 0.005;
   /// An effect beside the best set joins a member's group if both can exchange at least this much, rms in noise floors.
-  /// At most `most_companions` effects are tested. Without this step 8 of 10 effects of the same joints are held in place
-  /// of 10. Without the limit groups of the first six grow from 7.1 to 7.7.
+  /// At most `most_companions` effects are tested. Without this step 8 of 10 effects of the joints named above are held
+  /// in place of 10. With more than ten tested effects, the groups of six of them grow from 7.1 to 7.7 members.
   double least_shared = 1.5;
   std::size_t most_companions = 10;
-  /// Log odds of an effect against the best unmodelled cause in its place (unmodelled_alternatives.h) below which its group contains
-  /// `unmodelled`.
+  /// Log odds of an effect against the best unmodelled cause in its place (unmodelled_alternatives.h) below which its
+  /// group contains `unmodelled`.
   double ahead_of_unmodelled = 10.0;
   /// Log odds that are required of an effect without a shape of its own. It follows temperature or begins at some time,
   /// as wear, settling and jumps do; or it leaves the joint free within a play. 670 joints: of six thermal expansions
@@ -92,9 +92,9 @@ struct Thresholds {
 
   // ---- joints that do not repeat ----
 
-  /// Scatter between repeated strokes, by the noise within a stroke.
+  /// Largest scatter between repeated strokes, divided by the noise within a stroke.
   double most_stroke_scatter = 0.7;
-  /// Scatter of repeats, by the scatter of neighbouring rows. Noise with a memory of 0.95 from row to row reaches 6, of
+  /// Largest scatter of repeats, divided by the scatter of neighbouring rows. Noise with a memory of 0.95 from row to row reaches 6, of
   /// 0.98 reaches 9.
   double most_repeat_scatter = 10.0;
 
@@ -125,14 +125,14 @@ struct Thresholds {
 
   // ---- likely input errors ----
 
-  /// Noise floors that the declared file must leave for an input error to be likely before any search. Known faults
+  /// Residual of the declared file, in noise floors, above which an input error is likely before any search. Known faults
   /// leave 15, one of them 27. The corrected file must leave less, if effects are sought beside the error.
   double input_error_large = 15.0;
-  /// Noise floors that the corrected file may leave to explain the data alone. A pulley made for the other sign of OE
+  /// Residual of the corrected file, in noise floors, up to which it explains the data alone. A pulley made for the other sign of OE
   /// leaves 1.8 where a tendon goes slack.
   double input_error_alone = 2.0;
-  /// Otherwise the corrected file, nothing fitted, must leave this many times less than all identified effects. Rig data:
-  /// errors leave 3 to 7 times less (signs of a nearly symmetric joint) to 700 times less; no right file is reported.
+  /// Otherwise the corrected file, with nothing fitted, must leave this many times less than all identified effects. Rig
+  /// data: errors leave 3 to 7 times less (signs of a nearly symmetric joint) to 700 times less; no right file is reported.
   double input_error_gain = 3.0;
   /// Ratio from which an input error is reported although another cause stays unexplained beside it. Rig data
   /// f_not_in_any_catalogue with the sign of OE turned: 26.
@@ -140,7 +140,7 @@ struct Thresholds {
   /// Ratio to the residual of the best input error up to which others are equally likely.
   double input_error_tie = 1.25;
 
-  // ---- sizes that would have been found, and proposed runs ----
+  // ---- detectable sizes, and proposed runs ----
 
   /// Standard errors beyond the required size at which an effect is found in four cases of five.
   double power = 0.84;

@@ -116,7 +116,7 @@ Candidates arguments(const Command& command, std::size_t n) {
   return files();
 }
 
-/// All possible words at this place, whatever is typed of it.
+/// All possible words at this place, including those that do not begin as typed.
 Candidates all_at(const std::vector<std::string>& words, const std::string& typed) {
   const std::vector<std::string> before(words.begin(), words.end() - 1);
   const auto at = find_command(before);

@@ -15,8 +15,8 @@ struct Candidate {
 
 struct Candidates {
   std::vector<Candidate> words;
-  bool files = false;    ///< file names are possible, too …
-  std::string ending;    ///< … with this ending (".toml"); "": any
+  bool files = false;    ///< file names are possible, too
+  std::string ending;    ///< required ending of file names (".toml"); "": any
   bool goes_on = false;  ///< no blank after the word: "pulley.r1_mm="
 };
 

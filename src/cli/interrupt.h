@@ -7,8 +7,8 @@
 
 namespace fusee::cli {
 
-/// While it lives, a signal requests a stop, upon which every OutputFolder removes its staged files, and then exits with
-/// 130 at once, whatever other threads do. The program has one.
+/// Handles signals while it lives. A signal requests a stop, which makes every OutputFolder remove its staged files. Then
+/// the program exits with 130 at once, even if other threads run. A program has only one.
 class SignalWatch {
  public:
   SignalWatch();
@@ -24,7 +24,7 @@ class SignalWatch {
   std::thread thread_;
 };
 
-/// From now on a signal does not exit: all files are in place, or the command has a result whenever it stops.
+/// From now on a signal does not exit: all files are in place, or the command gives a result even if stopped.
 void prevent_exit_by_signal();
 /// True after a signal.
 bool is_interrupted();

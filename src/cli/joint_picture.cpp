@@ -128,7 +128,7 @@ std::string joint_picture(const formats::Product& product) {
   }
   sheet.include(axis, reach);
   sheet.include(origin, mechanism.drum_pitch_radius());
-  // A drum's joint may be far smaller than its link, which is then cut off.
+  // A joint with a drum may be far smaller than its link, which is then cut off.
   const double seen =
       mechanism.joint.is_plain() ? c.y() : std::min(c.y(), 2.0 * mechanism.joint.drum_radius + 0.5 * reach);
   sheet.include({0, seen});

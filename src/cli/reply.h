@@ -31,7 +31,7 @@ struct Reply {
   LengthUnit units = LengthUnit::mm;    ///< of the mechanism file: take_to_file_units()
 };
 
-/// Text and messages, composed in mm, with lengths in the mechanism file's unit. JSON fields stay in mm, as they say.
+/// Converts lengths in text and messages from mm to the mechanism file's unit. JSON fields stay in mm, as named.
 void take_to_file_units(Reply& reply);
 
 /// The JSON document of --json.

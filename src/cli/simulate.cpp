@@ -11,7 +11,7 @@
 namespace fusee::cli {
 namespace {
 
-constexpr double k_most_noise = 45.0;  // deg; larger noise is no angle sensor's
+constexpr double k_most_noise = 45.0;  // deg; no angle sensor has more
 
 pipeline::SimulateOptions simulate_options_from(const Arguments& arguments) {
   pipeline::SimulateOptions options;

@@ -12,7 +12,7 @@ namespace {
 
 // Pieces shorter than this along the axis count as level.
 constexpr double k_level = 1e-7;
-// Radius variation within a floor's band, by float rounding of a large part.
+// Largest variation of the radius within a floor (mm), from float rounding in a large part.
 constexpr double k_ground = 1e-3;
 
 // Adds the cut of a facet by the half-plane in direction (c, s).
@@ -41,10 +41,10 @@ double radius_at(const OutlinePiece& piece, double z) {
   return piece.r0 + (piece.r1 - piece.r0) * (z - piece.z0) / (piece.z1 - piece.z0);
 }
 
-// Largest step of a floor from one half-plane to the next (mm), in addition to the step of a floor at 45° to its
-// radius.
+// Largest step of a floor between neighbouring half-planes (mm), beyond the arc between them: a floor that climbs at
+// 45° makes a step of the arc's length.
 constexpr double k_next = 0.4;
-// A groove's end wall stands across the groove and a half-plane may cut it at an angle. This angle at each end is
+// A groove's end wall stands across the groove, and a half-plane may cut it at an angle. This angle at each end is
 // omitted.
 constexpr double k_end_of_groove = radians(4);
 

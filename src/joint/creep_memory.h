@@ -13,7 +13,7 @@ class CreepMemory {
  public:
   /// Applies `driver` for `time` s.
   void hold(double driver, double time);
-  /// The accumulated creep, in the driver's unit: a driver of 1 per decade of time.
+  /// The accumulated creep. A constant driver adds its own value for each decade of time.
   double crept() const;
 
  private:

@@ -10,7 +10,7 @@ double tension(double EA, double length, double material) {
   return length > material ? EA * (length / material - 1.0) : 0.0;
 }
 
-/// SlidingTendon with T_up = ratio · T_low.
+/// A tendon that slides over its pin: T_up = ratio · T_low.
 struct SlidingTendon {
   const Spans& spans;
   double ratio;

@@ -222,16 +222,17 @@ TurnedPulley WoundProfile::turned_to(const GroovePlace& take_off, double swellin
   turned.before = take_off.arc > take_off_.arc ? take_off_ : take_off;
   turned.lies = strain(swelling);
   turned.log_lies = log_of(turned.lies);
-  std::size_t left = pieces_.size();
-  while (left > 0 && pieces_[left - 1].from.arc >= turned.before.arc) turned.came_off += pieces_[--left].held.material;
-  if (left == 0) {
+  std::size_t remaining = pieces_.size();
+  while (remaining > 0 && pieces_[remaining - 1].from.arc >= turned.before.arc)
+    turned.came_off += pieces_[--remaining].held.material;
+  if (remaining == 0) {
     const double bottom = pieces_.empty() ? take_off_.arc : pieces_.front().from.arc;
     turned.past_knot = linear(bottom - turned.before.arc, home_density_, home_density_, swelling);
     turned.came_off += turned.past_knot.material;
     return turned;
   }
-  turned.below = left - 1;
-  turned.top = pieces_[left - 1];
+  turned.below = remaining - 1;
+  turned.top = pieces_[remaining - 1];
   turned.has_top = true;
   if (turned.top.to.arc > turned.before.arc) {
     turned.came_off += turned.top.held.material;

@@ -153,7 +153,7 @@ Polygon outline_of(const DiscHull& hull, double grow) {
     const auto furthest = std::max_element(hull.discs.begin(), hull.discs.end(), [&](const Disc& a, const Disc& b) {
       return a.centre.dot(normal) + a.radius < b.centre.dot(normal) + b.radius;
     });
-    demand(furthest->radius + grow > 0, "a shape of a kit is nothing");
+    demand(furthest->radius + grow > 0, "a shape of a kit has no extent");
     points.push_back(furthest->centre + (furthest->radius + grow) * normal);
   }
   return points;
@@ -169,7 +169,7 @@ SlabBody trimmed(const SlabBody& body, const PrintTrim& trim) {
     for (SlabLoop& loop : changed.loops) {
       if (!loop.hole) continue;
       const double least = least_radius(loop.hull);
-      // Engraved lines keep their distances.
+      // Engraved lines are not widened.
       if (least < k_finest_hole) continue;
       const double wider = std::max(0.5 * trim.hole, 0.1 - least);
       const double more = wider + (least + wider) * (1 / std::cos(k_pi / loop.hull.corners) - 1);

@@ -21,7 +21,7 @@ namespace fusee::measurement {
 constexpr std::size_t k_largest_message = std::size_t{1} << 20;
 
 /// Takes messages in the order of the file, and keeps the numbers that may be of use: by topic and part of the message,
-/// named as PlotJuggler does. Memory is bounded: of long logs every second value is kept, or every fourth …
+/// named as PlotJuggler does. Memory is bounded: of long logs every second value is kept, then every fourth, and so on.
 class BagLog {
  public:
   static constexpr std::size_t k_not_used = static_cast<std::size_t>(-1);

@@ -95,7 +95,7 @@ void McapReader::add(std::string_view bytes) {
   }
 }
 
-/// Moves bytes to the held ones until these are `size`; returns how many.
+/// Appends bytes to held_ until it holds `size` bytes. Returns the number of appended bytes.
 std::size_t McapReader::fill(std::string_view bytes, std::size_t size) {
   const std::size_t count = std::min(bytes.size(), size - held_.size());
   held_.append(bytes.substr(0, count));

@@ -33,14 +33,14 @@ double offset_from_declared(const std::vector<Sample>& samples, const transmissi
 struct TurnOffset {
   double alpha = 0;
   double theta = 0;
-  double left = 0;  ///< remaining offset from `expected`
+  double remaining = 0;  ///< offset from `expected`
 };
 
 /// The smallest number of whole turns that removes the offset of a run.
 TurnOffset best_turns(const std::vector<Sample>& samples, const transmission::TargetMotion& law, double expected) {
   constexpr int most = 3;
   TurnOffset best{0, 0, offset_from_declared(samples, law, 0) - expected};
-  const double before = std::abs(best.left);
+  const double before = std::abs(best.remaining);
   std::vector<double> alphas;
   for (const Sample& sample : samples) alphas.push_back(sample.alpha);
   const double middle = median_of(std::move(alphas));
@@ -49,18 +49,18 @@ TurnOffset best_turns(const std::vector<Sample>& samples, const transmission::Ta
     if (!law.reaches(middle + a * k_two_pi)) continue;
     const double beside = offset_from_declared(samples, law, a * k_two_pi) - expected;
     const int t = std::clamp(static_cast<int>(-std::round(beside / k_two_pi)), -most, most);
-    const double left = std::abs(beside + t * k_two_pi);
+    const double remaining = std::abs(beside + t * k_two_pi);
     const int turns = std::abs(a) + std::abs(t);
-    // TurnOffset are accepted only if they nearly remove a large offset: a wrong zero is another fault.
-    if (left > 0.25 * before || before < radians(45.0)) continue;
-    if (fewest > 0 && (turns > fewest || (turns == fewest && left >= std::abs(best.left)))) continue;
+    // Turns are accepted only if they nearly remove a large offset: a wrong zero is another fault.
+    if (remaining > 0.25 * before || before < radians(45.0)) continue;
+    if (fewest > 0 && (turns > fewest || (turns == fewest && remaining >= std::abs(best.remaining)))) continue;
     fewest = turns;
     best = {a * k_two_pi, t * k_two_pi, beside + t * k_two_pi};
   }
   return best;
 }
 
-/// Removes the whole turns by which a single-turn encoder that was wrapped at the log's beginning is off.
+/// Removes offsets of whole turns, as of a single-turn encoder that had wrapped before the log began.
 void take_back_turns(const transmission::TargetMotion& law, Measurement& measurement) {
   double expected = 0;
   for (std::size_t i = 0; i < measurement.runs.size(); ++i) {
@@ -142,7 +142,7 @@ Slopes slopes_of(const transmission::TargetMotion& law, const Measurement& measu
   return slopes;
 }
 
-/// Within a third of `expected`: mistakes of unit or sign are far larger than errors of a joint.
+/// Within a factor of 1.5 of `expected`: mistakes of unit or sign are far larger than errors of a joint.
 bool is_about(double value, double expected) { return value / expected > 0.67 && value / expected < 1.5; }
 
 std::string slope_text(const Slopes& slopes) {
@@ -150,16 +150,16 @@ std::string slope_text(const Slopes& slopes) {
          rounded(slopes.declared, 3) + " is declared: ";
 }
 
-const char* const k_in_degrees = "; end the column's name in _rad, or give --unit alpha=rad or theta=rad";
+const char* const k_radians_advice = "; end the column's name in _rad, or give --unit alpha=rad or theta=rad";
 
 std::string fault(const transmission::TargetMotion& law, const Slopes& slopes) {
   const double ratio = slopes.measured / slopes.declared;
   const double exchanged = 1.0 / (law.slope() * law.slope());
-  const double turn = degrees(1.0), range = law.alpha_range();
+  const double degrees_per_rad = degrees(1.0), range = law.alpha_range();
   if (range > 0 && is_about(ratio, 1.0) && slopes.alpha_span < 0.06 * range &&
-      slopes.alpha_span * turn > 0.25 * range) {
+      slopes.alpha_span * degrees_per_rad > 0.25 * range) {
     return "alpha moves over " + rounded(degrees(slopes.alpha_span), 3) + " deg of the declared " +
-           rounded(degrees(range), 4) + ": both angles look like radians" + k_in_degrees;
+           rounded(degrees(range), 4) + ": both angles look like radians" + k_radians_advice;
   }
   if (ratio > 0.4 && ratio < 2.5) return {};
   const double expected = std::abs(slopes.declared) * slopes.alpha_span;
@@ -168,8 +168,8 @@ std::string fault(const transmission::TargetMotion& law, const Slopes& slopes) {
            rounded(degrees(expected), 3) + " deg; theta scatters by " + rounded(degrees(slopes.scatter), 3) +
            " deg rms, which hides that: use a larger range";
   }
-  if (is_about(ratio, turn)) return slope_text(slopes) + "alpha looks like radians" + k_in_degrees;
-  if (is_about(ratio, 1.0 / turn)) return slope_text(slopes) + "theta looks like radians" + k_in_degrees;
+  if (is_about(ratio, degrees_per_rad)) return slope_text(slopes) + "alpha looks like radians" + k_radians_advice;
+  if (is_about(ratio, 1.0 / degrees_per_rad)) return slope_text(slopes) + "theta looks like radians" + k_radians_advice;
   if (is_about(std::abs(ratio), exchanged) && !is_about(exchanged, 1.0)) {
     return slope_text(slopes) + "alpha and theta look exchanged" + (ratio < 0 ? ", with one sign turned" : "") +
            "; --column alpha=theta_deg --column theta=alpha_deg exchanges them";

@@ -11,31 +11,33 @@
 namespace fusee::measurement {
 namespace {
 
-/// Return of α from its extreme that counts as a reversal. `stands`: α is constant in most rows.
-double reversal_threshold(const std::vector<Sample>& samples, double quantum, bool stands) {
+/// Return of α from its extreme that counts as a reversal. `dwells`: α is constant in most rows.
+double reversal_threshold(const std::vector<Sample>& samples, double quantum, bool dwells) {
   double least = samples.front().alpha, most = least;
   for (const Sample& sample : samples) {
     least = std::min(least, sample.alpha);
     most = std::max(most, sample.alpha);
   }
-  const double noise = stands ? noise_of_dwells(samples, &Sample::alpha) : noise_of(samples, &Sample::alpha);
+  const double noise = dwells ? noise_of_dwells(samples, &Sample::alpha) : noise_of(samples, &Sample::alpha);
   return std::min(std::max({0.01 * (most - least), 2.5 * quantum, 5.0 * noise}), 0.25 * (most - least));
 }
 
 /// True for scatter about one place: successive values are independent (von Neumann ratio, 2 for white noise), and the
-/// steps are below a degree or uncorrelated with θ. Alternating between two ends, a row each, is a motion.
+/// steps are below a degree or uncorrelated with θ. Alternation between two ends, row by
+/// row, is a motion.
 bool only_jitters(const std::vector<Sample>& samples) {
   const double n = static_cast<double>(samples.size());
-  double mean = 0, spread = 0, steps = 0, steps_of_theta = 0, together = 0;
+  double mean = 0, spread = 0, steps = 0, steps_of_theta = 0, covariance = 0;
   for (const Sample& sample : samples) mean += sample.alpha / n;
   for (const Sample& sample : samples) spread += (sample.alpha - mean) * (sample.alpha - mean) / n;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const double alpha = samples[i].alpha - samples[i - 1].alpha, theta = samples[i].theta - samples[i - 1].theta;
     steps += alpha * alpha / (n - 1);
     steps_of_theta += theta * theta / (n - 1);
-    together += alpha * theta / (n - 1);
+    covariance += alpha * theta / (n - 1);
   }
-  const bool joint_follows = steps > radians(1.0) * radians(1.0) && together * together > 0.8 * steps * steps_of_theta;
+  const bool joint_follows =
+      steps > radians(1.0) * radians(1.0) && covariance * covariance > 0.8 * steps * steps_of_theta;
   return steps >= spread && !joint_follows;
 }
 
@@ -135,7 +137,7 @@ double theta_at(const std::vector<Sample>& samples, const Stroke& stroke, double
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Mean squares of a part of a stroke's way: its deviation from the mean of its repeats, and their range.
+/// Sums of squares over a third of a stroke: its deviation from the mean of its repeats, and their range.
 struct Departure {
   double deviation = 0;
   double range = 0;
@@ -228,8 +230,8 @@ std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std:
   const double threshold = reversal_threshold(samples, alpha_quantum, !dwells.empty());
   if (!(threshold > 0)) return {};
   const std::vector<std::size_t> gaps = dwells.empty() ? gaps_in(samples, has_time) : std::vector<std::size_t>{};
-  const std::vector<Sample> standing = settled(samples, dwells);
-  std::vector<Stroke> strokes = Splitter(standing, threshold, marked(gaps, samples.size())).split();
+  const std::vector<Sample> averaged = settled(samples, dwells);
+  std::vector<Stroke> strokes = Splitter(averaged, threshold, marked(gaps, samples.size())).split();
   if (strokes.empty()) return strokes;
   // In a point-to-point log the play is known from the second dwell on, wherever the first one is.
   strokes.front().partial =

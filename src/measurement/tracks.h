@@ -24,7 +24,7 @@ struct Track {
   double half_turn = 0;            ///< of an angle, in its unit; 0: unknown
   std::size_t stride = 1;          ///< every `stride`-th point is kept
 
-  /// Keeps the point; of more than four million every second one, or every fourth …
+  /// Keeps the point. Beyond four million points, every second one is kept, then every fourth, and so on.
   void add(const TrackPoint& point);
 
  private:
@@ -41,7 +41,8 @@ struct JoinedRows {
 /// A number of the same message, or of the same time, is taken as it is. Others are interpolated linearly between their
 /// neighbours in time. Not interpolated are: times before the first point or after the last; gaps of more than 5 usual
 /// steps of that number; and jumps of more than half a turn, where the nearer point counts. Rows without α or θ are
-/// omitted, with a note. Loads and temperatures that are logged less than every 2 s are held: they are set by hand.
+/// omitted, with a note. Loads and temperatures that are logged less than every 2 s keep their last
+/// value: they are set by hand.
 /// Where a clock goes back, a new log begins, and nothing is interpolated across.
 ///
 /// Times that count from 1970 become s since the first row; others stay as they are.

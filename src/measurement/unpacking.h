@@ -1,5 +1,5 @@
 /// \file
-/// Internal: decompresses zstd and LZ4 frames, bounded, since a few bytes can unpack to more than any memory.
+/// Internal: decompresses zstd and LZ4 frames, bounded, since a few bytes can unpack to more than the memory holds.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,8 @@ Unpacked unpack(Packing packing, std::string_view packed, std::size_t most);
 /// True if the bytes begin with the magic number of a zstd frame.
 bool is_zstd(std::string_view bytes);
 
-/// The bytes that one file may unpack to: recordings shrink to a tenth or a half, to less than a thousandth only if
-/// they were made for it.
+/// Limit on the bytes that one file may unpack to. Recordings shrink to between a tenth and a half; only files made to
+/// exhaust memory shrink to less than a thousandth.
 class UnpackingLimit {
  public:
   /// Bytes that may be unpacked now, after `packed` further bytes of the file.

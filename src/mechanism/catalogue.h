@@ -103,7 +103,7 @@ struct MotorModel {
   double travel = 0;              ///< rad; 0: turns without end
   double stall_torque = 0;        ///< N·mm
   double speed = 0;               ///< without load, rad/s; 0: unknown
-  bool holds = false;             ///< the torque can be held continuously, at that speed
+  bool holds = false;             ///< stall_torque is a continuous torque, given at full speed too
 };
 
 /// The entry of a mechanism file of profiles/ in the list of templates.
@@ -128,7 +128,7 @@ const HornType* find_horn(std::string_view name);
 const ShaftType* find_shaft(std::string_view name);
 const MotorModel* find_motor_model(std::string_view name);
 
-/// The limits of the mechanism's motor: each number that [motor] has, else that of its model. Zero: no limit is known.
+/// Limits of the mechanism's motor: the numbers of [motor] and, where it has none, those of its model. 0: unknown.
 MotorModel motor_limits(const Motor& motor);
 
 /// The value of body.horn that selects Mechanism::horn.

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: checks [optimize] against the field table; errors carry columns.
+/// Internal: checks [optimize] against the field table; errors have columns.
 #pragma once
 
 #include <functional>

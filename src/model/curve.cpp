@@ -170,10 +170,10 @@ std::optional<JointCurves> joint_curves(const DeclaredMechanism& declared) {
   const joint::BenchRun run = sweep(law.alpha_min() - beyond, law.alpha_max() + beyond);
   const std::vector<joint::JointState> states =
       joint::simulate(joint, beyond_mechanism(declared.identified, kind_of(declared)), {run}).front();
-  const std::vector<TwoWayRow> stands = both_ways_of(run, states, declared.joint, false),
+  const std::vector<TwoWayRow> physical = both_ways_of(run, states, declared.joint, false),
                                shown = both_ways_of(run, states, declared.joint, true);
-  if (stands.empty() || shown.empty()) return std::nullopt;
-  return JointCurves{two_way_curve(stands, CurveSource::identified), two_way_curve(shown, CurveSource::identified)};
+  if (physical.empty() || shown.empty()) return std::nullopt;
+  return JointCurves{two_way_curve(physical, CurveSource::identified), two_way_curve(shown, CurveSource::identified)};
 }
 
 }  // namespace fusee::model

@@ -16,8 +16,8 @@ constexpr int k_places = 1000;
 
 /// A tendon above its pin, mirrored to a right-hand one, where θ is positive towards the pin's side.
 struct Span {
-  double length =
-      0;  ///< its end to the tangent point, and on round the pin to its rightmost point; mm, but for a constant
+  /// From its end to the tangent point, and round the pin to the pin's rightmost point, up to a constant, mm.
+  double length = 0;
   double normal = 0;  ///< direction of the outward normal, rad
 };
 
@@ -211,10 +211,10 @@ std::optional<TendonModel> tendon_model(const Mechanism& mounted, const AngleMap
       why_not = "tendon " + std::string(i == 0 ? "1" : "2") + ": " + model.omission[i];
       continue;
     }
-    if (const LengthFit held = fit_length(tendon, map); held.error < model.error) {
+    if (const LengthFit fit = fit_length(tendon, map); fit.error < model.error) {
       model.constrained = side;
-      model.length = held.length;
-      model.error = held.error;
+      model.length = fit.length;
+      model.error = fit.error;
     }
   }
   if (!model.omission[0].empty() && !model.omission[1].empty()) return std::nullopt;

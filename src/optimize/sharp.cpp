@@ -40,7 +40,7 @@ transmission::Interval between_ends(const Arguments& arguments, transmission::In
   return value;
 }
 
-/// Direction and length of C − P, and whether C lies outside the pin's circle everywhere.
+/// Normal and length of a tangent line, and whether its start lies outside the circle everywhere.
 struct TangentLine {
   transmission::Interval normal, reach;
   transmission::Domain domain;

@@ -94,7 +94,7 @@ DrumState drum_state(const transmission::Jet& wound) {
   return wound.value.upper() < 0 ? DrumState::free : DrumState::either;
 }
 
-/// A number belongs to one branch.
+/// Never needed for numbers, whose tendon is either free or on the drum.
 double hull_of(double a, double) { return a; }
 transmission::Jet hull_of(const transmission::Jet& a, const transmission::Jet& b) {
   transmission::Jet both(boost::numeric::hull(a.value, b.value));
@@ -112,11 +112,11 @@ WidePath<S> path_of(const TendonEnd<S>& end, const std::optional<S>& drum, const
   const S opening =
       end.is_on_drum ? S(0.0) : S(transmission::acos(transmission::unit_part(S(*drum / end.away), domain)));
   const S wound = quarter_turn(theta) - (theta + end.twist) - opening - line.normal;
-  const DrumState lies = drum_state(wound);
-  if (lies == DrumState::free) return free_path(end, e, oe, rho, theta, domain);
+  const DrumState state = drum_state(wound);
+  if (state == DrumState::free) return free_path(end, e, oe, rho, theta, domain);
   const S to_drum = end.is_on_drum ? S(0.0) : S(transmission::cathetus(end.away, *drum, domain));
   const WidePath<S> on_drum{line.normal, *drum, to_drum + *drum * wound + line.length};
-  if (lies == DrumState::on_drum) return on_drum;
+  if (state == DrumState::on_drum) return on_drum;
   transmission::Domain of_free;
   const WidePath<S> free = free_path(end, e, oe, rho, theta, of_free);
   domain.whole = domain.whole && of_free.whole;

@@ -11,9 +11,9 @@
 
 namespace fusee::pipeline {
 
-/// Warnings about a pulley that turns into the joint's axle or into a tendon's end on the link, over the whole range. A
-/// drum has a condition instead, and a sheathed pulley stands elsewhere. `build`: a checked product, or empty; it proves
-/// the advised number.
+/// Warnings about a pulley that turns into the joint's axle or into a tendon's end on the link, over the whole range.
+/// Joints with a drum have a condition instead, and pulleys with sheaths are elsewhere. `build`: a checked product, or
+/// empty; it proves the advised number.
 std::vector<Diagnostic> pulley_in_the_way(
     const formats::Product& product, const std::function<std::optional<formats::Product>(const Mechanism&)>& build);
 

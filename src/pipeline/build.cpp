@@ -25,13 +25,13 @@
 namespace fusee::pipeline {
 namespace {
 
-// Limit of the outline points of all full builds of one advice together. A build takes a quarter of a second with the
-// usual 200 points, and proportionally more with more points (campaign of seed 210002).
+// Limit on the sum of outline points over all full builds for one advice. A build takes a quarter of a second with the
+// usual 200 points, and proportionally more with more points.
 constexpr double k_points_for_advice = 1600;
 
 constexpr const char* k_step = "pulley.step";
 
-// Upper bound of our own output files.
+// Upper bound on the size of our own pulley.drc.
 constexpr std::size_t k_largest_draco = std::size_t{512} << 20;
 
 /// State of a build: results so far and their staging folder.
@@ -338,7 +338,7 @@ bool passes_checks(formats::Product& product, const BuildOptions& options, const
   return of_plates.get() && prints && is_right;
 }
 
-/// Bad input and parts on which no tendon can be wound are not feasible.
+/// The product, if it passes all checks. Bad input and parts on which no tendon can be wound do not.
 std::optional<formats::Product> made(const MechanismFile& file, const BuildOptions& options,
                                      const RunContext& context) {
   formats::Product product;

@@ -209,22 +209,22 @@ profile::RewindResult rewind_helical_part(const joint::IdentifiedJoint& joint, c
   if (mesh == nullptr)
     throw InputError("", "the grooves of this mechanism's pulley are helical: tendons cannot be wound on a drawing",
                      "use the mesh: pulley.stl");
-  formats::Product right;
-  right.joint = joint;
-  if (!design_several_turns(right, BuildOptions().chord_error_mm, {})) {
-    std::string why = right.synthesis.made() ? "" : right.synthesis.brief();
-    for (const profile::Condition& condition : right.pulley.conditions)
+  formats::Product expected;
+  expected.joint = joint;
+  if (!design_several_turns(expected, BuildOptions().chord_error_mm, {})) {
+    std::string why = expected.synthesis.made() ? "" : expected.synthesis.brief();
+    for (const profile::Condition& condition : expected.pulley.conditions)
       if (!condition.ok && why.empty()) why = condition.message;
     throw InputError("", "no pulley is feasible for this mechanism: " + why);
   }
-  return rewind_several_turns(right, *mesh).result;
+  return rewind_several_turns(expected, *mesh).result;
 }
 
 /// Winds on the part in its present position, axis along z: the search for a move needs grooves of constant height.
 RewoundPart rewind_helical_in_place(const joint::IdentifiedJoint& joint, const Part& part) {
-  constexpr double k_another = radians(0.5);
+  constexpr double k_most_error = radians(0.5);
   RewoundPart result{rewind_helical_part(joint, part), PartPlace::as_made, {}};
-  if (!(result.as_built.max_theta_error < k_another)) result.place = PartPlace::not_recognised;
+  if (!(result.as_built.max_theta_error < k_most_error)) result.place = PartPlace::not_recognised;
   return result;
 }
 
@@ -248,8 +248,8 @@ RewoundPart rewind_unrecognised(const joint::IdentifiedJoint& joint, const solid
 RewoundPart rewind_moved_mesh(const joint::IdentifiedJoint& joint, const solid::TriangleMesh& mesh) {
   const auto [layout, expected] = expected_part(joint);
   if (!is_finite(mesh)) return rewind_unrecognised(joint, layout, mesh);
-  const double as_it_lies = deviation_in_place(mesh, layout, expected);
-  if (as_it_lies <= k_as_made) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
+  const double in_place = deviation_in_place(mesh, layout, expected);
+  if (in_place <= k_as_made) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
   const std::vector<solid::PlacementResult> found =
       find_all(mesh, expected, joint.mechanism.tendon.diameter * layout.scale);
   if (found.front().status == solid::PlacementStatus::unknown) return rewind_unrecognised(joint, layout, mesh);
@@ -259,7 +259,7 @@ RewoundPart rewind_moved_mesh(const joint::IdentifiedJoint& joint, const solid::
     worst = std::max(worst, result.placement.deviation);
     placements.push_back(result.placement);
   }
-  if (!(worst < k_clearly_better * as_it_lies)) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
+  if (!(worst < k_clearly_better * in_place)) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
   for (const solid::PlacementResult& result : found) refuse(result);
   return rewind_placed(joint, placements, layout.scale);
 }

@@ -35,13 +35,13 @@ std::vector<std::string> notes_of(const Mechanism& mechanism, const formats::Hel
   const helical_solid::TendonsLaid ends = helix.laid(mechanism.guides.collar);
   const std::string where = mechanism.guides.collar ? "the guides' collars hold the tendons at the heights "
                                                     : "the tendons end on the joint at the heights ";
-  const double left = std::exp(-mechanism.pulley.mu * k_two_pi * mechanism.body.spare_turns);
+  const double share_at_knot = std::exp(-mechanism.pulley.mu * k_two_pi * mechanism.body.spare_turns);
   std::vector<std::string> notes = {
       where + rounded(ends.z1, 4) + " mm (tendon 1) and " + rounded(ends.z2, 4) +
           " mm (tendon 2) above the pulley's lower face, where the fleet angle is smallest",
       "helical grooves: " + rounded(helix.synthesis.sides[0].turns, 3) + " turns (P1) and " +
           rounded(helix.synthesis.sides[1].turns, 3) + " turns (P2) over the range, and " +
-          rounded(mechanism.body.spare_turns) + " spare at each end, after which " + rounded(100.0 * left, 2) +
+          rounded(mechanism.body.spare_turns) + " spare at each end, after which " + rounded(100.0 * share_at_knot, 2) +
           " % of a tension reaches the knot; leads of " + rounded(helix.synthesis.sides[0].lead, 3) + " and " +
           rounded(helix.synthesis.sides[1].lead, 3) + " mm",
       "there is no plates.dxf: plates cannot have helical grooves"};

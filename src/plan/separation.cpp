@@ -55,8 +55,8 @@ double margin(const Signatures& signatures, const Information& known, const Caus
   }
   const Eigen::MatrixXd own = block(known.runs, cause, cause);
   const double read = block(known.readings, cause, cause).trace();
-  const double left = residual_trace(own, shared, others, precision);
-  const double beyond_noise = std::sqrt(left + read) / k_plan.resolved_distance;
+  const double residual = residual_trace(own, shared, others, precision);
+  const double beyond_noise = std::sqrt(residual + read) / k_plan.resolved_distance;
   if (!(own.trace() > 0)) return std::sqrt(read) / k_plan.resolved_distance;
   double trusted = 1e9;
   if (rival != nullptr) {

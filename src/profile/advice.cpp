@@ -471,8 +471,9 @@ class AdviceSearch {
 
   std::size_t builds_left() const {
     if (!judge_.made) return k_sufficient;
-    const int left = k_max_builds - builds_;
-    return static_cast<std::size_t>(std::max(0, judge_.builds_left ? std::min(left, judge_.builds_left()) : left));
+    const int remaining = k_max_builds - builds_;
+    return static_cast<std::size_t>(
+        std::max(0, judge_.builds_left ? std::min(remaining, judge_.builds_left()) : remaining));
   }
 
   std::vector<bool> make(const std::vector<Candidate>& candidates) {

@@ -148,9 +148,10 @@ struct FaceHole {
 /// floor. Indices, increasing.
 std::vector<std::size_t> coarse_floor(std::size_t points, const std::vector<std::size_t>& always = {});
 
-/// The path with the largest pocket up to radius `wanted`; among those that reach it, the shortest. Empty when no
-/// channel fits. `near`: only short channels that do not pass the axis.
+/// near: only short channels that do not pass the axis.
 enum class AnchorReach { near, anywhere };
+/// The path with the largest pocket up to radius `wanted`; among those that reach it, the shortest. Empty when no
+/// channel fits.
 std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach,
                                       const LapRange& laps = {});
 

@@ -397,8 +397,8 @@ void flip_flat_facets(TriangleMesh& mesh) {
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
     if (height(mesh, mesh.triangles[f]) < k_flat) flat.push_back(f);
   const auto mend = [&mesh](std::size_t f) { return flipped(mesh, mesh.triangles[f]); };
-  for (std::size_t left = flat.size() + 1; left > flat.size();) {
-    left = flat.size();
+  for (std::size_t before = flat.size() + 1; before > flat.size();) {
+    before = flat.size();
     std::erase_if(flat, mend);
   }
 }

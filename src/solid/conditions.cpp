@@ -184,13 +184,13 @@ class Conditions {
                     rounded(width), rounded(d_)));
     // On the side of the ceiling the flange is made as thick as required.
     const bool apart = layout_.parts == Parts::two;
-    const double left = (apart ? std::min(layout_.z_mate - layout_.z_p1, layout_.z_p2 - layout_.z_mate)
-                               : std::min(layout_.z_p1, layout_.z_p2 - layout_.z_middle)) -
-                        0.5 * width;
-    list_.add_least("channel_floor", left, 0.4,
-                    left > 0
+    const double thickness = (apart ? std::min(layout_.z_mate - layout_.z_p1, layout_.z_p2 - layout_.z_mate)
+                                    : std::min(layout_.z_p1, layout_.z_p2 - layout_.z_middle)) -
+                             0.5 * width;
+    list_.add_least("channel_floor", thickness, 0.4,
+                    thickness > 0
                         ? fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), leave {} mm of a flange",
-                                      rounded(width), rounded(left, 3))
+                                      rounded(width), rounded(thickness, 3))
                         : fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), cut through a flange",
                                       rounded(width)));
   }

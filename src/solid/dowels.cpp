@@ -98,9 +98,9 @@ std::optional<std::pair<Vec2, Vec2>> pin_places(double reach, double diameter, d
     for (std::size_t j = 0; j < free.size(); ++j) {
       if (from_axis[i] < from_axis[j] + 0.5 * diameter) continue;
       const Vec2 &a = free[i], &b = free[j];
-      const double apart = (a - b).norm();
-      if (apart <= widest || std::abs(cross(a, b)) < least_sine * from_axis[i] * from_axis[j]) continue;
-      widest = apart;
+      const double distance = (a - b).norm();
+      if (distance <= widest || std::abs(cross(a, b)) < least_sine * from_axis[i] * from_axis[j]) continue;
+      widest = distance;
       best = {a, b};
     }
   }

@@ -14,7 +14,7 @@ namespace fusee::solid {
 std::optional<FaceHole> find_face_hole(const AnchorSite& site, const BodyLayout& layout, bool wound_end, double wanted,
                                        const LapRange& laps);
 
-/// Depth of a countersink, which narrows to the hole as steeply as a ceiling must be.
+/// Depth of a countersink. Its cone is steep enough to be printed as a ceiling.
 double countersink_depth(const BodyLayout& layout, const FaceHole& hole);
 
 }  // namespace fusee::solid

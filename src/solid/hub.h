@@ -22,8 +22,8 @@ struct HubChoice {
 double least_hub_radius(const BodyLayout& layout);
 
 /// The possible hubs for a layout with heights and bore, the largest first. An automatic hub follows the shaft and the
-/// screw: M3 to M2, with a nut or with its thread in the hub, then without a screw, then no hub. Of a requested diameter
-/// or screw, only the rest varies. `rim_radius`: inradius of flange 2. Never empty.
+/// screw: M3 to M2, with a nut or with its thread in the hub, then without a screw, then no hub. If a diameter or a
+/// screw is requested, only the other varies. `rim_radius`: inradius of flange 2. Never empty.
 std::vector<HubChoice> hub_choices(const BodyLayout& layout, const Mechanism& mechanism, double rim_radius);
 
 /// Sets hub, set screw and z_hub of a layout. Notes what is omitted or reduced.

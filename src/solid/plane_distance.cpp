@@ -15,12 +15,12 @@ bool segments_cross(const Bar& p, const Bar& q) {
 }  // namespace
 
 double gap(const Bar& p, const Bar& q) {
-  double apart = 0;
+  double distance = 0;
   if (!segments_cross(p, q)) {
-    apart = std::min({distance_to_segment(p.a, q.a, q.b), distance_to_segment(p.b, q.a, q.b),
-                      distance_to_segment(q.a, p.a, p.b), distance_to_segment(q.b, p.a, p.b)});
+    distance = std::min({distance_to_segment(p.a, q.a, q.b), distance_to_segment(p.b, q.a, q.b),
+                         distance_to_segment(q.a, p.a, p.b), distance_to_segment(q.b, p.a, p.b)});
   }
-  return apart - p.radius - q.radius;
+  return distance - p.radius - q.radius;
 }
 
 bool is_inside(const Polygon& loop, const Vec2& point) {

@@ -24,7 +24,8 @@ struct PrintLimits {
 /// Checks a part in its print orientation, +z up and the lowest point on the bed. One Check each, with `where` naming
 /// the worst place and the extent beyond the limit:
 ///   - overhang (deg, at least): flattest slope of downward faces, except small steps and bridges within their limits
-///   - unsupported_step (mm, at most): longest distance of a point of a too flat face from its support, a bridge included
+///   - unsupported_step (mm, at most): longest distance from the points of too flat faces to their support, where a
+///     bridge counts as support
 ///   - bridge (mm, at most): longest span of a flat ceiling supported at both ends, in its most favourable direction
 ///   - island (1, exactly 0): places where material would begin in mid-air
 /// The mesh should be a solid (check_mesh). One that cannot be measured fails all four checks.

@@ -175,13 +175,13 @@ class StackMesher {
     std::vector<std::uint32_t> index;
     for (std::size_t k = 0; k < face.loops.size(); ++k) {
       const Polygon& loop = *face.loops[k];
-      Polygon& apart = loops.emplace_back();
+      Polygon& distinct = loops.emplace_back();
       for (std::uint32_t i = 0; i < loop.size(); ++i) {
         if (loop[i] == loop[(i + 1) % loop.size()]) {
           has_short_edges_ = true;
           continue;
         }
-        apart.push_back(loop[i]);
+        distinct.push_back(loop[i]);
         index.push_back(face.firsts[k] + i);
       }
     }

@@ -250,7 +250,7 @@ FacetBoxes boxes_of(const TriangleMesh& mesh) {
     polar_crowd += area_of(polar.back());
     reach = std::max(reach, polar.back().high[1]);
   }
-  // Fractions of the square around the disc that the mesh fills, and of that disc unrolled.
+  // Sum of the boxes' areas per area of the unrolled disc, and per area of the square around it.
   if (polar_crowd / (k_two_pi * reach) < cartesian_crowd / (4.0 * reach * reach)) of.boxes = std::move(polar);
   return of;
 }

@@ -25,8 +25,8 @@ double length_relieved_by_drum(const Mechanism& mechanism, const PinPlace& place
   const double mu = mechanism.joint.drum_mu;
   if (!(mu > 0 && place.drum > 0)) return 0;
   const UpperSpan span = upper_span(place, image_theta);
-  const double left = std::exp(-mu * span.on_drum);
-  return place.drum * (span.on_drum - (1.0 - left) / mu) + span.behind_drum * (1.0 - left);
+  const double decay = std::exp(-mu * span.on_drum);
+  return place.drum * (span.on_drum - (1.0 - decay) / mu) + span.behind_drum * (1.0 - decay);
 }
 
 }  // namespace

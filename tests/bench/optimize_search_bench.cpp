@@ -24,7 +24,7 @@ optimize::Problem six_lengths(const std::string& feasible) {
        {"optimize.upper", "[120, 60, 60, 20, 120, 20]"}});
 }
 
-/// Duration of the objective alone, for comparison.
+/// Forty random designs that have a value of the objective.
 std::vector<Mechanism> designs(const optimize::Problem& problem) {
   optimize::Random random(1);
   std::vector<Mechanism> all;
@@ -50,7 +50,7 @@ void feasible_by_drawing(benchmark::State& state) {
   options.advice = false;
   for (auto _ : state) {
     for (const Mechanism& mechanism : all) {
-      // Nearly straight curves need gigabytes of points. They are omitted, in favour of the drawing method.
+      // Nearly straight curves need gigabytes of points. They are omitted, which favours the drawing.
       if (profile::obstacle_to(mechanism) || optimize::evaluate(optimize::Objective::min_bend, mechanism).value > 1e4)
         continue;
       benchmark::DoNotOptimize(profile::synthesise(mechanism, options));

@@ -1,4 +1,4 @@
-// A joint whose cable is a chain of springs with dry contacts, and lies wavy: read as what it is.
+// Logs of a joint with a cable that is a wavy chain of springs with dry contacts. Calibration identifies its causes.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -17,12 +17,12 @@ namespace {
 
 struct HiddenCable {
   double per_N = 0.4;     ///< compliance, deg
-  double turned = 0.3;    ///< μφ of its way
-  double unloaded = 0.8;  ///< friction of the whole way by pretension, N
+  double turned = 0.3;    ///< μφ of the whole path
+  double unloaded = 0.8;  ///< friction of the whole path from pretension, N
   double waves = 0;       ///< deg
   double waves_rate = 0;  ///< per N
   double bump = 0;        ///< error of a place in the middle of the range, deg
-  double linkage = 0;     ///< of a slotted lever behind the cable: the offset of its pivot by its length
+  double linkage = 0;     ///< of a slotted lever behind the cable: offset of its pivot / its length
 };
 
 constexpr double k_ratio = 2, k_noise = 0.02;
@@ -33,7 +33,7 @@ double through_slot(double u, double offset) {
   return std::atan2(std::sin(turned), std::cos(turned) + offset) * 180 / k_pi * (1 + offset);
 }
 
-/// Three cycles of ±60° of α under one load, five rows to the second.
+/// Three cycles of ±60° of α under one load, five rows per second.
 std::filesystem::path written(const HiddenCable& hidden, double load, std::mt19937& random) {
   const std::string name = "cable_" + std::to_string(hidden.waves) + "_" + std::to_string(hidden.linkage) + "_" +
                            std::to_string(hidden.bump) + "_" + std::to_string(load) + ".csv";
@@ -70,7 +70,7 @@ const FoundEffect* effect(const Calibration& calibration, const std::string& nam
   return found == calibration.effects.end() ? nullptr : &*found;
 }
 
-TEST(CableData, IsReadAsStretchFrictionAndStiffening) {
+TEST(CableData, IdentifiesStretchFrictionAndStiffening) {
   HiddenCable hidden;
   hidden.waves = 1.5;
   hidden.waves_rate = 0.5;
@@ -84,7 +84,7 @@ TEST(CableData, IsReadAsStretchFrictionAndStiffening) {
   EXPECT_LT(found.after.held_out_rms, 0.05 * found.before.held_out_rms);
 }
 
-TEST(CableData, CurvedLinkageIsCoveredWithoutAName) {
+TEST(CableData, CoversCurvedLinkageWithoutReportingEffect) {
   HiddenCable hidden;
   hidden.linkage = 0.6;
   const Calibration found = calibrated(hidden);

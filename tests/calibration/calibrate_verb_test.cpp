@@ -1,4 +1,4 @@
-// The verb of the pipeline: what a user of the library gets without the program, and what page and JSON say.
+// pipeline::calibrate(): its outputs, its next measurements, and the texts of page and JSON.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -87,14 +87,14 @@ TEST(CalibrateVerb, WritesNextMeasurements) {
   EXPECT_GT(first["minutes"], 0);
   EXPECT_EQ(first["text"], result.product.calibration.next.front().text());
   EXPECT_FALSE(first.contains("file"));
-  // Read with a caliper, it is not asked for again.
+  // With a caliper reading, the measurement is not requested again.
   const MechanismFile read = read_mechanism(data / "spec.toml", {{"prior.radius_offset_mm", "[-0.336, 0.005]"}});
   const pipeline::CalibrateResult after = pipeline::calibrate(read, {data / "run_1.csv"}, into(folder));
   for (const plan::NextMeasurement& next : after.product.calibration.next)
     EXPECT_THAT(next.words, Not(HasSubstr("radius_offset_mm")));
 }
 
-// Data that decide nothing leave the plan that a joint that was never measured has.
+// Runs without information give the plan of a joint that was never measured.
 TEST(CalibrateVerb, ProposesPlanForUntestableRuns) {
   const std::filesystem::path folder = scratch("still");
   std::string still = "alpha_deg,theta_deg\n";
@@ -158,7 +158,7 @@ TEST(NextMeasurements, EachKindIsInTheDocument) {
   EXPECT_EQ(next[3]["file"], "next/run_7.csv");
 }
 
-/// θ in the empty column, as by a person.
+/// Fills in the empty column θ, as a user does.
 std::string filled_in(const std::string& csv, double ratio) {
   std::istringstream lines(csv);
   std::string filled;
@@ -241,7 +241,7 @@ TEST(CalibrateVerb, InputErrorChangesNoOtherResult) {
               testing::AllOf(HasSubstr("\"key\": \"guides.OE_mm\""), HasSubstr("\"would_be\": -14"), HasSubstr(words)));
   EXPECT_THAT(outputs["report.html"], HasSubstr(words));
   EXPECT_THAT(outputs["corrected.toml"], Not(HasSubstr("OE_mm = -14")));
-  ASSERT_FALSE(result.product.file.warnings.empty());  // the same slip was seen in the file alone
+  ASSERT_FALSE(result.product.file.warnings.empty());  // the same error was found in the file alone
   EXPECT_THAT(result.product.file.warnings.front().message, HasSubstr("guides.OE_mm = 14"));
 }
 
@@ -256,7 +256,7 @@ TEST(CalibrateVerb, RightFileListsNoInputError) {
 }
 
 /// The rig's runs with the tip force given as a torque.
-TEST(CalibrateVerb, ATorqueIsWorthItsTipForce) {
+TEST(CalibrateVerb, ConvertsTorqueToTipForce) {
   const std::filesystem::path folder = scratch("torque");
   const MechanismFile file = read_mechanism(k_rig / "b_stretch/spec.toml");
   std::vector<std::filesystem::path> torques;
@@ -283,8 +283,8 @@ TEST(CalibrateVerb, ATorqueIsWorthItsTipForce) {
 
 // ---- the table of law = "table" -------------------------------------------------------------------------------------
 
-/// The forearm with its law as a table in a folder of its own; the table's name stands in a comment and in the name
-/// too.
+/// The forearm with its law as a table in a separate folder. The table's name also occurs in a comment and in the joint's
+/// name.
 MechanismFile tabled(const std::filesystem::path& folder, const std::string& quoted = "\"laws/law.csv\"") {
   std::filesystem::create_directories(folder / "laws");
   std::string law = "alpha_deg,theta_deg\n";
@@ -306,7 +306,7 @@ table = )") + quoted + "  # not \"laws/law.csv\" of last year\n[tendon]\ndiamete
   return read_mechanism(folder / "arm.toml");
 }
 
-TEST(LawTable, TheValueAloneIsEdited) {
+TEST(LawTable, EditsValueOnly) {
   const MechanismFile file = tabled(scratch("law"));
   const std::string text = read_file(file.path, 1 << 20);
   std::string expected = text;
@@ -317,7 +317,7 @@ TEST(LawTable, TheValueAloneIsEdited) {
             read_file(std::filesystem::path(file.path).parent_path() / "laws/law.csv", 9999));
 }
 
-TEST(LawTable, OtherWaysToWriteItAreFound) {
+TEST(LawTable, FindsOtherSpellingsOfValue) {
   for (const char* quoted : {"'laws/law.csv'", "\"laws\\u002Flaw.csv\""}) {
     const std::filesystem::path folder = scratch("quoted");
     const MechanismFile file = tabled(folder, quoted);
@@ -329,7 +329,7 @@ TEST(LawTable, OtherWaysToWriteItAreFound) {
   }
 }
 
-TEST(LawTable, TorqueGoesBesideToo) {
+TEST(LawTable, CopiesTorqueTable) {
   const std::filesystem::path folder = scratch("torque");
   const MechanismFile law = tabled(folder);
   leave(folder / "laws/torque.csv", "theta_deg,motor_torque_Nmm\n-30,300\n-10,310\n10,320\n30,330\n");

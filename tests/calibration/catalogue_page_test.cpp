@@ -22,7 +22,7 @@ std::string corrected_by(CorrectableBy what) {
   return what == CorrectableBy::nothing ? "–" : std::string(fusee::word(what));
 }
 
-/// As a joint with tendons has them; what a joint declared by a ratio has instead stands behind it.
+/// The effects of joints with tendons, each followed by the differences of joints declared by a ratio.
 std::string catalogue_table() {
   std::string text =
       "| place | effect | how it shows | its numbers | corrected by | how to separate it "

@@ -1,4 +1,4 @@
-// Two states of one joint: changes are found, both ways round, and nothing is where nothing changed.
+// Two states of one joint: changes in either direction are reported, and none if the states are equal.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -47,7 +47,7 @@ measurement::Measurement strokes(const std::string& name, double from = radians(
   return measurement;
 }
 
-/// θ of a joint in a state, beside a bump that no effect has and that both states share.
+/// θ of a joint in a state, plus an unmodelled bump that both states have.
 measurement::Measurement measured(const DeclaredMechanism& declared, measurement::Measurement measurement,
                                   const Imperfections& state, unsigned seed) {
   const joint::Readings theta = joint::predict(declared, state, measurement::bench_log(measurement));
@@ -121,7 +121,7 @@ TEST(Comparison, ReportsNothingOfOneState) {
   EXPECT_LT(comparison.difference.before, 3 * k_noise);
 }
 
-/// Each run with a gain and a play of its own.
+/// Adds a random gain and a random play to each run.
 measurement::Measurement unrepeated(measurement::Measurement measurement, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> gain(0.0, 0.01), half_play(0.0, radians(0.05));
@@ -164,7 +164,7 @@ TEST(Comparison, KeepsUncertaintyOfPlayThatIsGone) {
   ComparedRuns runs = two_states(with_play(radians(2)), {});
   for (measurement::Measurement* measurement : {&runs.before, &runs.after, &runs.both}) {
     for (fusee::measurement::Run& run : measurement->runs)
-      run.has_load = false;  // or slack, which a load takes up, is as likely
+      run.has_load = false;  // with a load, slack would be equally likely
   }
   const Comparison comparison = compare_states(geared(), runs);
   const StateChange* play = find_change(comparison, "backlash");
@@ -178,7 +178,7 @@ TEST(Comparison, KeepsUncertaintyOfPlayThatIsGone) {
 }
 
 TEST(Comparison, FindsMovedZeroOfJointDeclaredByRatio) {
-  // The second is larger than the joint's motion, and of the same joint all the same.
+  // The second offset exceeds half of the joint's motion, but the joint is still the same one.
   for (const double offset : {0.5, 12.0}) {
     Imperfections moved;
     moved.sensor.zero = radians(offset);

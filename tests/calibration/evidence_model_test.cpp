@@ -1,4 +1,4 @@
-// Evidence of sets against densities that are written out, and unmodelled shapes.
+// Evidence of sets, compared with densities computed in full, and discrepancies.
 #include "calibration/evidence_model.h"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ Eigen::VectorXd drawn(Eigen::Index count, std::mt19937& random, double size = 1)
   return Eigen::VectorXd::NullaryExpr(count, [&](Eigen::Index) { return normal(random); });
 }
 
-/// Two families of three columns over so many rows.
+/// Two families of three columns over `rows` rows.
 calibration::Discrepancy two_families(Eigen::Index rows, std::mt19937& random) {
   calibration::Discrepancy made;
   made.columns.resize(rows, 6);
@@ -34,7 +34,7 @@ calibration::Tangent nothing_varied(const Eigen::VectorXd& residual) {
   return tangent;
 }
 
-/// log N(r; 0, σ² + D λ² Dᵀ) but for the rows' 2π, in full, and of Cauchy's density at each λ but for a constant.
+/// log N(r; 0, σ² I + D λ² Dᵀ) without the factor 2π, plus the log of Cauchy's density at each λ, up to a constant.
 double log_density(const Eigen::VectorXd& r, const calibration::Discrepancy& D,
                    const calibration::Amplitudes& amplitudes, double floor) {
   Eigen::MatrixXd C = amplitudes.noise * amplitudes.noise * Eigen::MatrixXd::Identity(r.size(), r.size());
@@ -48,7 +48,7 @@ double log_density(const Eigen::VectorXd& r, const calibration::Discrepancy& D,
   return prior - 0.5 * r.dot(factor.solve(r)) - factor.matrixLLT().diagonal().array().log().sum();
 }
 
-TEST(EvidenceModel, IsTheDensityWrittenOut) {
+TEST(EvidenceModel, EqualsFullDensity) {
   std::mt19937 random(1);
   const calibration::Discrepancy D = two_families(40, random);
   const calibration::EvidenceModel evidence_model(D, 0.1, 1.0);
@@ -59,7 +59,7 @@ TEST(EvidenceModel, IsTheDensityWrittenOut) {
   EXPECT_NEAR(found, log_density(r, D, one, 0.1) - log_density(r, D, other, 0.1), 1e-8);
 }
 
-TEST(EvidenceModel, IntegratesANumberOverItsPrior) {
+TEST(EvidenceModel, IntegratesParameterOverItsPrior) {
   std::mt19937 random(2);
   const calibration::Discrepancy D = two_families(60, random);
   const calibration::EvidenceModel evidence_model(D, 0.1, 1.0);
@@ -72,14 +72,14 @@ TEST(EvidenceModel, IntegratesANumberOverItsPrior) {
   tangent.x = tangent.caliper_gradient = Eigen::VectorXd::Zero(1);
   tangent.prior = Eigen::VectorXd::Constant(1, 0.5);
   tangent.caliper_information = Eigen::MatrixXd::Zero(1, 1);
-  // At the summit, as a fit leaves it.
-  const double summit = evidence_model.at(tangent, amplitudes).step[0];
-  tangent.x[0] = summit;
-  tangent.residual -= summit * slope;
+  // At the mode, where a fit ends.
+  const double mode = evidence_model.at(tangent, amplitudes).step[0];
+  tangent.x[0] = mode;
+  tangent.residual -= mode * slope;
   const double found = evidence_model.at(tangent, amplitudes).log_evidence - without;
   double sum = 0;
-  const double step = 1e-4, reference = log_density(r - summit * slope, D, amplitudes, 0.1);
-  for (double x = summit - 0.5; x < summit + 0.5; x += step)
+  const double step = 1e-4, reference = log_density(r - mode * slope, D, amplitudes, 0.1);
+  for (double x = mode - 0.5; x < mode + 0.5; x += step)
     sum += step * std::exp(log_density(r - x * slope, D, amplitudes, 0.1) + calibration::log_prior(x, 0.5) - reference);
   EXPECT_NEAR(found, std::log(sum) + reference - log_density(r, D, amplitudes, 0.1), 0.02);
 }
@@ -124,8 +124,9 @@ TEST(EvidenceModel, FindsAmplitudesAndDropsAbsentFamilies) {
   EXPECT_NEAR(found.amplitudes.noise, 0.1, 0.01);
 }
 
-// As rare as a name from a noise floor on; what the model itself is not trusted to is nothing that happened.
-TEST(EvidenceModel, LargerDiscrepancyIsRarer) {
+// The penalty of a discrepancy grows up to the prior odds of an effect, at an rms of one noise floor. The model's own
+// error, a fixed family, has no penalty.
+TEST(EvidenceModel, PenalizesDiscrepancyUpToOneFloor) {
   std::mt19937 random(5);
   calibration::Discrepancy D = two_families(50, random);
   D.families[1].fixed = 0.3;
@@ -168,7 +169,7 @@ TEST(EvidenceModel, PriorIsDensityWithHeavyTails) {
   for (double x = -2000; x < 2000; x += 0.01) sum += 0.01 * std::exp(calibration::log_prior(x, 1.0));
   EXPECT_NEAR(sum, 1, 1e-3);
   EXPECT_LT(calibration::log_prior(12, 1.0), calibration::log_prior(0, 1.0) - 5);
-  EXPECT_GT(calibration::log_prior(12, 1.0), calibration::log_prior(0, 1.0) - 72);  // a normal one's
+  EXPECT_GT(calibration::log_prior(12, 1.0), calibration::log_prior(0, 1.0) - 72);  // 72: the penalty of a normal prior
 }
 
 TEST(DiscrepancyFit, WaveOfMotorShaftHasItsOrder) {

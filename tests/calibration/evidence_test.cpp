@@ -1,4 +1,4 @@
-// How runs are thinned, cut into strokes and held out together.
+// Thinning of runs, their blocks, and the folds that are held out together.
 #include "calibration/evidence.h"
 
 #include <gmock/gmock.h>
@@ -29,7 +29,7 @@ std::vector<std::size_t> strokes_of(const calibration::Evidence& evidence, std::
 
 TEST(Gather, FirstStrokeSettlesPlay) {
   measurement::Measurement measurement = quiet({0, 5});
-  measurement.runs[1].strokes.resize(2);  // too few to do without one
+  measurement.runs[1].strokes.resize(2);  // too few strokes to omit the first
   const calibration::Evidence evidence = calibration::gather(joint(), measurement, k_floor);
   EXPECT_THAT(strokes_of(evidence, 0), ElementsAre(1, 2, 3));
   EXPECT_THAT(strokes_of(evidence, 1), ElementsAre(0, 1));
@@ -38,7 +38,7 @@ TEST(Gather, FirstStrokeSettlesPlay) {
   EXPECT_EQ(evidence.theta.size(), static_cast<Eigen::Index>(8 * k_rows));
 }
 
-TEST(Gather, APartialStrokeIsNone) {
+TEST(Gather, OmitsPartialStrokes) {
   measurement::Measurement measurement = quiet({0});
   measurement.runs[0].strokes[2].partial = true;
   EXPECT_THAT(strokes_of(calibration::gather(joint(), measurement, k_floor), 0), ElementsAre(1, 3));
@@ -52,7 +52,7 @@ TEST(Gather, DropsRowThatJumps) {
   EXPECT_EQ(evidence.rows_used(), 3 * k_rows - 1);
   for (const calibration::Block& block : evidence.blocks)
     EXPECT_EQ(std::count(block.rows.begin(), block.rows.end(), wild), 0);
-  EXPECT_NEAR(evidence.theta[wild], measurement.runs[0].samples[wild].theta, 1e-15) << "as history it stays";
+  EXPECT_NEAR(evidence.theta[wild], measurement.runs[0].samples[wild].theta, 1e-15) << "it stays as history";
 }
 
 TEST(Gather, ThinsLongRunsAndKeepsStrokeEnds) {
@@ -94,7 +94,7 @@ TEST(Folds, HoldWholeLevelsOfLoadOut) {
   EXPECT_THAT(evidence.factor_folds, ElementsAre(ElementsAre(0, 1, 2, 6, 7, 8), ElementsAre(3, 4, 5, 9, 10, 11)));
 }
 
-TEST(Folds, LevelOfNearlyAllRowsIsKept) {
+TEST(Folds, SplitsLevelOfMostBlocksByRun) {
   const calibration::Evidence evidence = calibration::gather(joint(), quiet({0, 0, 5}), k_floor);
   EXPECT_THAT(evidence.factors, ElementsAre("load"));
   EXPECT_THAT(evidence.factor_folds, ElementsAre(ElementsAre(6, 7, 8), ElementsAre(0, 1, 2), ElementsAre(3, 4, 5)));
@@ -108,15 +108,15 @@ TEST(Folds, SpeedIsAFactorToo) {
 
 // ---- dwells and load levels -----------------------------------------------------------------------------------------
 
-/// For each block, the number of the blocks of its run that it repeats.
+/// For each block, the number that it shares with the blocks of its run that it repeats.
 std::vector<std::size_t> repeats_in(const calibration::Evidence& evidence) {
   std::vector<std::size_t> alike;
   for (const calibration::Block& block : evidence.blocks) alike.push_back(block.alike);
   return alike;
 }
 
-/// Held at both ends in turn, `rows` rows each; the loads of the visits in turn.
-measurement::Measurement held_at_ends(const std::vector<double>& loads, std::size_t rows) {
+/// Dwells at both ends in turn, of `rows` rows each, under these loads.
+measurement::Measurement dwells_at_ends(const std::vector<double>& loads, std::size_t rows) {
   measurement::Measurement measurement;
   fusee::measurement::Run& run = measurement.runs.emplace_back();
   run.name = "run_1";
@@ -138,7 +138,7 @@ measurement::Measurement held_at_ends(const std::vector<double>& loads, std::siz
   return measurement;
 }
 
-/// Five strokes of 60 rows there and back; the load in thirds of each as `levels` has them.
+/// Five strokes of 60 rows, there and back. The thirds of each stroke have the loads `levels`.
 measurement::Measurement in_thirds(const std::array<double, 3>& levels) {
   measurement::Measurement measurement;
   fusee::measurement::Run& run = measurement.runs.emplace_back();
@@ -169,8 +169,8 @@ TEST(Gather, SegmentsAtTwoPlacesAreNoRepeats) {
 
 TEST(Gather, DwellsAreBlocks) {
   const calibration::Evidence evidence =
-      calibration::gather(joint(), held_at_ends({0, 0, 0, 0, 5, 5, 5, 5}, 10), k_floor);
-  // The first one's side is not known.
+      calibration::gather(joint(), dwells_at_ends({0, 0, 0, 0, 5, 5, 5, 5}, 10), k_floor);
+  // The first dwell is omitted: the side from which the motor came is unknown.
   EXPECT_THAT(strokes_of(evidence, 0), ElementsAre(1, 2, 3, 4, 5, 6, 7));
   EXPECT_THAT(repeats_in(evidence), ElementsAre(0, 1, 0, 2, 3, 2, 3));
   EXPECT_THAT(evidence.factors, ElementsAre("load"));
@@ -179,7 +179,7 @@ TEST(Gather, DwellsAreBlocks) {
 
 TEST(Gather, ShortDwellsOfOneKindAreJoined) {
   const calibration::Evidence evidence =
-      calibration::gather(joint(), held_at_ends(std::vector<double>(49, 0.0), 1), k_floor);
+      calibration::gather(joint(), dwells_at_ends(std::vector<double>(49, 0.0), 1), k_floor);
   EXPECT_EQ(evidence.rows_used(), 48u);
   ASSERT_EQ(evidence.blocks.size(), 8u);
   for (const calibration::Block& block : evidence.blocks) {
@@ -190,7 +190,7 @@ TEST(Gather, ShortDwellsOfOneKindAreJoined) {
 
 TEST(Gather, ThinsLongDwells) {
   const calibration::Evidence evidence =
-      calibration::gather(joint(), held_at_ends(std::vector<double>(40, 0.0), 2000), k_floor);
+      calibration::gather(joint(), dwells_at_ends(std::vector<double>(40, 0.0), 2000), k_floor);
   EXPECT_EQ(evidence.blocks.size(), 39u);
   EXPECT_LE(evidence.rows_used(), 850u);
   EXPECT_GE(evidence.rows_used(), 39 * 6u);
@@ -198,7 +198,7 @@ TEST(Gather, ThinsLongDwells) {
 
 TEST(Gather, HistoryOfManyDwellsPrecedesSelectedOnes) {
   const calibration::Evidence evidence =
-      calibration::gather(joint(), held_at_ends(std::vector<double>(100'000, 0.0), 3), k_floor);
+      calibration::gather(joint(), dwells_at_ends(std::vector<double>(100'000, 0.0), 3), k_floor);
   EXPECT_GE(evidence.rows_used(), 500u);
   EXPECT_LE(evidence.theta.size(), 12'000);
   for (const measurement::Stroke& stroke : evidence.measurement.runs[0].strokes)
@@ -221,7 +221,7 @@ TEST(Folds, LoadThatFollowsMotionIsOneLevel) {
   EXPECT_THAT(calibration::gather(joint(), measurement, k_floor).factors, IsEmpty());
 }
 
-/// Half the squares of weighted rows and what their play costs.
+/// Half the weighted squares of the rows, plus the cost of their play, nats.
 double cost_of_rows(const Eigen::VectorXd& residuals, double loose, double floor) {
   const Eigen::VectorXd weighted = residuals * floor / std::hypot(floor, loose / 3.0);
   const Eigen::VectorXd plays = Eigen::VectorXd::Constant(residuals.size(), loose);
@@ -237,18 +237,19 @@ TEST(Play, LooseRowsRestPushedOrAnywhere) {
   // Rest at the pushed position, with noise: the cost of taut rows.
   const Eigen::VectorXd noise = floor * Eigen::VectorXd::LinSpaced(count, -1.7, 1.7);
   EXPECT_NEAR(cost_of_rows(noise, loose, floor), 0.5 * noise.squaredNorm() / (floor * floor) + fitted, 0.5);
-  // Anywhere: a density as much lower as the play is wider than noise, ln 10.05, and the squares of one so wide.
+  // Rest anywhere: a normal density √(1 + 10²) = 10.05 times as wide as the noise costs ln 10.05 = 2.3076, and half the
+  // square of 0.1 rad in its standard deviations, 0.4950.
   const Eigen::VectorXd far = Eigen::VectorXd::Constant(count, 0.1);
   EXPECT_NEAR(cost_of_rows(far, loose, floor), count * (2.3076 + 0.4950) + fitted, 0.5);
-  // Half of each: more than either alone, for what is not known of each row.
+  // Half of each: the sum of both, and ln 2 per row because its kind is unknown.
   Eigen::VectorXd mixed = noise;
   mixed.tail(count / 2) = far.tail(count / 2);
-  const double apart = 0.5 * noise.head(count / 2).squaredNorm() / (floor * floor) + count / 2 * (2.3076 + 0.4950);
-  EXPECT_NEAR(cost_of_rows(mixed, loose, floor), apart + count * std::log(2.0) + fitted, 0.15 * count);
+  const double separate = 0.5 * noise.head(count / 2).squaredNorm() / (floor * floor) + count / 2 * (2.3076 + 0.4950);
+  EXPECT_NEAR(cost_of_rows(mixed, loose, floor), separate + count * std::log(2.0) + fitted, 0.15 * count);
 }
 
-TEST(Play, IsADensity) {
-  // Over all that one more row could have shown, beside many that say where such rows rest.
+TEST(Play, DensityIntegratesToOne) {
+  // Integral over the value of one more row, beside 200 rows that determine where such rows rest.
   constexpr double floor = 0.01, loose = 0.3, step = 0.2 * floor;
   for (const double others : {0.0, 0.12}) {
     Eigen::VectorXd rows = Eigen::VectorXd::Constant(201, others);

@@ -1,4 +1,4 @@
-// The simulation that fits go through, of a joint declared by its ratio: every reading in closed form.
+// The simulation that fits use, for a joint declared by its ratio, compared with closed forms.
 #include "joint/forward.h"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ class Geared : public testing::Test {
     return at;
   }
 
-  /// Expects a value of every row.
+  /// Compares every row with its expected value.
   void expect(const Imperfections& at,
               const std::function<double(const fusee::measurement::Run&, std::size_t)>& expected) {
     const joint::Readings found = forward(at);
@@ -33,20 +33,20 @@ class Geared : public testing::Test {
 
 double declared(const fusee::measurement::Run& run, std::size_t i) { return run.samples[i].alpha / k_ratio; }
 
-TEST_F(Geared, AsDeclared) { expect({}, declared); }
+TEST_F(Geared, FollowsDeclaredRatio) { expect({}, declared); }
 
-TEST_F(Geared, AZeroIsAdded) {
+TEST_F(Geared, AddsZero) {
   Imperfections at;
   set_value(at, *calibration::free_offset(joint()), 0.02);
   expect(at, [](const fusee::measurement::Run& run, std::size_t i) { return declared(run, i) + 0.02; });
 }
 
-TEST_F(Geared, AGainGrowsWithTheAngle) {
+TEST_F(Geared, GainIsProportionalToAngle) {
   expect(with("joint_sensor_gain", 0.01),
          [](const fusee::measurement::Run& run, std::size_t i) { return 1.01 * declared(run, i); });
 }
 
-TEST_F(Geared, ALoadTurnsItDown) {
+TEST_F(Geared, LoadTurnsJointDown) {
   expect(with("tendon_stretch", 1e-3), [](const fusee::measurement::Run& run, std::size_t i) {
     return declared(run, i) - 1e-3 * run.samples[i].load;
   });
@@ -55,7 +55,7 @@ TEST_F(Geared, ALoadTurnsItDown) {
 TEST_F(Geared, PlayFollowsAtHalfItsWidth) {
   constexpr double width = 0.3;
   expect(with("backlash", width), [play = 0.0](const fusee::measurement::Run& run, std::size_t i) mutable {
-    if (i == 0) play = run.samples[0].alpha + 0.5 * width;  // came from home, downwards
+    if (i == 0) play = run.samples[0].alpha + 0.5 * width;  // reached from home, by falling α
     const double alpha = run.samples[i].alpha;
     play = std::clamp(play, alpha - 0.5 * width, alpha + 0.5 * width);
     return play / k_ratio;
@@ -74,7 +74,7 @@ TEST_F(Geared, FilterShowsRoundedReversal) {
   Imperfections late;
   late.sensor.lag = tau;
   late.sensor.first_order = 1;
-  // By small steps of τ ẏ = θ − y along straight lines from row to row, a second apart.
+  // Integrates τ ẏ = θ − y in small steps along straight lines between rows, which are one second apart.
   const joint::Readings found = forward(late);
   const fusee::measurement::Run& run = measurement.runs[0];
   double y = declared(run, 0);
@@ -86,7 +86,7 @@ TEST_F(Geared, FilterShowsRoundedReversal) {
   }
 }
 
-TEST_F(Geared, ASensorWavesSoOftenATurn) {
+TEST_F(Geared, SensorHarmonicsHaveTheirOrders) {
   Imperfections at;
   at.sensor.wave_sin = 0.01;
   at.sensor.wave_cos = -0.02;
@@ -109,7 +109,7 @@ TEST_F(Geared, LoadTakesUpSlack) {
   at.ratio_joint.slack_taken_up = 0.2;
   expect(at, [play = 0.0](const fusee::measurement::Run& run, std::size_t i) mutable {
     const double width = 0.3 / (1 + 0.2 * run.samples[i].load);  // half of it under 5
-    if (i == 0) play = run.samples[0].alpha + 0.5 * width;       // came from home, downwards
+    if (i == 0) play = run.samples[0].alpha + 0.5 * width;       // reached from home, by falling α
     const double alpha = run.samples[i].alpha;
     play = std::clamp(play, alpha - 0.5 * width, alpha + 0.5 * width);
     return play / k_ratio;
@@ -133,12 +133,12 @@ TEST(Creep, IsRememberedInTheNextRun) {
   Imperfections at;
   at.ratio_joint.drift = 1e-3;
   const joint::Readings found = forward(at);
-  // A run is 79 s long: what it was before is undone by the opposite since then.
-  const double left = 5e-3 * (std::log10(79.0 + 20) - std::log10(20.0));
-  EXPECT_NEAR(declared(measurement.runs[2], 20) - found[2][20], left, 0.1 * 5e-3);
+  // A run is 79 s long. The creep of the loaded run remains, minus the creep since the load was removed.
+  const double remaining = 5e-3 * (std::log10(79.0 + 20) - std::log10(20.0));
+  EXPECT_NEAR(declared(measurement.runs[2], 20) - found[2][20], remaining, 0.1 * 5e-3);
 }
 
-TEST_F(Geared, OnlyTendonsHoldLooseJoint) {
+TEST_F(Geared, IsNeverLoose) {
   for (const std::vector<double>& run : forward.looseness({})) EXPECT_THAT(run, testing::Each(0.0));
 }
 

@@ -1,5 +1,4 @@
-// Files and logs that were written wrongly, of joints that were made and measured rightly: by a rig that shares no code
-// with the fit.
+// Files and logs with errors, of faultless joints. The data are from a rig that shares no code with the fit.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -20,7 +19,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// As a bench would have logged it.
+/// Reads the logs as those of a bench.
 measurement::Measurement logged(const std::vector<rig::Log>& logs) {
   measurement::Measurement measurement;
   for (std::size_t i = 0; i < logs.size(); ++i) {
@@ -31,7 +30,7 @@ measurement::Measurement logged(const std::vector<rig::Log>& logs) {
 }
 
 struct Bench {
-  DeclaredMechanism right;  ///< the joint that was measured
+  DeclaredMechanism joint;  ///< without input errors, until a test makes one
   measurement::Measurement data;
 };
 
@@ -41,7 +40,7 @@ Bench random_bench(std::uint64_t seed) {
   return {joint.declared, logged(rig::log_runs(joint, {}, rig::full_protocol(0.05 * joint.declared.joint.R)))};
 }
 
-/// Joints of the rig, of either law, both with nothing alike on both sides …
+/// Random unsymmetric joints of the rig: one with law = "compensate", one with law = "linear".
 const Bench& compensating() {
   static const Bench bench = random_bench(3 * 7919);
   return bench;
@@ -75,8 +74,8 @@ Calibration calibrated(const DeclaredMechanism& file, measurement::Measurement d
   return calibrate(file, data, options);
 }
 
-/// Rms over all rows with nothing fitted, rad: no rows are left out, as in the trial of an input error.
-double left_by(const DeclaredMechanism& file, const measurement::Measurement& data) {
+/// Rms over all rows with nothing fitted, rad. As in the test of a hypothesis, no rows are left out.
+double residual_of(const DeclaredMechanism& file, const measurement::Measurement& data) {
   return calibrated(file, data, false).before.rms;
 }
 
@@ -125,7 +124,7 @@ const InputErrorCase k_file_errors[] = {
 TEST(InputErrors, ReportKeyAndCorrectValue) {
   const Bench& bench = compensating();
   for (const InputErrorCase& error : k_file_errors) {
-    DeclaredMechanism file = bench.right;
+    DeclaredMechanism file = bench.joint;
     error.file(file);
     EXPECT_THAT(error_words_if_unexplained(file, bench.data),
                 ElementsAre(AllOf(HasSubstr(error.words), HasSubstr("to 0.02°"))))
@@ -135,14 +134,14 @@ TEST(InputErrors, ReportKeyAndCorrectValue) {
 
 TEST(InputErrors, ReportInvertedRatio) {
   const Bench& bench = linear();
-  ASSERT_EQ(bench.right.pulley.law, Law::linear);
-  DeclaredMechanism file = bench.right;
+  ASSERT_EQ(bench.joint.pulley.law, Law::linear);
+  DeclaredMechanism file = bench.joint;
   file.pulley.ratio = 1.0 / file.pulley.ratio;
   EXPECT_THAT(error_words(file, bench.data),
               ElementsAre(AllOf(HasSubstr("pulley.ratio = "), HasSubstr("alpha per theta?"))));
 }
 
-/// Data as logged with other signs or in another unit.
+/// The data with other signs or in another unit.
 measurement::Measurement times(measurement::Measurement data, double alpha, double theta) {
   for (measurement::Run& run : data.runs) {
     for (measurement::Sample& sample : run.samples) {
@@ -157,7 +156,7 @@ measurement::Measurement times(measurement::Measurement data, double alpha, doub
 TEST(InputErrors, ReportAngleOfLog) {
   const Bench& bench = compensating();
   const auto logged_times = [&](double alpha, double theta) {
-    return error_words_if_unexplained(bench.right, times(bench.data, alpha, theta));
+    return error_words_if_unexplained(bench.joint, times(bench.data, alpha, theta));
   };
   EXPECT_THAT(logged_times(1, -1), ElementsAre(HasSubstr("the logged theta times -1")));
   EXPECT_THAT(logged_times(-1, 1), ElementsAre(HasSubstr("the logged alpha times -1")));
@@ -167,10 +166,10 @@ TEST(InputErrors, ReportAngleOfLog) {
 
 TEST(InputErrors, ConsiderPulleyMadeFromWrongFile) {
   const Bench& bench = linear();
-  DeclaredMechanism file = bench.right;
+  DeclaredMechanism file = bench.joint;
   file.guides.OE *= -1;
   rig::MadeJoint mounted = rig::make_joint(file);
-  mounted.declared = bench.right;
+  mounted.declared = bench.joint;
   const measurement::Measurement data = logged(rig::log_runs(mounted, {}, rig::full_protocol(0.05 * file.joint.R)));
   EXPECT_THAT(error_words_if_unexplained(file, data),
               ElementsAre(AllOf(HasSubstr("guides.OE_mm = -52.7 in place of 52.7"),
@@ -182,16 +181,16 @@ TEST(InputErrors, ConsiderPulleyMadeFromWrongFile) {
 // The search for effects runs although the error is obvious.
 TEST(InputErrors, AreReportedIfNoEffectExplainsData) {
   Bench bench = rig_data("a_declared_right");
-  bench.right.guides.OE *= -1;
-  const Calibration found = calibrated(bench.right, bench.data);
+  bench.joint.guides.OE *= -1;
+  const Calibration found = calibrated(bench.joint, bench.data);
   ASSERT_EQ(found.verdict, CalibrationVerdict::unexplained);
-  const std::vector<LikelyInputError> errors = find_input_errors(bench.right, bench.data, found);
+  const std::vector<LikelyInputError> errors = find_input_errors(bench.joint, bench.data, found);
   ASSERT_EQ(errors.size(), 1u);
   EXPECT_EQ(errors[0].key, "guides.OE_mm");
   EXPECT_THAT(errors[0].declared, ElementsAre(14.0));
   EXPECT_THAT(errors[0].would_be, ElementsAre(-14.0));
-  const double left = left_by(rig_data("a_declared_right").right, bench.data);
-  EXPECT_NEAR(errors[0].rms, left, 0.1 * left);
+  const double residual = residual_of(rig_data("a_declared_right").joint, bench.data);
+  EXPECT_NEAR(errors[0].rms, residual, 0.1 * residual);
   EXPECT_LT(errors[0].rms, 1.1 * found.noise.rms);
   EXPECT_EQ(input_error_words(errors[0]), "guides.OE_mm = -14 in place of 14 would explain the data to " +
                                               rounded(degrees(errors[0].rms), 2) + "°: is the sign right?");
@@ -201,13 +200,13 @@ TEST(InputErrors, AreFoundBeforeAnySearchIfObvious) {
   // The error alone, with a fault beside it, with an unmodelled cause.
   for (const char* name : {"a_declared_right", "b_stretch", "f_not_in_any_catalogue"}) {
     Bench bench = rig_data(name);
-    EXPECT_FALSE(is_input_error_obvious(bench.right, bench.data)) << name;
-    bench.right.guides.OE *= -1;
-    EXPECT_TRUE(is_input_error_obvious(bench.right, bench.data)) << name;
-    const Calibration found = calibrated(bench.right, bench.data, false);
+    EXPECT_FALSE(is_input_error_obvious(bench.joint, bench.data)) << name;
+    bench.joint.guides.OE *= -1;
+    EXPECT_TRUE(is_input_error_obvious(bench.joint, bench.data)) << name;
+    const Calibration found = calibrated(bench.joint, bench.data, false);
     EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained);
     EXPECT_THAT(found.effects, IsEmpty());
-    EXPECT_THAT(words(find_input_errors(bench.right, bench.data, found)),
+    EXPECT_THAT(words(find_input_errors(bench.joint, bench.data, found)),
                 ElementsAre(HasSubstr("guides.OE_mm = -14 in place of 14")))
         << name;
   }
@@ -215,31 +214,31 @@ TEST(InputErrors, AreFoundBeforeAnySearchIfObvious) {
 
 TEST(InputErrors, AreReportedForRefusedData) {
   Bench bench = rig_data("a_declared_right");
-  bench.right.guides.EB /= 10;
-  EXPECT_EQ(calibrated(bench.right, bench.data).verdict, CalibrationVerdict::not_testable);
-  EXPECT_THAT(error_words(bench.right, bench.data), ElementsAre(HasSubstr("guides.EB_mm = 18 in place of 1.8")));
+  bench.joint.guides.EB /= 10;
+  EXPECT_EQ(calibrated(bench.joint, bench.data).verdict, CalibrationVerdict::not_testable);
+  EXPECT_THAT(error_words(bench.joint, bench.data), ElementsAre(HasSubstr("guides.EB_mm = 18 in place of 1.8")));
 }
 
 TEST(InputErrors, AllowEffectBesideThem) {
   Bench bench = rig_data("b_stretch");
-  bench.right.guides.OE *= -1;
-  EXPECT_THAT(error_words(bench.right, bench.data), ElementsAre(HasSubstr("with tendon_stretch beside it")));
+  bench.joint.guides.OE *= -1;
+  EXPECT_THAT(error_words(bench.joint, bench.data), ElementsAre(HasSubstr("with tendon_stretch beside it")));
 }
 
 TEST(InputErrors, AllowUnmodelledCauseBesideThem) {
   Bench bench = rig_data("f_not_in_any_catalogue");
-  const double left = left_by(bench.right, bench.data);
-  bench.right.guides.OE *= -1;
-  const std::vector<LikelyInputError> errors = errors_of(bench.right, bench.data);
+  const double residual = residual_of(bench.joint, bench.data);
+  bench.joint.guides.OE *= -1;
+  const std::vector<LikelyInputError> errors = errors_of(bench.joint, bench.data);
   ASSERT_EQ(errors.size(), 1u);
   EXPECT_EQ(errors[0].key, "guides.OE_mm");
   EXPECT_THAT(errors[0].beside, IsEmpty());
-  EXPECT_NEAR(errors[0].rms, left, 0.1 * left);
+  EXPECT_NEAR(errors[0].rms, residual, 0.1 * residual);
 }
 
 TEST(InputErrors, AreReportedBeforeImplausiblyLargeEffects) {
   const Bench& bench = compensating();
-  DeclaredMechanism file = bench.right;
+  DeclaredMechanism file = bench.joint;
   std::swap(file.guides.EB, file.guides.ED);
   Calibration found;
   found.verdict = CalibrationVerdict::explained;
@@ -256,7 +255,7 @@ TEST(InputErrors, AreNotReportedForCorrectFile) {
   for (const char* name : {"a_declared_right", "b_stretch", "c_backlash", "d_guide_radius", "e_one_sweep_only",
                            "f_not_in_any_catalogue"}) {
     const Bench bench = rig_data(name);
-    EXPECT_THAT(error_words(bench.right, bench.data), IsEmpty()) << name;
+    EXPECT_THAT(error_words(bench.joint, bench.data), IsEmpty()) << name;
   }
 }
 
@@ -273,9 +272,9 @@ TEST(InputErrors, AreNotReportedBesideUnmodelledCause) {
 
 TEST(InputErrors, AreNotSearchedInUntestableData) {
   Bench bench = rig_data("a_declared_right");
-  bench.right.guides.OE *= -1;
+  bench.joint.guides.OE *= -1;
   bench.data.not_testable = {"one direction"};
-  EXPECT_THAT(error_words(bench.right, bench.data), IsEmpty());
+  EXPECT_THAT(error_words(bench.joint, bench.data), IsEmpty());
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace fusee::calibration::linear {
 namespace {
 
-/// Slopes of two numbers, and something to explain.
+/// Slopes of two parameters, and a residual.
 struct Problem {
   calibration::Evidence evidence;
   Eigen::MatrixXd J;
@@ -116,7 +116,7 @@ TEST(HeldOut, EqualsErrorOfFitToOthers) {
 
 TEST(HeldOut, DecisiveLevelIsHeldOutByStrokes) {
   Problem problem = some_problem();
-  problem.J.col(1).head(4 * k_rows).setZero();  // the first run says nothing of the second number
+  problem.J.col(1).head(4 * k_rows).setZero();  // the first run contains no information about the second parameter
   problem.evidence.factor_folds = {{4, 5, 6, 7}};
   const calibration::Fit fit = hand_made(problem.evidence, problem.J, problem.r);
   for (std::size_t b = 0; b < 4; ++b) EXPECT_TRUE(std::isnan(fit.by_factor.by_block[b]));
@@ -141,8 +141,9 @@ calibration::Amplitudes some_amplitudes(const calibration::Evidence& evidence) {
   return amplitudes;
 }
 
-/// A row for each prior below the data: columns and numbers together, by orthogonal factorisation. Errors of a block
-/// that was left out with its fold, by the numbers alone and with the columns of place.
+/// Least squares with one additional row for each prior, over columns and parameters together, by orthogonal
+/// factorisation. Errors of a block that was left out with its fold: by the parameters alone, and with the columns of
+/// place.
 std::pair<double, double> errors_beside(const Problem& problem, const calibration::Amplitudes& amplitudes,
                                         const calibration::Fold& fold, std::size_t of) {
   const calibration::Discrepancy& discrepancy = problem.evidence.evidence_model->discrepancy();
@@ -263,7 +264,7 @@ TEST_F(LinearFit, CandidateByChordsEndsAtFit) {
   EXPECT_LT(candidate.by_run.mean_square, 0.1 * base.by_run.mean_square);
 }
 
-TEST_F(LinearFit, ADirectionIsTheSlopeAndNoFit) {
+TEST_F(LinearFit, AddedSlopesChangeNoFit) {
   const calibration::Fit base = fitter.fit({}, {});
   const calibration::Fit wider = fitter.add_slopes(base, stretch);
   EXPECT_EQ(wider.at, base.at);
@@ -276,7 +277,7 @@ TEST_F(LinearFit, ADirectionIsTheSlopeAndNoFit) {
   }
 }
 
-TEST_F(LinearFit, IntervalsHoldTheTruth) {
+TEST_F(LinearFit, IntervalsContainTrueValue) {
   const calibration::Fit fit = fitter.fit({&stretch}, {});
   const std::vector<calibration::ConfidenceInterval> found = calibration::intervals(fit);
   const double step = stretch.parameters.front().step;
@@ -284,10 +285,9 @@ TEST_F(LinearFit, IntervalsHoldTheTruth) {
   EXPECT_GT(found[1].high * step, k_compliance);
 }
 
-// ---- reported parameters beside an unmodelled cause
-// ------------------------------------------------------------------
+// ---- reported parameters beside an unmodelled cause -----------------------------------------------------------------
 
-/// A joint that bends with the load, an unmodelled cause.
+/// A joint whose compliance changes with the angle, an unmodelled cause.
 calibration::Evidence bending_with_the_load() {
   return evidence_of(
       measured({0, 2, 5, -3}, [noise = white_noise(k_floor, 5)](const measurement::Sample& sample) mutable {
@@ -300,18 +300,18 @@ class LeastSquaresFits : public testing::Test {
   calibration::Evidence evidence = bending_with_the_load();
   calibration::FitterPool pool{evidence};
   const Effect& stretch = named("tendon_stretch");
-  const calibration::Fit summit = pool.one().fit({&stretch}, {});
+  const calibration::Fit mode = pool.one().fit({&stretch}, {});
 
-  double left(const calibration::Fit& fit) const { return fit.residual.norm(); }
+  double residual_norm(const calibration::Fit& fit) const { return fit.residual.norm(); }
   double compliance(const calibration::Fit& fit) const { return value_of(fit.at, stretch.parameters.front()); }
 };
 
-TEST_F(LeastSquaresFits, AreThoseOfARegression) {
-  const calibration::Fit squares = pool.one().fit_least_squares(summit);
+TEST_F(LeastSquaresFits, EqualRegression) {
+  const calibration::Fit squares = pool.one().fit_least_squares(mode);
   const Eigen::VectorXd expected = regression(evidence);
   EXPECT_NEAR(value_of(squares.at, *squares.parameters[0]), expected[0], 1e-6);
   EXPECT_NEAR(compliance(squares), expected[1], 1e-6);
-  EXPECT_LT(left(squares), left(summit));
+  EXPECT_LT(residual_norm(squares), residual_norm(mode));
 }
 
 TEST_F(LeastSquaresFits, NumbersStayWithinBounds) {
@@ -324,31 +324,31 @@ TEST_F(LeastSquaresFits, NumbersStayWithinBounds) {
   calibration::FitterPool fitters(scaled);
   const calibration::Fit squares = fitters.one().fit_least_squares(fitters.one().fit({&gain}, {}));
   EXPECT_NEAR(value_of(squares.at, number), number.most, 1e-12);
-  EXPECT_NEAR(squares.residual.mean(), 0, 1e-9);  // the best offset beside it
+  EXPECT_NEAR(squares.residual.mean(), 0, 1e-9);  // the offset is fitted beside it
 }
 
-/// Log of a cable joint (as the jaw of docs/background/real-joint.md): its hysteresis shrinks with the load by no law
-/// of the catalogue.
-measurement::Measurement loop_that_shrinks(double gain = 0) {
-  const std::vector<double> loads = {0, 0.01, 0.02, 0.03}, loops = {3.5, 2, 0.5, 0.5};
+/// Log of a cable joint like the jaw of docs/background/real-joint.md. No law of the catalogue describes how its
+/// hysteresis shrinks with the load.
+measurement::Measurement shrinking_hysteresis(double gain = 0) {
+  const std::vector<double> loads = {0, 0.01, 0.02, 0.03}, widths = {3.5, 2, 0.5, 0.5};
   measurement::Measurement all = measured(loads, white_noise(radians(0.02), 5));
   all.load_unit = "Nm";
   for (std::size_t r = 0; r < loads.size(); ++r) {
-    const double half = 0.5 * radians(loops[r]);
-    double lies = radians(180);  // the joint, in its play
+    const double half = 0.5 * radians(widths[r]);
+    double position = radians(180);  // the joint, in its play
     for (measurement::Sample& sample : all.runs[r].samples) {
       const double middle = sample.alpha / k_ratio;
-      lies = std::clamp(lies, middle - half, middle + half);
-      sample.theta += lies - middle - radians(90) * sample.load + gain * lies;
+      position = std::clamp(position, middle - half, middle + half);
+      sample.theta += position - middle - radians(90) * sample.load + gain * position;
     }
   }
   return all;
 }
 
-/// Stretch and a slack that load takes up in equal parts: found, and not all.
+/// Stretch and a slack that a load takes up are identified, and explain a part of the error.
 class HandedOver : public testing::Test {
  protected:
-  explicit HandedOver(double gain = 0) : evidence(evidence_of(loop_that_shrinks(gain))) {}
+  explicit HandedOver(double gain = 0) : evidence(evidence_of(shrinking_hysteresis(gain))) {}
 
   calibration::Evidence evidence;
   calibration::FitterPool pool{evidence};
@@ -373,7 +373,7 @@ class HandedOver : public testing::Test {
   }
 };
 
-TEST_F(HandedOver, LeastSquaresThatPredictMore) {
+TEST_F(HandedOver, ReportsLeastSquaresThatPredictBetter) {
   const calibration::ReportedParameters made = handed_over();
   EXPECT_LT(made.estimate.fit.mean_square, 0.7 * selection.best.mean_square);
   EXPECT_LT(made.estimate.fit.by_run.mean_square, std::pow(radians(0.22), 2));
@@ -384,7 +384,7 @@ TEST_F(HandedOver, IntervalsCoverReplacedParameters) {
   const calibration::ReportedParameters made = handed_over();
   selection.groups = {{{&named("tendon_stretch")}, 0}, {{&named("slack")}, 0}};
   selection.without.resize(2);
-  for (auto& [parameter, variance] : selection.variance) variance = {1e-12, 1e-12};  // the summit, and nothing else
+  for (auto& [parameter, variance] : selection.variance) variance = {1e-12, 1e-12};  // the mode alone
   for (const calibration::FoundEffect& found : calibration::found_effects(evidence, selection, made.reported)) {
     for (const calibration::FittedParameter& number : found.parameters) {
       EXPECT_LE(number.low, number.value);
@@ -395,7 +395,7 @@ TEST_F(HandedOver, IntervalsCoverReplacedParameters) {
   }
 }
 
-/// The joint's sensor shows more, as a group says.
+/// The joint's sensor also has a gain, which is a member of a group.
 class HandedOverBeside : public HandedOver {
  protected:
   explicit HandedOverBeside(double gain = 0.05) : HandedOver(gain) {

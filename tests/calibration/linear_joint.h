@@ -42,7 +42,7 @@ inline measurement::Run run_of(const std::string& name, double load, std::size_t
   return run;
 }
 
-/// A run for each load, four strokes each, as declared; what `beside` adds to θ of a row, rad.
+/// A run of four strokes for each load. `beside`: added to the declared θ of a row, rad.
 inline measurement::Measurement measured(const std::vector<double>& loads,
                                          const std::function<double(const measurement::Sample&)>& beside) {
   measurement::Measurement measurement;

@@ -1,4 +1,4 @@
-// An effect of one's own: a file like this one, and nothing else, and it is looked for and found.
+// A custom effect requires one file like this one. Calibration then searches for it and identifies it.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -13,14 +13,14 @@ namespace {
 
 constexpr double k_noise = radians(0.01);
 
-/// A print of seven lobes: the teeth of the wheel that turned its table. No effect of the program is it, nor do several
-/// together do the same; of five lobes some do: since there are waves of both sensors that reads as confounded.
+/// A pulley with seven lobes, from the teeth of the wheel that turned the printer's table. No effect of the catalogue and
+/// no combination acts like it. (Five lobes would be ambiguous with waves of both sensors.)
 fusee::Effect seven_lobes() {
   fusee::Effect effect;
   effect.name = "seven_lobes";
   effect.place = ChainPlace::pulley;
   effect.rank = 5;
-  effect.signature = "seven times per turn of the pulley, whichever way and load";
+  effect.signature = "seven times per turn of the pulley, independent of direction and load";
   effect.correctable_by = CorrectableBy::pulley;
   effect.needs = {.tendons = true};
   effect.parameters = {{.name = "sin_mm",
@@ -49,7 +49,7 @@ fusee::Effect seven_lobes() {
   return effect;
 }
 
-/// Five strokes there and back over the whole range.
+/// Three runs of three cycles over the whole range.
 measurement::Measurement measured(const DeclaredMechanism& declared, const Imperfections& truth) {
   constexpr int k_rows = 120;
   constexpr double k_most = radians(100);
@@ -80,7 +80,7 @@ measurement::Measurement measured(const DeclaredMechanism& declared, const Imper
   return measurement;
 }
 
-/// A forearm whose tendons stay taut over the lobes: where a joint is loose, its readings say little of a number.
+/// A forearm whose tendons stay taut over the lobes. Readings of a loose joint contain little information.
 DeclaredMechanism taut_forearm() {
   DeclaredMechanism mechanism = testing::forearm();
   mechanism.tendon.modulus = 3000;
@@ -104,7 +104,7 @@ TEST(CustomEffect, IsFoundOnlyWithItsFile) {
   EXPECT_EQ(found.effects.front().name, "seven_lobes");
   EXPECT_THAT(found.effects.front().group, ::testing::ElementsAre("seven_lobes"));
   EXPECT_NEAR(found.effects.front().parameters.at(0).value, 0.4, 0.02);
-  EXPECT_NEAR(found.identified.pulley.outline.wave_sin, 0.4, 0.02);  // beside it any smooth shape may stand
+  EXPECT_NEAR(found.identified.pulley.outline.wave_sin, 0.4, 0.02);  // a discrepancy of any smooth shape is allowed beside it
   EXPECT_EQ(found.identified.pulley.outline.wave_order, 7);
 }
 

@@ -41,7 +41,7 @@ Stops load_staircase(int rows) {
   return stops;
 }
 
-/// From end to end, at one load after another.
+/// Alternates between the ends, at one load after another.
 Stops alternating_ends(int rows) {
   Stops stops;
   for (int i = 0; i < 40; ++i)
@@ -61,14 +61,14 @@ Stops steps(int rows) {
   return stops;
 }
 
-/// There and back three times without a hold.
+/// Three cycles without dwells.
 Stops sweep(double share) {
   Stops stops;
   for (int i = 0; i < 360; ++i) stops.push_back({share * (std::abs(i % 120 - 60) / 30.0 - 1), 0.0, 1});
   return stops;
 }
 
-/// A few angles again and again, the load of each cycle one of so many.
+/// Six cycles over five angles. `loads`: number of loads that the cycles take in turn.
 Stops cycles_at(int loads, int rows) {
   Stops stops;
   for (int cycle = 0; cycle < 6; ++cycle) {
@@ -156,7 +156,7 @@ TEST(PointToPoint, DeclaredJointHasNoFalsePositive) {
     const Calibration found = calibrated({log_of(protocol.stops(protocol.rows), {}, 5)});
     EXPECT_NE(found.verdict, CalibrationVerdict::not_testable) << protocol.name << ": " << found.summary;
     EXPECT_THAT(names_of(found), IsEmpty()) << protocol.name;
-    // Single rows repeat too rarely to know it better.
+    // Single rows have too few repeats for a better estimate.
     EXPECT_NEAR(degrees(found.noise.rms), 0.02, protocol.rows > 1 ? 0.002 : 0.01) << protocol.name;
     EXPECT_LT(degrees(found.before.rms), 0.023) << protocol.name;
   }

@@ -1,4 +1,4 @@
-// Groups of which one is there, against sums over all sets written out.
+// Credible groups, compared with explicit sums over all sets.
 #include "calibration/posterior.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace fusee::calibration::linear {
 namespace {
 
-std::array<Effect, 5> effects_of_no_meaning() {
+std::array<Effect, 5> letter_effects() {
   std::array<Effect, 5> all;
   for (std::size_t i = 0; i < all.size(); ++i) all[i].name = std::string(1, static_cast<char>('a' + i));
   return all;
@@ -45,7 +45,7 @@ class Groups : public ::testing::Test {
     return calibration::credible_group(sets, of(best), *of(std::string(1, named)).front(), 0.02);
   }
 
-  std::array<Effect, 5> all_ = effects_of_no_meaning();
+  std::array<Effect, 5> all_ = letter_effects();
 };
 
 TEST_F(Groups, ContainOneMemberWithoutAlternatives) {
@@ -124,7 +124,8 @@ TEST(ExpectedSizes, LimitReadingToObservedError) {
   evidence.sizes = calibration::expected_sizes(all, evidence, pool);
   const calibration::Fit none = pool.one().fit({}, {});
   const double seen = calibration::k_thresholds.most_expected * rms(calibration::tangent_of(evidence, none).residual);
-  // Five degrees at the largest load are what such joints yield, and not what is seen here; a gain is small anywhere.
+  // The prior of the stretch, five degrees at the largest load, exceeds the observed error and is reduced to it. That of
+  // the gain is smaller already.
   for (const Effect* effect : all) {
     const calibration::Tangent wider = calibration::tangent_of(evidence, pool.one().add_chords(none, *effect));
     const Eigen::Index k = wider.x.size() - 1;

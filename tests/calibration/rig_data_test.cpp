@@ -93,7 +93,7 @@ TEST(RigData, CauseOutsideCatalogueIsUnexplained) {
 // Data of O'Neill et al., RA-L 3(4), 2018, doi 10.1109/LRA.2018.2849862.
 TEST(RealJaw, IdentifiesFrictionAndStretchWithoutDelay) {
   const char* folder = std::getenv("FUSEE_DAVINCI_JAW");
-  if (folder == nullptr) GTEST_SKIP() << "FUSEE_DAVINCI_JAW names no folder";
+  if (folder == nullptr) GTEST_SKIP() << "FUSEE_DAVINCI_JAW is not set";
   const DeclaredMechanism declared = parse_mechanism(
       "schema = 1\nname = \"jaw\"\n[transmission]\nkind = \"ratio\"\nratio = -1.0928961748633879\n", "jaw.toml");
   measurement::MeasurementOptions options;

@@ -79,7 +79,7 @@ measurement::Measurement logged(const DeclaredMechanism& declared, const Imperfe
 
 const std::vector<Plan> k_full = {{0, 1}, {3, 1}, {0, 8}, {1.5, 1}, {-3, 1}};
 
-double apart(const std::vector<std::vector<double>>& one, const std::vector<std::vector<double>>& other) {
+double rms_difference(const std::vector<std::vector<double>>& one, const std::vector<std::vector<double>>& other) {
   double squares = 0;
   double rows = 0;
   for (std::size_t i = 0; i < one.size(); ++i) {
@@ -91,7 +91,8 @@ double apart(const std::vector<std::vector<double>>& one, const std::vector<std:
   return std::sqrt(squares / rows);
 }
 
-/// A size that moves θ by eight times the noise, rms, but no number near its end: what stands there is not named.
+/// A size that moves θ by eight times the noise, rms. No number is near its bound, because effects at a bound are not
+/// reported.
 Imperfections well_seen(const DeclaredMechanism& declared, const fusee::Effect& effect) {
   constexpr double within = 0.8;
   const measurement::Measurement measurement = logged(declared, {}, k_full);
@@ -110,7 +111,7 @@ Imperfections well_seen(const DeclaredMechanism& declared, const fusee::Effect& 
   const joint::BenchLog log = measurement::bench_log(measurement);
   const joint::Readings as_declared = joint::predict(declared, {}, log);
   double size = 1;
-  for (int i = 0; i < 60 && apart(joint::predict(declared, moved(size), log), as_declared) < 8 * k_noise; ++i)
+  for (int i = 0; i < 60 && rms_difference(joint::predict(declared, moved(size), log), as_declared) < 8 * k_noise; ++i)
     size *= 1.25;
   return moved(size);
 }
@@ -131,19 +132,19 @@ std::string why(const Calibration& found) {
 
 class EveryEffect : public testing::TestWithParam<std::string> {};
 
-TEST_P(EveryEffect, IsFoundInItsOwnData) {
+TEST_P(EveryEffect, IsIdentifiedInDataThatContainIt) {
   const DeclaredMechanism declared = bench_joint();
   const fusee::Effect* effect = find_effect(GetParam(), JointKind::tendons);
   ASSERT_NE(effect, nullptr);
   const Imperfections truth = well_seen(declared, *effect);
   const joint::BenchLog log = measurement::bench_log(logged(declared, {}, k_full));
-  if (apart(joint::predict(declared, truth, log), joint::predict(declared, {}, log)) < 3 * k_noise)
+  if (rms_difference(joint::predict(declared, truth, log), joint::predict(declared, {}, log)) < 3 * k_noise)
     GTEST_SKIP() << "however large, it hardly moves this joint";
   CalibrationOptions options;
-  options.audit = false;  // it adds to groups, and finds nothing
+  options.audit = false;  // it only adds members to groups
   const Calibration found = calibrate(declared, logged(declared, truth, k_full), options);
   EXPECT_THAT(found.verdict, testing::AnyOf(CalibrationVerdict::explained, CalibrationVerdict::confounded));
-  // Beside a temperature that drifts, a friction far below the noise is still named: known, and not right.
+  // Known error: beside a drifting temperature, a friction far below the noise is reported too.
   ASSERT_LE(found.effects.size(), GetParam() == "thermal_expansion" ? 2u : 1u) << found.summary;
   if (found.effects.size() == 2) {
     EXPECT_LT(found.effects.back().rms_drop, 0.5 * k_noise) << found.summary;
@@ -152,8 +153,9 @@ TEST_P(EveryEffect, IsFoundInItsOwnData) {
   EXPECT_LT(found.after.held_out_rms, 1.1 * k_noise);
 }
 
-// tendon_slip leaves this joint loose, and where a loose joint rests only a bench knows: rig.known_truth has it.
-// groove_friction moves a joint with so stiff a tendon by a tenth of the noise at most: it has its own joint below.
+// tendon_slip makes this joint loose, and the model does not predict where a loose joint rests: rig.known_truth tests
+// it. groove_friction moves a joint with such stiff tendons by a tenth of the noise at most: a softer joint below tests
+// it.
 std::vector<std::string> seen_on_the_bench_joint() {
   std::vector<std::string> names(k_contract_effects.begin(), k_contract_effects.end());
   std::erase_if(names, [](const std::string& name) { return name == "tendon_slip" || name == "groove_friction"; });
@@ -167,11 +169,11 @@ TEST(Selection, FindsGrooveFrictionOfSoftTendon) {
   DeclaredMechanism declared = bench_joint();
   declared.tendon.modulus = 900;  // a nylon line
   Imperfections truth;
-  truth.tendon.groove_friction = -0.2;  // none at all, and the file says 0.2
+  truth.tendon.groove_friction = -0.2;  // no friction, while the file declares 0.2
   const std::vector<Plan> plans = {{0, 1}, {10, 1}, {0, 8}, {5, 1}, {-10, 1}};
   const measurement::Measurement measurement = logged(declared, truth, plans);
   const joint::BenchLog log = measurement::bench_log(measurement);
-  EXPECT_GT(apart(joint::predict(declared, truth, log), joint::predict(declared, {}, log)), 5 * k_noise);
+  EXPECT_GT(rms_difference(joint::predict(declared, truth, log), joint::predict(declared, {}, log)), 5 * k_noise);
   CalibrationOptions options;
   options.audit = false;
   const Calibration found = calibrate(declared, measurement, options);
@@ -191,13 +193,13 @@ TEST(Selection, FindsNoEffectInNoise) {
   }
 }
 
-TEST(Selection, FindsBothOfAPairWithTheirNumbers) {
+TEST(Selection, IdentifiesTwoEffectsWithTheirNumbers) {
   const DeclaredMechanism declared = bench_joint();
   Imperfections truth;
   truth.tendon.stretch = 2.0;
   truth.shaft.backlash = radians(1.5);
   const Calibration found = calibrate(declared, logged(declared, truth, k_full));
-  // In runs of less than a minute much creep is like little more stretch.
+  // In runs of less than a minute, much creep acts like a little more stretch.
   EXPECT_THAT(found.verdict, testing::AnyOf(CalibrationVerdict::explained, CalibrationVerdict::confounded));
   ASSERT_EQ(found.effects.size(), 2u);
   EXPECT_NEAR(found.identified.tendon.stretch, 2.0, 0.05);
@@ -218,7 +220,7 @@ TEST(Selection, DistinguishesDelayFromPlayAtTwoSpeeds) {
   EXPECT_THAT(all_groups(two_speeds), testing::ElementsAre("backlash"));
 }
 
-// An error that turns with a sensor is the sensor's: no caliper and no other run says as much.
+// An error that turns with a sensor is caused by the sensor. No caliper and no other run separates it as well.
 TEST(Selection, AsksToTurnEccentricSensor) {
   const DeclaredMechanism declared = bench_joint();
   Imperfections truth;
@@ -263,7 +265,8 @@ TEST(Selection, CaliperReadingSplitsGroup) {
   EXPECT_THAT(all_groups(with), Not(Contains("radius_offset")));
 }
 
-// No other unmodelled cause moves the arms by which a load acts: pins out of place were 57 nats ahead of it.
+// Only an unmodelled path of the tendons changes the moment arms of a load. Without this alternative, displaced pins led
+// by 57 nats.
 TEST(Selection, UnmodelledGeometryIsNoCertainEffect) {
   const DeclaredMechanism declared = bench_joint();
   Imperfections truth;
@@ -274,7 +277,7 @@ TEST(Selection, UnmodelledGeometryIsNoCertainEffect) {
   EXPECT_THAT(found.effects.front().unmodelled.words, testing::HasSubstr("tendons' paths"));
 }
 
-// It holds the joint as a bearing's does, and that was 220 nats ahead of every curve beside the readings.
+// This friction acts like that of a bearing, which led every empirical curve by 220 nats.
 TEST(Selection, UnmodelledFrictionIsNoCertainEffect) {
   const DeclaredMechanism declared = bench_joint();
   Imperfections truth;
@@ -307,7 +310,7 @@ TEST(Selection, WalkingZeroIsNoEffect) {
   EXPECT_THAT(found.effects, IsEmpty());
 }
 
-TEST(Selection, NamedRunsAreNeverFittedTo) {
+TEST(Selection, FitsNoHeldOutRuns) {
   const DeclaredMechanism declared = bench_joint();
   Imperfections truth;
   truth.shaft.backlash = radians(2);
@@ -317,7 +320,7 @@ TEST(Selection, NamedRunsAreNeverFittedTo) {
   const Calibration found = calibrate(declared, measurement, options);
   EXPECT_THAT(found.held_out_runs, testing::ElementsAre("run_5.csv"));
   EXPECT_LT(found.after.held_out_rms, 1.2 * k_noise);
-  // The held-out run changes nothing of the result.
+  // The held-out run does not change the result.
   for (measurement::Sample& sample : measurement.runs.back().samples) sample.theta += radians(3);
   const Calibration other = calibrate(declared, measurement, options);
   EXPECT_EQ(other.identified.shaft.backlash, found.identified.shaft.backlash);

@@ -17,7 +17,7 @@ calibration::Evidence two_runs() {
   return evidence_of(measured({0, 5}, [](const measurement::Sample&) { return 0.0; }));
 }
 
-/// A fit with these held-out errors, and a residual of rms 1 that turns its sign from row to row.
+/// A fit with these held-out errors, and a residual of rms 1 whose sign alternates from row to row.
 calibration::Fit with_errors(const calibration::Evidence& evidence, const std::vector<double>& by_block,
                              Eigen::Index numbers = 0) {
   Eigen::VectorXd residual(evidence.theta.size());
@@ -37,14 +37,14 @@ TEST(LagOne, IsNegativeForAlternatingRows) {
 TEST(StrokeScatter, DistinguishesStrokeMeansFromRowNoise) {
   const calibration::Evidence evidence = two_runs();
   calibration::Fit fit = with_errors(evidence, std::vector<double>(8, 1.0));
-  // Strokes 0 and 2 of a run go up, 1 and 3 down: a pair of each stands 2 a apart.
+  // Strokes 0 and 2 of a run go up, 1 and 3 down. The means of each pair differ by 2a.
   const double a = 3;
   for (std::size_t b = 0; b < 8; ++b) {
     for (const std::size_t row : evidence.blocks[b].rows)
       fit.residual[static_cast<Eigen::Index>(row)] += b % 4 < 2 ? a : -a;
   }
   const calibration::StrokeScatter found = calibration::stroke_scatter(evidence, fit);
-  // Each mean has taken a degree of freedom.
+  // Each mean uses one degree of freedom.
   EXPECT_NEAR(found.within, std::sqrt(k_rows / (k_rows - 1.0)), 1e-12);
   EXPECT_NEAR(found.between, std::sqrt(2 * a * a - 1.0 / (k_rows - 1.0)), 1e-12);
   EXPECT_TRUE(calibration::is_walking(found));
@@ -52,7 +52,7 @@ TEST(StrokeScatter, DistinguishesStrokeMeansFromRowNoise) {
       calibration::stroke_scatter(evidence, with_errors(evidence, std::vector<double>(8, 1.0)))));
 }
 
-// A gain that is another after each reversal: means of strokes say nothing of it.
+// A gain that changes at each reversal does not change the means of strokes.
 TEST(StrokeScatter, DistinguishesStrokeTiltsFromRowNoise) {
   const calibration::Evidence evidence = two_runs();
   calibration::Fit fit = with_errors(evidence, std::vector<double>(8, 1.0));
@@ -73,7 +73,7 @@ TEST(StrokeScatter, DistinguishesStrokeTiltsFromRowNoise) {
   EXPECT_TRUE(calibration::is_walking(found));
 }
 
-// No two strokes are sampled alike: one that is cut short has the slope of the others, and no other tilt.
+// Strokes are sampled differently. A stroke that is cut short has the slope of the others.
 TEST(StrokeScatter, StrokesOfOneSlopeAreAlike) {
   calibration::Evidence evidence = two_runs();
   calibration::Fit fit = with_errors(evidence, std::vector<double>(8, 1.0));
@@ -100,7 +100,7 @@ TEST(RarestRatio, IsExceededAsSeldomAsThreeStandardDeviations) {
   EXPECT_EQ(calibration::rarest_ratio(10, 1), std::numeric_limits<double>::infinity());
 }
 
-TEST(AsGood, WithinSoManyNats) {
+TEST(AsGood, EndsAtThreshold) {
   const calibration::Evidence evidence = two_runs();
   calibration::Fit best, rival;
   best.log_evidence = 100;

@@ -1,4 +1,4 @@
-// Answers held against rows that they were not fitted to.
+// Answers compared with rows that they were not fitted to.
 #include "calibration/validation.h"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// Stretch of so many rad per N, and noise.
+/// A joint with this compliance, rad per N, and noise.
 measurement::Measurement stretching(const std::vector<double>& loads, double stretch, unsigned seed) {
   return measured(loads, [stretch, noise = white_noise(k_floor, seed)](const measurement::Sample& sample) mutable {
     return noise(sample) - stretch * sample.load;
@@ -55,7 +55,7 @@ TEST_F(Validation, RejectsEffectThatKeptRunsDoNotHave) {
 TEST_F(Validation, NamesLevelThatGetsWorse) {
   const calibration::Estimate declared = calibration::declared_estimate(pool, selection);
   measurement::Measurement kept = stretching({4, 2}, k_stretch, 2);
-  for (measurement::Sample& sample : kept.runs[1].samples) sample.theta += 2 * k_stretch;  // the other way
+  for (measurement::Sample& sample : kept.runs[1].samples) sample.theta += 2 * k_stretch;  // with the opposite sign
   EXPECT_EQ(calibration::HeldOutRows(evidence, declared, kept).worse_at(found()), "run_2");
 }
 

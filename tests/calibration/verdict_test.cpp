@@ -1,4 +1,4 @@
-// Verdict by verdict, from fits whose figures are given.
+// Each verdict, from fits with given figures.
 #include "calibration/verdict.h"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ class Conclusion : public testing::Test {
   calibration::Selection selection;
   calibration::Calibration calibration;
 
-  /// A rest of so many squares of the floor that turns its sign from row to row.
+  /// Sets a residual of `squares` floors² whose sign alternates from row to row.
   void leave(double squares) {
     calibration::Fit& fit = selection.best;
     fit.residual.resize(evidence.theta.size());
@@ -71,14 +71,14 @@ TEST_F(Conclusion, ReportsNoEffectWithoutResidual) {
   EXPECT_EQ(calibration.unexplained_where, "");
 }
 
-TEST_F(Conclusion, OneCauseAlone) {
+TEST_F(Conclusion, ReportsSingleCauseAsExplained) {
   leave(1.1);
   find({{"backlash"}});
   EXPECT_EQ(verdict(), calibration::CalibrationVerdict::explained);
   EXPECT_THAT(calibration.summary, HasSubstr("explained by backlash."));
 }
 
-TEST_F(Conclusion, OneOfTwo) {
+TEST_F(Conclusion, ReportsTwoMembersAsAmbiguous) {
   leave(1);
   find({{"backlash"}, {"zero_offset", "motor_offset"}});
   EXPECT_EQ(verdict(), calibration::CalibrationVerdict::confounded);
@@ -86,7 +86,7 @@ TEST_F(Conclusion, OneOfTwo) {
               HasSubstr("backlash, one of {zero_offset, motor_offset}, but do not decide between the alternatives"));
 }
 
-TEST_F(Conclusion, RepeatsFarBeyondScatterWithinStroke) {
+TEST_F(Conclusion, RejectsRepeatsFarBeyondScatterWithinStroke) {
   leave(1);
   find({{"backlash"}});
   calibration.noise.from_repeats = true;
@@ -205,7 +205,7 @@ TEST_F(Conclusion, AmbiguousPairBeginsWithNextMeasurement) {
   EXPECT_EQ(verdict(), calibration::CalibrationVerdict::confounded);
   EXPECT_THAT(calibration.summary,
               testing::StartsWith("Measure this first: drive the joint to a mark. The data are explained by one of {"));
-  // One cause alone asks for nothing first.
+  // A single cause requires no measurement first.
   calibration.effects.clear();
   find({{"backlash"}});
   EXPECT_EQ(verdict(), calibration::CalibrationVerdict::explained);
@@ -215,7 +215,7 @@ TEST_F(Conclusion, AmbiguousPairBeginsWithNextMeasurement) {
 TEST_F(Conclusion, ResidualAboveNoiseHasPlace) {
   leave(5);
   find({{"zero_offset", "motor_offset"}});
-  // The largest mean: the last twelfth of the way down.
+  // The largest mean is in the last twelfth of the falling strokes.
   for (std::size_t row = k_rows; row < k_rows + 2; ++row)
     selection.best.residual[static_cast<Eigen::Index>(row)] = 0.05;
   EXPECT_EQ(verdict(), calibration::CalibrationVerdict::unexplained);
@@ -248,7 +248,7 @@ TEST_F(Conclusion, ResidualIsDescribedByFactors) {
   ASSERT_FALSE(calibration.discrepancy.empty());
   EXPECT_EQ(calibration.discrepancy.front().factor, "direction");
   EXPECT_NEAR(calibration.discrepancy.front().rms, 5 * k_floor, 0.5 * k_floor);
-  // Its picture is that of the way up, and not of whichever row is largest.
+  // The component is drawn for rising α, independent of the direction of its largest row.
   EXPECT_THAT(calibration.discrepancy.front().theta, testing::Each(testing::DoubleNear(5 * k_floor, 1.5 * k_floor)));
   EXPECT_THAT(calibration.summary, HasSubstr("depends on direction"));
 }
@@ -264,7 +264,7 @@ TEST_F(Conclusion, StrokesThatDoNotRepeatComeFirst) {
   EXPECT_THAT(calibration.next.front().words, HasSubstr("tighten"));
 }
 
-TEST(Verdicts, HaveTheContractsWords) {
+TEST(Verdicts, HaveDocumentedWords) {
   const std::vector<std::pair<calibration::CalibrationVerdict, std::string_view>> words = {
       {calibration::CalibrationVerdict::not_testable, "not_testable"},
       {calibration::CalibrationVerdict::not_repeatable, "not_repeatable"},
@@ -294,7 +294,8 @@ TEST(RmsDrop, IsNeverNegative) {
   selection.without = {selection.none};
   selection.best = pool.one().fit({&stretch}, {});
   selection.groups = {{{&stretch}, 0.0}};
-  selection.best.by_factor.mean_square = 2 * selection.none.by_factor.mean_square;  // held out, it does harm
+  selection.best.by_factor.mean_square =
+      2 * selection.none.by_factor.mean_square;  // the effect increases the held-out error
   const std::vector<calibration::FoundEffect> found = calibration::found_effects(evidence, selection, selection.best);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].rms_drop, 0);
@@ -354,7 +355,7 @@ TEST(Effects, CaliperEffectsAskForReading) {
   }
 }
 
-TEST(Selections, MayBeCopiedAndOutlivedByTheirCopy) {
+TEST(Selections, CopyOutlivesOriginal) {
   calibration::Selection copy;
   {
     calibration::Selection selection;

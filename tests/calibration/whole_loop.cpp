@@ -129,7 +129,7 @@ std::vector<LoopCase> loop_cases(const DeclaredMechanism& declared, double load)
   if (declared.sheath.is_there()) {
     add("sheath_friction", [](LoopCase& c) { c.hidden.sheath_friction = 0.15; });
     add("sheath_stiffness", [&](LoopCase& c) {
-      c.hidden.sheath_give = 0.03;
+      c.hidden.sheath_compliance = 0.03;
       c.plans = about(load);
       c.load = load;
     });

@@ -1,4 +1,4 @@
-// The whole-loop table of the documentation: whole_loop SPEC.toml LOAD_N [EFFECT]. On standard output Markdown.
+// Prints the whole-loop table of the documentation as Markdown: whole_loop SPEC.toml LOAD_N [EFFECT].
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -22,11 +22,11 @@ void print_row(const LoopOutcome& outcome) {
 }
 
 constexpr const char* k_head =
-    "Joint error: rms of θ − θ(α) as declared over two cycles, noise apart, in degrees. *After*: with the pulley of "
+    "Joint error: rms of θ − θ(α) as declared over two cycles, without noise, in degrees. *After*: with the pulley of "
     "corrected.toml on the same joint\n"
-    "with the same fault, at its assembly angle; *at 0*: assembled with the motor at 0; *by the table*: so assembled,\n"
-    "against compensation.csv; *no fault*: the declared joint, which friction and the polygon leave. In brackets what "
-    "the data do not distinguish.\n\n"
+    "with the same fault, at its assembly angle; *at 0*: assembled with the motor at 0; *by the table*: as at 0,\n"
+    "with compensation.csv in the controller; *no fault*: the declared joint, where friction and the polygon remain. "
+    "In brackets: effects that the data do not distinguish.\n\n"
     "| hidden effect | verdict | found | before | after | after / before | at 0 | by the table | no fault |\n"
     "|---|---|---|--:|--:|--:|--:|--:|--:|\n";
 

@@ -33,7 +33,7 @@ Joint joint_of(const std::string& file, bool friction = true) {
   return joint;
 }
 
-/// Result of a perfect calibration.
+/// The identified numbers of a perfect calibration.
 Imperfections truth_of(const Hidden& hidden, const DeclaredMechanism& declared) {
   Imperfections at;
   at.pulley.outline.offset = hidden.radius_offset;
@@ -58,7 +58,7 @@ LoopCase case_of(const Joint& joint, const std::string& name) {
   return {};
 }
 
-/// The correction for what is truly there.
+/// The correction after a perfect calibration.
 correction::Correction known_correction(const Joint& joint, const LoopCase& hidden) {
   calibration::Calibration calibration;
   calibration.verdict = calibration::CalibrationVerdict::explained;
@@ -79,7 +79,7 @@ class Known : public testing::TestWithParam<std::tuple<const char*, const char*>
 
 TEST_P(Known, PulleyCorrectsFault) {
   const auto [file, name] = GetParam();
-  // Without friction: its loop under load is none of the pulley's.
+  // Without friction, because no pulley corrects its hysteresis under load.
   const Joint joint = joint_of(file, false);
   const LoopCase hidden = case_of(joint, name);
   const correction::Correction correction = known_correction(joint, hidden);
@@ -91,7 +91,7 @@ TEST_P(Known, PulleyCorrectsFault) {
   EXPECT_LT(after, 0.025 * before + 2 * floor);
 }
 
-// Strings in space on both spirals, before and after.
+// The rig winds strings in space on the spirals of both pulleys, before and after the correction.
 INSTANTIATE_TEST_SUITE_P(WoundSeveralTimes, Known,
                          testing::Combine(testing::Values("profiles/wrist_turns.toml"),
                                           testing::Values("radius_offset", "pulley_runout", "guide_position",
@@ -173,8 +173,8 @@ TEST(WholeLoop, DrawingOfBuildCorrectsFault) {
   EXPECT_LT(degrees(joint_error(drawn, hidden, 0)), 0.01);
 }
 
-TEST(WholeLoop, TheWrongCauseIsSeen) {
-  // A loop with half of the truth leaves half of the error: the rig does not trust the correction.
+TEST(WholeLoop, HalfCorrectionLeavesHalfTheError) {
+  // The rig measures the joint independently of the correction.
   const Joint joint = joint_of("profiles/forearm.toml");
   const LoopCase hidden = case_of(joint, "pulley_runout");
   correction::Correction half = known_correction(joint, hidden);
@@ -184,7 +184,7 @@ TEST(WholeLoop, TheWrongCauseIsSeen) {
   EXPECT_NEAR(joint_error(corrected_joint(joint, half), hidden, 0) / before, 0.5, 0.05);
 }
 
-TEST(WholeLoop, TableCorrectsUntiedLoad) {
+TEST(WholeLoop, TableCorrectsErrorWithoutAssemblyAngle) {
   const Joint joint = joint_of("profiles/forearm.toml");
   const LoopCase hidden = case_of(joint, "tendon_stretch");
   const correction::Correction correction = known_correction(joint, hidden);
@@ -195,8 +195,8 @@ TEST(WholeLoop, TableCorrectsUntiedLoad) {
 }
 
 TEST(WholeLoop, ContinuesFromCorrectedFile) {
-  // Logged again with the corrected pulley, whose file describes the joint as it is: nothing is left to find, and
-  // nothing is forgotten.
+  // The joint is logged again with the corrected pulley, whose file describes it. Calibration then identifies nothing
+  // new and keeps the earlier numbers.
   const Joint joint = joint_of("profiles/forearm.toml");
   const LoopCase hidden = case_of(joint, "guide_position");
   const correction::Correction first = known_correction(joint, hidden);
@@ -226,7 +226,7 @@ TEST(WholeLoop, LaterFindingIsAdded) {
   EXPECT_EQ(total.pins.radius, 1.5);
   EXPECT_EQ(total.tendon.stretch, 2.0);
   EXPECT_NEAR(total.pulley.scale, 0.0201, 1e-12);
-  EXPECT_EQ(total.shaft.backlash, 0);  // a table's matter: not found again, it is gone
+  EXPECT_EQ(total.shaft.backlash, 0);  // corrected by a table only: removed unless identified again
 }
 
 /// From the log to the corrected pulley, with nothing but the log known.

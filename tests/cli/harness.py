@@ -42,7 +42,7 @@ class Scratch(unittest.TestCase):
         return fusee(arguments, self.folder, **options)
 
     def expect(self, arguments, code, out="", err=""):
-        """Expects an exit code and patterns on stdout and stderr, and from --json one document that agrees."""
+        """The finished process. Its exit code and patterns on stdout and stderr are checked."""
         done = self.fusee(arguments)
         shown = f"fusee {arguments}\n{done.stdout.decode(errors='replace')}\n{done.stderr.decode(errors='replace')}"
         self.assertEqual(done.returncode, code, shown)

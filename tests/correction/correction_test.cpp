@@ -294,7 +294,7 @@ TEST(Correct, GuideRadiusGoesIntoPulley) {
   EXPECT_FALSE(correction.round.suffices);
   EXPECT_GT(degrees(correction.error_now), 0.2);
   EXPECT_LT(degrees(correction.error_with_pulley), 1e-3);
-  EXPECT_NEAR(correction.by_pulley, correction.error_now, 0.05 * correction.error_now);  // by fewer rows
+  EXPECT_NEAR(correction.by_pulley, correction.error_now, 0.05 * correction.error_now);  // from fewer rows
   EXPECT_EQ(correction.why_no_pulley_file, "");
 }
 

@@ -126,7 +126,7 @@ TEST(HelicalRewind, MatchesClosedForm) {
     for (const profile::RewindPoint& point : wound.result.points) {
       const double by_hand = joint.theta(point.alpha, -1.0, joint.free1, end1, joint.p1);
       EXPECT_NEAR(degrees(point.theta), degrees(by_hand), 0.0015) << degrees(point.alpha);
-      // Effect of the path's slope on the joint, which the planar law does not contain.
+      // Fleet angle in closed form.
       for (const double hand : {-1.0, 1.0}) {
         const double free = hand > 0 ? joint.free2 : joint.free1;
         const double rise = (hand > 0 ? end2 : end1) - joint.take_off(hand > 0 ? joint.p2 : joint.p1, point.alpha);
@@ -141,6 +141,7 @@ TEST(HelicalRewind, MatchesClosedForm) {
       EXPECT_NEAR(point.excess, length2(0, joint.free2) - length2(point.alpha, free2), 0.002) << degrees(point.alpha);
     }
     EXPECT_NEAR(degrees(wound.max_fleet), degrees(fleet), 0.03);
+    // The path's slope moves the joint, and the planar law does not contain it.
     EXPECT_GT(degrees(wound.result.max_theta_error), aside > 0 ? 0.1 : 0.02);
   }
 }

@@ -24,8 +24,8 @@ double wrapped(double angle) { return angle - k_two_pi * std::floor(angle / k_tw
 
 }  // namespace
 
-// The left tendon is mirrored to a right-hand one. The string comes from C, passes the pin on its right and winds
-// counter-clockwise on the turned pulley, seen backwards from its take-off.
+// The left tendon is mirrored to a right-hand one. Seen from C down, the string has the pin on its right and winds
+// clockwise on the turned pulley. Seen from its take-off up, pulley and pin are on its left.
 StringLength string_length(const Mechanism& mechanism, transmission::Side side, const Spiral& spiral,
                            double attachment_z, double alpha, double theta) {
   const double mirror = side == transmission::Side::right ? 1.0 : -1.0;
@@ -39,8 +39,8 @@ StringLength string_length(const Mechanism& mechanism, transmission::Side side, 
   const auto place = [&](const SpiralRow& row) {
     return Vec2(axis + turned(Vec2(mirror * row.x, row.y), -mirror * alpha));
   };
-  // The string passes the pin's outer side: the circle is on its left on the way down, and on its left on the way up
-  // from the pulley.
+  // The string passes the pin's outer side: the circle is on its right on the way down from C, and on its left on the
+  // way up from the pulley.
   const Vec2 upper = touching(lever, pin, rho, -1.0);
   // Take-off: the row whose normal is perpendicular to the line to the pin.
   const std::size_t n = spiral.rows.size();

@@ -81,7 +81,7 @@ TEST(RubbingCable, AgreesWithCapstan) {
   const double chain_up = routes.chain_at, cable_up = routes.cable_at;
   routes.to(0, load);
   const double chain_width = routes.chain_at - chain_up + 4, cable_width = routes.cable_at - cable_up + 4;
-  // e^μφ against 1 + μφ: the cube of μφ over six, per μφ.
+  // The chain has e^±μφ, the cable 1 ± μφ: the widths differ by (μφ)²/6 of the width.
   EXPECT_NEAR(cable_width, turned * load, 1e-12);
   EXPECT_NEAR(chain_width, cable_width, 0.02 * cable_width);
 }
@@ -96,7 +96,7 @@ TEST(RubbingCable, HysteresisShrinksWithStiffness) {
     const double up = 5 - cable.to(5, load), down = -5 - cable.to(-5, load);
     return up - down;
   };
-  // Straightened by x/(1 + x) of 0.2: the pull of two contacts that hold by 0.0125 to 0.1875.
+  // Waves straighten by 0.2 x/(1 + x) with x = 2 · pull. Eight contacts hold by 0.0125 to 0.1875.
   const auto deflection = [](double pull) { return 0.5 * pull + 0.2 * (1 - 1 / (1 + 2 * pull)); };
   double mean = 0;
   for (int i = 0; i < 8; ++i) {
@@ -140,25 +140,25 @@ TEST(WavyTendon, LengthensByItsWaves) {
   EXPECT_GT(std::abs(points.back().theta - straight.back().theta), radians(0.05));
   const EquilibriumPoint& home = points.front();
   for (const auto tendon : {&EquilibriumPoint::t1, &EquilibriumPoint::t2}) {
-    const auto given = [&](double pull) { return 0.4 - 0.4 / (1 + 0.15 * pull); };
-    // Without friction the tension is uniform, and that at home determines the material.
+    const auto straightened = [&](double pull) { return 0.4 - 0.4 / (1 + 0.15 * pull); };
+    // Without friction the tension is uniform. The tension at home determines the length of the material.
     const double strained = (home.*tendon).stretch / (home.*tendon).upper;
     for (const EquilibriumPoint& point : points) {
       const TendonState& state = point.*tendon;
       if (state.upper == 0) continue;
       EXPECT_NEAR(state.stretch - state.slack,
-                  strained * state.upper + given(state.upper) - given((home.*tendon).upper), 1e-7);
+                  strained * state.upper + straightened(state.upper) - straightened((home.*tendon).upper), 1e-7);
     }
   }
 }
 
 TEST(WavyTendon, StiffensWithTension) {
-  const auto softness = [](double force) {
+  const auto compliance_ratio = [](double force) {
     const auto at = [&](double f) { return loaded(wavy(k_waves), f, 40).back().theta; };
     const auto straight = [&](double f) { return loaded(wavy({}), f, 40).back().theta; };
     return (at(force + 0.1) - at(force)) / (straight(force + 0.1) - straight(force));
   };
-  EXPECT_GT(softness(0.1), 1.1 * softness(20));
+  EXPECT_GT(compliance_ratio(0.1), 1.1 * compliance_ratio(20));
 }
 
 TEST(WavyTendon, ConservesEnergy) {
@@ -169,9 +169,9 @@ TEST(WavyTendon, ConservesEnergy) {
       load += 0.5 * (points[i].load_torque + points[i - 1].load_torque) * (points[i].theta - points[i - 1].theta);
     return -load - points.back().stored;
   };
-  const double held = k_waves.energy(loaded(wavy(k_waves), 8, 20).back().t2.upper);
-  EXPECT_GT(held, 0.1);
-  EXPECT_LT(std::abs(missing(wavy(k_waves)) - missing(wavy({}))), 1e-3 * held);
+  const double stored = k_waves.energy(loaded(wavy(k_waves), 8, 20).back().t2.upper);
+  EXPECT_GT(stored, 0.1);
+  EXPECT_LT(std::abs(missing(wavy(k_waves)) - missing(wavy({}))), 1e-3 * stored);
 }
 
 TEST(WavyTendon, KeepsHome) { EXPECT_NEAR(loaded(wavy(k_waves), 0, 3).back().theta, 0, 1e-12); }

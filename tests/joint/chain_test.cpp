@@ -66,9 +66,9 @@ Lower free_below(const transmission::Transmission& law, transmission::Side side,
   return {here.reach - crossing, here.normal};
 }
 
-/// Inputs from the mechanism for one tendon, in its right-hand image.
-struct Given {
-  Given(const Mechanism& mechanism, transmission::Side its_side)
+/// The mechanism's numbers for one tendon, in its right-hand image.
+struct TendonInputs {
+  TendonInputs(const Mechanism& mechanism, transmission::Side its_side)
       : law(mechanism),
         side(its_side),
         R(mechanism.joint.R),
@@ -105,20 +105,20 @@ double tension(const Piece& piece, double EA) {
 class Chain {
  public:
   Chain(const Mechanism& mechanism, transmission::Side side, double home_tension, int points)
-      : given_(mechanism, side), mu_(mechanism.guides.mu), lower_(given_.lower(0.0)) {
-    const double home = given_.upper(0.0).normal;
+      : inputs_(mechanism, side), mu_(mechanism.guides.mu), lower_(inputs_.lower(0.0)) {
+    const double home = inputs_.upper(0.0).normal;
     const double spacing = (home - lower_.normal) / points;
     for (int i = -40 * points; i <= 40 * points; ++i) rim_.push_back(lower_.normal + (i + 0.5) * spacing);
     pieces_ = {{1.0, 1.0}};
     first_ = last_ = index_above(lower_.normal);
-    fit(pieces_, first_, last_, given_.upper(0.0), lower_);
-    for (Piece& piece : pieces_) piece.material = piece.length / (1.0 + home_tension / given_.EA);
-    pile_density_ = 1.0 / (1.0 + home_tension / given_.EA);
+    fit(pieces_, first_, last_, inputs_.upper(0.0), lower_);
+    for (Piece& piece : pieces_) piece.material = piece.length / (1.0 + home_tension / inputs_.EA);
+    pile_density_ = 1.0 / (1.0 + home_tension / inputs_.EA);
   }
 
   /// Turns the pulley; θ is not known yet.
   void turn(double image_alpha) {
-    next_ = given_.lower(image_alpha);
+    next_ = inputs_.lower(image_alpha);
     winding_ = wound_by(image_alpha);
     alpha_next_ = image_alpha;
   }
@@ -133,18 +133,18 @@ class Chain {
     std::vector<Piece> pieces = pieces_;
     std::size_t first = first_;
     std::size_t last = last_;
-    const UpperLine upper = given_.upper(image_theta);
+    const UpperLine upper = inputs_.upper(image_theta);
     if (winding_ < 0) pieces.front().material += paid_out();
     fit(pieces, first, last, upper, next_);
     if (winding_ > 0) pieces.front().length += winding_;
     relax(pieces, first, upper.normal);
-    const Pull result{tension(pieces.back(), given_.EA), tension(pieces.front(), given_.EA),
-                      tension(pieces.back(), given_.EA) * upper.arm};
+    const Pull result{tension(pieces.back(), inputs_.EA), tension(pieces.front(), inputs_.EA),
+                      tension(pieces.back(), inputs_.EA) * upper.arm};
     if (keep) {
       move_pile(result.lower);
       if (winding_ > 0) {
         pieces.front().length -= winding_;
-        pieces.front().material -= winding_ / (1.0 + result.lower / given_.EA);
+        pieces.front().material -= winding_ / (1.0 + result.lower / inputs_.EA);
       }
       pieces_ = std::move(pieces);
       first_ = first;
@@ -158,9 +158,9 @@ class Chain {
  private:
   /// Arc wound onto the pulley: material passing the pin (∫p dα, Simpson) minus the change of the lower line.
   double wound_by(double image_alpha) const {
-    const double between = given_.arm(0.5 * (alpha_ + image_alpha));
-    const double over = (image_alpha - alpha_) / 6 * (given_.arm(alpha_) + 4 * between + given_.arm(image_alpha));
-    return over - (next_.reach - lower_.reach) + given_.rho * (next_.normal - lower_.normal);
+    const double between = inputs_.arm(0.5 * (alpha_ + image_alpha));
+    const double over = (image_alpha - alpha_) / 6 * (inputs_.arm(alpha_) + 4 * between + inputs_.arm(image_alpha));
+    return over - (next_.reach - lower_.reach) + inputs_.rho * (next_.normal - lower_.normal);
   }
 
   std::size_t index_above(double normal) const {
@@ -189,28 +189,28 @@ class Chain {
       return part;
     };
     while (last < new_last) {
-      const double below = given_.rho * (rim_[last] - (last > first ? rim_[last - 1] : lower.normal)) +
+      const double below = inputs_.rho * (rim_[last] - (last > first ? rim_[last - 1] : lower.normal)) +
                            (last > first ? 0.0 : lower.reach);
-      const double above = upper.free + given_.rho * (upper.normal - rim_[last]);
+      const double above = upper.free + inputs_.rho * (upper.normal - rim_[last]);
       const Piece part = split(below / (below + above), pieces.size() - 1);
       pieces.insert(pieces.end() - 1, part);
       ++last;
     }
     while (first > new_first) {
-      const double above = given_.rho * ((first < last ? rim_[first] : upper.normal) - rim_[first - 1]) +
+      const double above = inputs_.rho * ((first < last ? rim_[first] : upper.normal) - rim_[first - 1]) +
                            (first < last ? 0.0 : upper.free);
-      const double below = lower.reach + given_.rho * (rim_[first - 1] - lower.normal);
+      const double below = lower.reach + inputs_.rho * (rim_[first - 1] - lower.normal);
       const Piece part = split(below / (below + above), 0);
       pieces.insert(pieces.begin(), part);
       --first;
     }
     if (first == last) {
-      pieces[0].length = upper.free + given_.rho * (upper.normal - lower.normal) + lower.reach;
+      pieces[0].length = upper.free + inputs_.rho * (upper.normal - lower.normal) + lower.reach;
       return;
     }
-    pieces.front().length = lower.reach + given_.rho * (rim_[first] - lower.normal);
-    for (std::size_t i = first + 1; i < last; ++i) pieces[i - first].length = given_.rho * (rim_[i] - rim_[i - 1]);
-    pieces.back().length = upper.free + given_.rho * (upper.normal - rim_[last - 1]);
+    pieces.front().length = lower.reach + inputs_.rho * (rim_[first] - lower.normal);
+    for (std::size_t i = first + 1; i < last; ++i) pieces[i - first].length = inputs_.rho * (rim_[i] - rim_[i - 1]);
+    pieces.back().length = upper.free + inputs_.rho * (upper.normal - rim_[last - 1]);
   }
 
   /// Lets material slip at each friction point until no tension ratio exceeds its limit.
@@ -233,15 +233,15 @@ class Chain {
   }
 
   double slip(Piece& below, Piece& above, double ratio) const {
-    const double up = tension(above, given_.EA);
-    const double down = tension(below, given_.EA);
+    const double up = tension(above, inputs_.EA);
+    const double down = tension(below, inputs_.EA);
     double factor = 0;  // wanted up/down
     if (up > ratio * down) factor = ratio;
     if (down > ratio * up) factor = 1.0 / ratio;
     if (factor == 0) return 0;
     // One Newton step on up = factor · down; the next pass corrects it.
-    const double up_slope = -given_.EA * above.length / (above.material * above.material);
-    const double down_slope = given_.EA * below.length / (below.material * below.material);
+    const double up_slope = -inputs_.EA * above.length / (above.material * above.material);
+    const double down_slope = inputs_.EA * below.length / (below.material * below.material);
     double crossing = -(up - factor * down) / (up_slope - factor * down_slope);
     crossing = std::clamp(crossing, -0.5 * above.material, 0.5 * below.material);
     above.material += crossing;
@@ -249,44 +249,44 @@ class Chain {
     return std::abs(crossing);
   }
 
-  struct Laid {
+  struct WoundPiece {
     double arc = 0;
     double density = 0;
   };
 
   double paid_out() const {
-    double left = -winding_;
+    double remaining = -winding_;
     double material = 0;
-    for (auto piece = pile_.rbegin(); piece != pile_.rend() && left > 0; ++piece) {
-      const double arc = std::min(left, piece->arc);
+    for (auto piece = pile_.rbegin(); piece != pile_.rend() && remaining > 0; ++piece) {
+      const double arc = std::min(remaining, piece->arc);
       material += arc * piece->density;
-      left -= arc;
+      remaining -= arc;
     }
-    return material + left * pile_density_;
+    return material + remaining * pile_density_;
   }
 
   void move_pile(double lower_tension) {
     if (winding_ >= 0) {
-      pile_.push_back({winding_, 1.0 / (1.0 + lower_tension / given_.EA)});
+      pile_.push_back({winding_, 1.0 / (1.0 + lower_tension / inputs_.EA)});
       return;
     }
-    double left = -winding_;
-    while (!pile_.empty() && left > 0) {
-      const double arc = std::min(left, pile_.back().arc);
+    double remaining = -winding_;
+    while (!pile_.empty() && remaining > 0) {
+      const double arc = std::min(remaining, pile_.back().arc);
       pile_.back().arc -= arc;
-      left -= arc;
+      remaining -= arc;
       if (pile_.back().arc <= 0) pile_.pop_back();
     }
   }
 
-  Given given_;
+  TendonInputs inputs_;
   double mu_;
   std::vector<double> rim_;    ///< normals of the friction points, fixed on the rim
   std::vector<Piece> pieces_;  ///< from the pulley upwards
   std::size_t first_, last_;   ///< first and last rim points that the tendon touches
   Lower lower_, next_;
   double alpha_ = 0, alpha_next_ = 0, winding_ = 0;
-  std::vector<Laid> pile_;
+  std::vector<WoundPiece> pile_;
   double pile_density_ = 1;
 };
 
@@ -295,9 +295,9 @@ class Chain {
 class Elements {
  public:
   Elements(const Mechanism& mechanism, transmission::Side side, double home_tension, int count)
-      : given_(mechanism, side), mu_(mechanism.pulley.mu) {
+      : inputs_(mechanism, side), mu_(mechanism.pulley.mu) {
     survey();
-    const double home = home_tension / given_.EA;
+    const double home = home_tension / inputs_.EA;
     turn(0.0);
     material_ = (arc_now_ + span(0.0)) / (1.0 + home) / count;
     strain_.assign(static_cast<std::size_t>(arc_now_ / (1.0 + home) / material_) + 1, home);
@@ -312,7 +312,7 @@ class Elements {
     const double share = place - static_cast<double>(i);
     arc_now_ = arcs_[i] + share * (arcs_[i + 1] - arcs_[i]);
     turn_now_ = turns_[i] + share * (turns_[i + 1] - turns_[i]);
-    lower_ = given_.lower(image_alpha);
+    lower_ = inputs_.lower(image_alpha);
   }
 
   Chain::Pull pull(double image_theta, bool keep = false) {
@@ -338,32 +338,33 @@ class Elements {
       }
     }
     if (keep) {
-      std::vector<double> laid;
-      excess(high, length, &laid);
-      strain_ = std::move(laid);
+      std::vector<double> strains;
+      excess(high, length, &strains);
+      strain_ = std::move(strains);
     }
-    return {given_.EA * high, given_.EA * high, given_.EA * high * given_.upper(image_theta).arm};
+    return {inputs_.EA * high, inputs_.EA * high, inputs_.EA * high * inputs_.upper(image_theta).arm};
   }
 
  private:
   /// Arc from the knot and turn of the normal along the range: material passing the pin (∫p dα) minus the change of the
   /// lower line.
   void survey() {
-    const bool right = given_.side == transmission::Side::right;
-    const double from = right ? given_.law.alpha_min() : -given_.law.alpha_max();
-    const double to = right ? given_.law.alpha_max() : -given_.law.alpha_min();
+    const bool right = inputs_.side == transmission::Side::right;
+    const double from = right ? inputs_.law.alpha_min() : -inputs_.law.alpha_max();
+    const double to = right ? inputs_.law.alpha_max() : -inputs_.law.alpha_min();
     constexpr int count = 4000;
     double over = 0;
     Lower first;
     for (int i = 0; i <= count; ++i) {
       const double alpha = from + (to - from) * i / count;
       const double step = (to - from) / count;
-      if (i > 0) over += step / 6 * (given_.arm(alpha - step) + 4 * given_.arm(alpha - 0.5 * step) + given_.arm(alpha));
-      const Lower here = given_.lower(alpha);
+      if (i > 0)
+        over += step / 6 * (inputs_.arm(alpha - step) + 4 * inputs_.arm(alpha - 0.5 * step) + inputs_.arm(alpha));
+      const Lower here = inputs_.lower(alpha);
       if (i == 0) first = here;
       alphas_.push_back(alpha);
-      arcs_.push_back(5.0 + over - (here.reach - first.reach) + given_.rho * (here.normal - first.normal));
-      turns_.push_back(5.0 / given_.arm(from) + here.normal - first.normal + alpha - from);
+      arcs_.push_back(5.0 + over - (here.reach - first.reach) + inputs_.rho * (here.normal - first.normal));
+      turns_.push_back(5.0 / inputs_.arm(from) + here.normal - first.normal + alpha - from);
     }
   }
   double turn_at(double arc) const {
@@ -374,12 +375,12 @@ class Elements {
     return turns_[i - 1] + (turns_[i] - turns_[i - 1]) * (arc - arcs_[i - 1]) / (arcs_[i] - arcs_[i - 1]);
   }
   double span(double image_theta) const {
-    const UpperLine upper = given_.upper(image_theta);
-    return upper.free + given_.rho * (upper.normal - lower_.normal) + lower_.reach;
+    const UpperLine upper = inputs_.upper(image_theta);
+    return upper.free + inputs_.rho * (upper.normal - lower_.normal) + lower_.reach;
   }
 
   /// Length of the span that its material does not fill at this strain, mm.
-  double excess(double strain, double length, std::vector<double>* laid) const {
+  double excess(double strain, double length, std::vector<double>* strains) const {
     double arc = 0;
     double on_pulley = 0;
     for (std::size_t k = 0;; ++k) {
@@ -389,7 +390,7 @@ class Elements {
         here = std::clamp(strain_[k], strain * std::exp(-mu_ * wrap), strain * std::exp(mu_ * wrap));
       }
       const double fits = (arc_now_ - arc) / (material_ * (1.0 + here));
-      if (laid != nullptr) laid->push_back(here);
+      if (strains != nullptr) strains->push_back(here);
       on_pulley += material_ * std::min(1.0, fits);
       if (fits <= 1.0) break;
       arc += material_ * (1.0 + here);
@@ -397,7 +398,7 @@ class Elements {
     return length - (total_ - on_pulley) * (1.0 + strain);
   }
 
-  Given given_;
+  TendonInputs inputs_;
   double mu_;
   std::vector<double> alphas_, arcs_, turns_;
   std::vector<double> strain_;
@@ -432,15 +433,17 @@ std::vector<Simulated> simulate(const Mechanism& mechanism, const std::vector<Ro
   for (const auto& [alpha, load] : rows) {
     left.turn(-alpha);
     right.turn(alpha);
-    const auto beyond = [&, load = load](double t) { return right.pull(t).torque - left.pull(-t).torque - load; };
+    const auto excess_torque = [&, load = load](double t) {
+      return right.pull(t).torque - left.pull(-t).torque - load;
+    };
     double low = theta - 0.05;
     double high = theta + 0.05;
-    double at_low = beyond(low);
-    double at_high = beyond(high);
+    double at_low = excess_torque(low);
+    double at_high = excess_torque(high);
     for (int i = 0; i < 60; ++i) {
       // Illinois method: false position that halves the value of an end kept twice.
       theta = low - at_low * (high - low) / (at_high - at_low);
-      const double value = beyond(theta);
+      const double value = excess_torque(theta);
       if (std::abs(value) < 1e-9 || high - low < 1e-14) break;
       if (value > 0) {
         low = theta;

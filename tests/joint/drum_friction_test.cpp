@@ -83,9 +83,9 @@ Mechanism rubbing(Mechanism mechanism, double friction, double modulus) {
 /// Difference between model and string. With infinite groove friction and without pin friction, span and wound part of a
 /// tendon follow from the span's tension. The string must contain all other material at every angle.
 struct Difference {
-  double slides = 0;  ///< largest excess or deficit of material on the drum relative to the span's tension, mm
-  double apart = 0;   ///< difference in the tendon's material, mm
-  double at_end = 0;  ///< difference in the tension at the end, as a fraction of the span's
+  double slides = 0;    ///< largest excess or deficit of material on the drum relative to the span's tension, mm
+  double material = 0;  ///< difference in the tendon's material, mm
+  double at_end = 0;    ///< difference in the tension at the end, as a fraction of the span's
 };
 
 Difference difference_to_links(Mechanism mechanism, double force, int links_per_rad) {
@@ -129,8 +129,8 @@ Difference difference_to_links(Mechanism mechanism, double force, int links_per_
     const double length = span.on_drum > 0 ? place.drum * span.on_drum + span.behind_drum : 0.0;
     const double as_span = length / (1.0 + tension / EA);
     difference.slides = std::max(difference.slides, std::abs(on_drum - as_span));
-    difference.apart =
-        std::max(difference.apart, std::abs(material_off_drum(span, lower, tension) + on_drum + wound - all));
+    difference.material =
+        std::max(difference.material, std::abs(material_off_drum(span, lower, tension) + on_drum + wound - all));
     if (span.on_drum > 0)
       difference.at_end = std::max(difference.at_end, std::abs(point.t2.end - string.at_end()) / tension);
   }
@@ -145,8 +145,8 @@ TEST(DrumFriction, AgreesWithStringOfLinks) {
     const Difference coarse = difference_to_links(mechanism, force, 15),
                      fine = difference_to_links(mechanism, force, 30);
     EXPECT_GT(fine.slides, 0.02);
-    EXPECT_LT(fine.apart, 0.04 * fine.slides);
-    EXPECT_NEAR(fine.apart / coarse.apart, 0.5, 0.05);
+    EXPECT_LT(fine.material, 0.04 * fine.slides);
+    EXPECT_NEAR(fine.material / coarse.material, 0.5, 0.05);
     EXPECT_LT(fine.at_end, 0.01);
   };
   expect_near(rubbing(testing::finger(), 0.25, 3000.0), 30.0);
@@ -157,7 +157,7 @@ TEST(DrumFriction, BoundsEndTensionOnly) {
   const Mechanism mechanism = rubbing(testing::finger(), 0.3, 3000.0);
   const JointModel model = joint_model(mechanism);
   JointMotion motion(model);
-  double apart = 0;
+  double reached = 0;
   const auto move = [&](const JointStep& step) {
     const EquilibriumPoint point = motion.to(step);
     const double rho = mechanism.drum_pitch_radius();
@@ -170,13 +170,13 @@ TEST(DrumFriction, BoundsEndTensionOnly) {
       const double most = std::exp(0.3 * wrap) * (1 + 1e-9);
       EXPECT_LE(tendon.end, tendon.upper * most);
       EXPECT_LE(tendon.upper, tendon.end * most);
-      apart = std::max(apart, std::abs(std::log(tendon.end / tendon.upper)) / std::log(most));
+      reached = std::max(reached, std::abs(std::log(tendon.end / tendon.upper)) / std::log(most));
     }
     return point;
   };
   for (int i = 0; i <= 100; ++i) move({0.0, 0.3 * i, 0.0});
   for (int i = 0; i <= 300; ++i) move({1.2 * std::sin(0.04 * i), 30.0, 0.0});
-  EXPECT_GT(apart, 0.999);  // sliding reaches the end at some angles
+  EXPECT_GT(reached, 0.999);  // sliding reaches the end at some angles
 }
 
 TEST(DrumFriction, ConvergesToFrictionless) {
@@ -186,14 +186,14 @@ TEST(DrumFriction, ConvergesToFrictionless) {
     const auto none = follow(joint_model(rubbing(joint, 0.0, 3000.0)), steps);
     const auto hardly = follow(joint_model(rubbing(joint, 1e-7, 3000.0)), steps);
     const auto some = follow(joint_model(rubbing(joint, 0.2, 3000.0)), steps);
-    double apart = 0;
+    double difference = 0;
     for (std::size_t i = 0; i < none.size(); ++i) {
       // Material that is wound in one step can slide in the next.
       EXPECT_NEAR(none[i].theta, hardly[i].theta, 1e-6);
       EXPECT_NEAR(none[i].t2.lower, hardly[i].t2.lower, 1e-3);
-      apart = std::max(apart, std::abs(none[i].theta - some[i].theta));
+      difference = std::max(difference, std::abs(none[i].theta - some[i].theta));
     }
-    EXPECT_GT(degrees(apart), 1e-3);
+    EXPECT_GT(degrees(difference), 1e-3);
   }
 }
 

@@ -51,7 +51,7 @@ TEST(Simulate, DistinguishesAngleAndReading) {
 }
 
 /// Dwells of `rows` rows at several angles, with unlogged motion between them.
-BenchLog held_places(int rows) {
+BenchLog dwells_at_places(int rows) {
   BenchRun run;
   double time = 0;
   for (const double alpha : {-1.2, -0.4, 0.4, 1.2, 0.4, -0.4}) {
@@ -67,8 +67,8 @@ TEST(Simulate, DelayEndsAtDwells) {
     Imperfections late;
     late.sensor.lag = 0.3;
     late.sensor.first_order = first_order;
-    const Readings still = predict(testing::forearm(), {}, held_places(4));
-    const Readings shown = predict(testing::forearm(), late, held_places(4));
+    const Readings still = predict(testing::forearm(), {}, dwells_at_places(4));
+    const Readings shown = predict(testing::forearm(), late, dwells_at_places(4));
     for (std::size_t i = 0; i < still.front().size(); ++i) EXPECT_NEAR(shown[0][i], still[0][i], 1e-8) << i;
     // With logged motion the same sensor is delayed.
     const double lost =
@@ -152,7 +152,7 @@ TEST(Simulate, RatioCurveIsSeriesOfAngleAndLoad) {
   }
 }
 
-/// Warms up, and holds its load to the end.
+/// A cycle at constant load, during which the joint warms up.
 BenchLog swept_while_warming() {
   BenchLog log = swept(5);
   log[0].has_temperature = true;

@@ -13,7 +13,7 @@ constexpr double k_home = 4e-3;  // strain
 
 GroovePlace at(double turn) { return {turn, k_radius * turn}; }
 
-/// Tied 5 mm beyond turn 0, at home at `turn`.
+/// A tendon that is tied 5 mm beyond turn 0 and whose home is at `turn`.
 WoundProfile wound(double turn, double friction) {
   std::vector<GroovePlace> along;
   for (int i = 0; i <= 30; ++i) along.push_back(at(0.1 * i));
@@ -70,21 +70,22 @@ TEST(WoundProfile, FollowsCapstanLaw) {
 }
 
 TEST(WoundProfile, WindingMovesOnlyBeyondFriction) {
-  // Over 0.1 rad a strain can grow by e^{0.02}. A smaller increase moves nothing else; a larger one moves it and the
-  // tendon behind it.
+  // Friction over 0.1 rad balances a growth of the strain by e^{0.02}. A smaller growth moves no wound tendon; a larger
+  // one moves the new arc and the tendon behind it.
   WoundProfile profile = wound(1.0, 0.2);
   const double held = k_home * std::exp(0.015);
   EXPECT_NEAR(pulled(profile, 1.1, held), -0.5 * (1 / (1 + k_home) + 1 / (1 + held)), 1e-13);
   profile = wound(1.0, 0.2);
   const double pull = k_home * std::exp(0.06);  // 0.3 rad
-  const double where_it_was = k_home * std::exp(0.04);
+  const double at_former_take_off = k_home * std::exp(0.04);
   EXPECT_NEAR(pulled(profile, 1.1, pull),
-              2.0 / (1 + k_home) - sliding(where_it_was, -0.2, 0.2) - 0.5 * (1 / (1 + where_it_was) + 1 / (1 + pull)),
+              2.0 / (1 + k_home) - sliding(at_former_take_off, -0.2, 0.2) -
+                  0.5 * (1 / (1 + at_former_take_off) + 1 / (1 + pull)),
               1e-11);
 }
 
 TEST(WoundProfile, RatesAgreeWithDifferences) {
-  // After some cycles, compared with differences.
+  // Cycles first divide the profile into several pieces.
   WoundProfile profile = wound(1.0, 0.2);
   const double way[][2] = {{1.5, 5e-3}, {2.0, 3e-3}, {1.8, 6e-3}, {2.4, 4e-3}, {2.1, 4.5e-3}};
   double from[] = {1.0, k_home};
@@ -120,7 +121,7 @@ TEST(WoundProfile, ContinuesBeyondKnot) {
 }
 
 TEST(WoundProfile, DissipatesFrictionWork) {
-  // A pull-release cycle: the area of the hysteresis is the work of friction, and never negative.
+  // A pull-release cycle: the area of the hysteresis is the work of friction, so it is never negative.
   WoundProfile profile = wound(3.0, 0.3);
   pulled(profile, 3.0, 8e-3);
   double work = 0;

@@ -82,14 +82,14 @@ solid::TriangleMesh pulley_standing(const Model& model, double alpha) {
   return mesh;
 }
 
-struct Standing {
+struct PlacedPart {
   std::string name;
   solid::TriangleMesh mesh;
   bool moves = false;
 };
 
-std::vector<Standing> put_together(const Model& model, double theta, double alpha) {
-  std::vector<Standing> all;
+std::vector<PlacedPart> put_together(const Model& model, double theta, double alpha) {
+  std::vector<PlacedPart> all;
   for (const kit::KitPart& part : model.plan.parts) {
     for (const kit::KitPlace& place : part.places)
       all.push_back({part.name, kit::standing(part, place, theta), place.on_link});
@@ -112,11 +112,11 @@ TEST_P(Kit, MovingPartsDoNotCollide) {
   ASSERT_TRUE(model.plan.made());
   const auto& stroke = model.synthesis.stroke;
   for (const std::size_t place : {std::size_t{0}, stroke.size() / 3, stroke.size() / 2, stroke.size() - 1}) {
-    const std::vector<Standing> all = put_together(model, stroke[place].theta, stroke[place].alpha);
+    const std::vector<PlacedPart> all = put_together(model, stroke[place].theta, stroke[place].alpha);
     const double low = -model.plan.sizes.base, high = model.plan.sizes.bracket_low + 6;
     for (double z = low + 0.23; z < high; z += 1.37) {
       std::vector<std::vector<Polygon>> cuts;
-      for (const Standing& part : all) {
+      for (const PlacedPart& part : all) {
         const solid::Bounds box = solid::bounds(part.mesh);
         cuts.push_back(box.low.z() < z && z < box.high.z() ? solid::section(part.mesh, z) : std::vector<Polygon>());
       }
@@ -141,7 +141,7 @@ TEST_P(Kit, TendonsRunFree) {
   ASSERT_TRUE(model.plan.made());
   const auto& stroke = model.synthesis.stroke;
   for (const std::size_t place : {std::size_t{0}, stroke.size() / 3, stroke.size() / 2, stroke.size() - 1}) {
-    const std::vector<Standing> all = put_together(model, stroke[place].theta, stroke[place].alpha);
+    const std::vector<PlacedPart> all = put_together(model, stroke[place].theta, stroke[place].alpha);
     for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
       const bool left = side == transmission::Side::left;
       const auto trace = formats::trace_tendon(model.mechanism, left ? model.synthesis.p1 : model.synthesis.p2,
@@ -157,7 +157,7 @@ TEST_P(Kit, TendonsRunFree) {
       const double z = left ? model.plan.sizes.z_tendon1 : model.plan.sizes.z_tendon2;
       for (const double height :
            {z - 0.5 * model.mechanism.tendon.diameter, z, z + 0.5 * model.mechanism.tendon.diameter}) {
-        for (const Standing& part : all) {
+        for (const PlacedPart& part : all) {
           if (part.name == "pulley" || part.name == (left ? "pin_b_sleeve" : "pin_d_sleeve")) continue;
           EXPECT_GT(distance(solid::section(part.mesh, height), dotted(line, false)),
                     0.5 * model.mechanism.tendon.diameter + 0.2)
@@ -304,8 +304,8 @@ TEST(KitOfOne, TendonLengthCoversItsPath) {
 
 // ---- plates to drill ------------------------------------------------------------------------------------------------
 
-/// Two bearings of the catalogue lie in the link, on a ledge that touches the outer rings only. The ring below the
-/// inner ones passes through the drum.
+/// Two bearings of the catalogue lie in the link, on a ledge that touches the outer rings only. The spacer
+/// ring below the inner rings passes through the drum.
 void expect_bearings_seated(const kit::KitPlan& plan, const Joint& joint) {
   const auto part = [&](const std::string& name) {
     return std::find_if(plan.parts.begin(), plan.parts.end(),
@@ -363,7 +363,7 @@ TEST_P(Template, HasAHoleAtEveryAxis) {
       bored.push_back(G + Vec2(x * mechanism.sheath.exit_across, mechanism.sheath.exit_above));
   }
   for (const Vec2& at : bored) EXPECT_FALSE(is_inside(base, at)) << at.transpose();
-  // All of them, and those of the motor's screws if it fits.
+  // The outline, these holes, and those of the motor's screws if a motor fits.
   const auto mounted = std::find_if(motor_types().begin(), motor_types().end(), [&](const MotorType& motor) {
     return std::any_of(model.plan.items.begin(), model.plan.items.end(),
                        [&](const kit::KitItem& item) { return item.what.starts_with(motor.name + ":"); });

@@ -213,7 +213,7 @@ TEST(Bags, AreReadInAnyBlocks) {
   }
 }
 
-// A recording that is cut off gives the whole messages before that, and says so.
+// A recording that is cut off gives the whole messages before its end, with a note.
 TEST(Bags, CutOffGiveTheirWholeMessages) {
   for (const char* const name :
        {"good_two_topics.mcap", "good_one_topic.mcap", "good_zstd.mcap", "good_two_topics.db3"}) {

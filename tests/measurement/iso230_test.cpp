@@ -54,7 +54,7 @@ TEST(Iso230, RepeatabilityIsBoundedByFourDeviations) {
   EXPECT_DOUBLE_EQ(figures.A, 8);
 }
 
-// A constant offset changes no figure; a reversed sign neither; a factor of two doubles all.
+// Neither a constant offset nor a reversed sign changes a figure. A factor of two doubles all of them.
 TEST(Iso230, FiguresIgnoreOffsetAndScale) {
   const auto of = [](double factor, double offset) {
     std::vector<std::array<std::vector<double>, 2>> all = {{{{4, 6, 8}, {-1, 0, 1}}}, {{{-9, -6, -3}, {-8, -8, -8}}}};

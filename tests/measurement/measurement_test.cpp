@@ -22,7 +22,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::SizeIs;
 
-/// α of a triangle wave between ±`size` deg, `per_stroke` rows a stroke.
+/// α of a triangle wave between ±`size` deg, `per_stroke` rows per stroke.
 std::vector<double> triangle(double size, int per_stroke, int strokes) {
   std::vector<double> alphas;
   for (int i = 0; i <= per_stroke * strokes; ++i) {

@@ -14,13 +14,13 @@ namespace {
 struct Bench {
   double noise = 0;  ///< rad
   int cycles = 6;
-  int rows = 200;      ///< a stroke
-  double shift = 0;    ///< of θ from cycle to cycle
-  double quantum = 0;  ///< of θ
+  int rows = 200;      ///< per stroke
+  double shift = 0;    ///< change of θ from cycle to cycle
+  double quantum = 0;  ///< resolution of θ
   double alpha_quantum = 0;
   double colour = 0;  ///< correlation of the noise from row to row
   double load_noise = 0;
-  std::vector<double> loads = {};  ///< one a cycle; each bends the joint by .01 rad/N
+  std::vector<double> loads = {};  ///< one per cycle; each bends the joint by .01 rad/N
   bool same_places = false;
   unsigned seed = 7;
 };
@@ -96,7 +96,7 @@ TEST(NoiseFloor, RepeatsOnSameStepHideQuantisation) {
 
 TEST(NoiseFloor, ScalesMotorStepBySlope) {
   const double step = 0.1;
-  // θ spans .3 and α spans 1, rounded.
+  // θ spans about .3 while α spans 1.
   EXPECT_NEAR(floor_of({.alpha_quantum = step, .same_places = true}).rms, 0.3 * step / std::sqrt(12.0), 1e-4);
 }
 
@@ -151,7 +151,7 @@ TEST(NoiseFloor, DegreesOfFreedomPredictScatter) {
     }
     const double seen = 2 * sum * sum / (squares - sum * sum);
     EXPECT_NEAR(degrees_of_freedom / seen, 1.0, 0.35)
-        << "colour " << colour << ": " << degrees_of_freedom << " said, " << seen << " seen";
+        << "colour " << colour << ": " << degrees_of_freedom << " reported, " << seen << " observed";
   }
 }
 
@@ -206,22 +206,21 @@ TEST(NoiseFloor, EstimatesColour) {
   for (const double colour : {0.0, 0.5, 0.9}) {
     const NoiseFloor floor = floor_of({.noise = 1e-3, .cycles = 20, .colour = colour});
     EXPECT_NEAR(floor.colour, colour, 0.08);  // interpolation between rows adds a little
-    // The variance of a mean of n rows with correlation r^k is (1 + r)/(1 − r)/n, of every second one (1 + r²)/(1 −
-    // r²).
+    // The variance of a mean of n rows with correlation r^k is (1 + r)/(1 − r)/n. For every second row r² replaces r.
     const double r = floor.colour;
     EXPECT_DOUBLE_EQ(floor.effective_rows(100), 100 * (1 - r) / (1 + r));
     EXPECT_DOUBLE_EQ(floor.effective_rows(100, 2), 100 * (1 - r * r) / (1 + r * r));
   }
 }
 
-/// Alternating dwells at both ends, `rows` rows each; each visit settles `apart` elsewhere.
-Measurement held(double noise, double apart, int rows) {
+/// Alternating dwells at both ends, of `rows` rows each. The joint settles differently at each visit, by `scatter` rms.
+Measurement dwells_at_ends(double noise, double scatter, int rows) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   Measurement measurement;
   Run& run = measurement.runs.emplace_back();
   for (int visit = 0; visit < 400; ++visit) {
-    const double landed = apart * normal(random), alpha = visit % 2 == 0 ? 0.0 : 1.0;
+    const double landed = scatter * normal(random), alpha = visit % 2 == 0 ? 0.0 : 1.0;
     const std::size_t first = run.samples.size();
     for (int i = 0; i < rows; ++i) {
       Sample sample;
@@ -238,19 +237,20 @@ Measurement held(double noise, double apart, int rows) {
 
 TEST(NoiseFloor, ComparesDwells) {
   for (const int rows : {1, 12}) {
-    const NoiseFloor floor = noise_floor(held(1e-3, 0, rows));
+    const NoiseFloor floor = noise_floor(dwells_at_ends(1e-3, 0, rows));
     EXPECT_TRUE(floor.from_repeats);
     EXPECT_NEAR(floor.rms, 1e-3, rows == 1 ? 1e-4 : 3e-5) << rows;
   }
-  // The scatter of visits counts, once a visit.
-  const NoiseFloor apart = noise_floor(held(1e-3, 2e-3, 12));
+  // The scatter between visits counts, once per visit.
+  const NoiseFloor apart = noise_floor(dwells_at_ends(1e-3, 2e-3, 12));
   EXPECT_NEAR(apart.rms, std::sqrt(5.0) * 1e-3, 2e-4);
   EXPECT_GT(apart.colour, 0.6);
-  EXPECT_LT(apart.degrees_of_freedom, 0.5 * noise_floor(held(1e-3, 0, 12)).degrees_of_freedom);
+  EXPECT_LT(apart.degrees_of_freedom, 0.5 * noise_floor(dwells_at_ends(1e-3, 0, 12)).degrees_of_freedom);
 }
 
-/// Five uneven angles on each stroke, one row each, every cycle under another load; θ bends with α and the load.
-Measurement stops_that_repeat_nothing(double noise, unsigned seed) {
+/// Dwells of one row at five uneven angles on each stroke, each cycle under another load. θ is quadratic in α and depends
+/// on the load.
+Measurement dwells_without_repeats(double noise, unsigned seed) {
   constexpr int cycles = 8;
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -276,12 +276,12 @@ Measurement stops_that_repeat_nothing(double noise, unsigned seed) {
 }
 
 TEST(NoiseFloor, ComparesNeighbouringDwells) {
-  // a parabola is not noise, at even or uneven distances
-  EXPECT_LT(noise_floor(stops_that_repeat_nothing(0, 1)).rms, 1e-12);
+  // A parabola is not noise, at even or uneven distances.
+  EXPECT_LT(noise_floor(dwells_without_repeats(0, 1)).rms, 1e-12);
   constexpr unsigned logs = 400;
   double squares = 0;
   for (unsigned seed = 1; seed <= logs; ++seed) {
-    const NoiseFloor floor = noise_floor(stops_that_repeat_nothing(1e-3, seed));
+    const NoiseFloor floor = noise_floor(dwells_without_repeats(1e-3, seed));
     EXPECT_FALSE(floor.from_repeats);
     EXPECT_LT(floor.degrees_of_freedom, 32);
     squares += floor.rms * floor.rms / logs;

@@ -166,7 +166,7 @@ TEST(LoggedClock, DropsUnusableClock) {
   EXPECT_THAT(found.notes, HasSubstr("time is not used"));
 }
 
-TEST(LoggedClock, RestartOmitsNextStroke) {
+TEST(LoggedClock, RestartMakesNextStrokePartial) {
   // The logger restarts in the middle of a stroke.
   const Value time = [](int row) { return fixed(row < 210 ? time_of(row) : time_of(row - 210), 3); };
   const ReadRun found = read(table("time_s,alpha_deg,theta_deg", {time, alpha(), theta()}));
@@ -472,7 +472,7 @@ TEST(LoggedText, ReadsQuotesOfRfc4180) {
                              named({{"alpha", "Motor, deg"}, {"theta", "Joint, deg"}}));
   expect_motion(found.run);
   EXPECT_EQ(found.notes, read(plain()).notes);
-  // A mark within a cell opens nothing.
+  // A quotation mark within a cell opens no quoted text.
   expect_motion(read(table("time_s,alpha_deg,theta_deg,5\" arm",
                            {seconds(), alpha(), theta(), [](int) { return std::string("7\" long"); }}))
                     .run);

@@ -1,5 +1,5 @@
 // Models for simulators and firmware, compared with independent results: polynomials with known best fits, P1's radius
-// as the rate at which its tendon is wound, and a string pulled taut in steps. Damaged files must be rejected.
+// as the rate at which its tendon is wound, and a taut string by a convex hull. Damaged files must be rejected.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -40,9 +40,7 @@ TEST(LeastLargestError, MatchesChebyshev) {
   EXPECT_NEAR(model::least_largest_error(sampled(-1, 1, [](double x) { return x * x * x; }), 2).error, 0.25, 1e-6);
   EXPECT_NEAR(model::least_largest_error(sampled(-1, 1, [](double x) { return std::pow(x, 5); }), 4).error, 0.0625,
               1e-6);
-  //
-  // x
-  // by a parabola: x² + 1/8.
+  // The best parabola for |x| is x² + 1/8, with the error 1/8.
   const model::PolynomialFit corner =
       model::least_largest_error(sampled(-1, 1, [](double x) { return std::abs(x); }), 2);
   EXPECT_NEAR(corner.error, 0.125, 1e-6);
@@ -99,17 +97,16 @@ TEST_P(OfProfile, EqualityErrorsAreTrue) {
   }
 }
 
-/// Length of a taut string from C over a pin to the anchor. Its middle is a chain of points outside the pin, shortened
-/// link by link without tangents.
+/// Length of a taut string from C over a pin to the anchor: the outer side of the convex hull of C, the anchor and a
+/// polygon about the pin.
 double taut(const model::WrappedTendon& tendon, const Vec2& C) {
   constexpr int links = 400;
   const Vec2 outward = (tendon.outer - tendon.pin).normalized();
-  // Over the outer side, the chain's points lie on rays from the pin between the directions of C and of the anchor.
+  // The polygon's corners lie on rays from the pin between the directions of C and of the anchor, over the outer side.
   const double from = std::atan2((C - tendon.pin).y(), (C - tendon.pin).x()),
                to = std::atan2((tendon.anchor - tendon.pin).y(), (tendon.anchor - tendon.pin).x());
   const double outer = std::atan2(outward.y(), outward.x());
   const auto turned = [&](double angle) { return std::remainder(angle - outer, k_two_pi); };
-  // Support function: the hull of pin, C and anchor, seen from the outer side.
   std::vector<Vec2> hull{C, tendon.anchor};
   for (int i = 0; i <= links; ++i) {
     const double angle = outer + std::lerp(turned(from), turned(to), double(i) / links);
@@ -139,15 +136,17 @@ TEST_P(Taut, LengthsMatchTautString) {
   const pipeline::ModelResult made = dry(profile(GetParam()));
   ASSERT_TRUE(made.product.tendons);
   const model::TendonModel& tendons = *made.product.tendons;
-  const model::WrappedTendon& held = tendons.tendons[tendons.constrained == transmission::Side::left ? 0 : 1];
+  const model::WrappedTendon& constrained = tendons.tendons[tendons.constrained == transmission::Side::left ? 0 : 1];
   const model::AngleMap& map = made.product.curves.physical.middle;
   for (int i = 0; i <= 6; ++i) {
     const double alpha = std::lerp(map.alpha_min, map.alpha_max, i / 6.0), theta = map.theta(alpha);
-    const Vec2 end(std::cos(theta) * held.end.x() + std::sin(theta) * held.end.y(),
-                   std::cos(theta) * held.end.y() - std::sin(theta) * held.end.x());
-    const double length = taut(held, end) + (held.sheath_exit ? (*held.sheath_exit - held.anchor).norm() : 0);
+    const Vec2 end(std::cos(theta) * constrained.end.x() + std::sin(theta) * constrained.end.y(),
+                   std::cos(theta) * constrained.end.y() - std::sin(theta) * constrained.end.x());
+    const double length =
+        taut(constrained, end) + (constrained.sheath_exit ? (*constrained.sheath_exit - constrained.anchor).norm() : 0);
     // A moment arm is no longer than the lever.
-    EXPECT_NEAR(length, held.home_length + tendons.length(alpha), held.end.norm() * (tendons.error + 1e-6))
+    EXPECT_NEAR(length, constrained.home_length + tendons.length(alpha),
+                constrained.end.norm() * (tendons.error + 1e-6))
         << "theta " << degrees(theta);
   }
 }
@@ -221,9 +220,9 @@ TEST(Tendons, FollowWideRanges) {
   std::string why_not;
   const auto model = model::tendon_model(file.mechanism, map, why_not);
   ASSERT_TRUE(model) << why_not;
-  const model::WrappedTendon& held = model->tendons[0];
+  const model::WrappedTendon& constrained = model->tendons[0];
   EXPECT_EQ(model->constrained, transmission::Side::left);
-  EXPECT_LT(model::tendon_error(held, model->length, map), 1e-9);
+  EXPECT_LT(model::tendon_error(constrained, model->length, map), 1e-9);
 }
 
 // ---- curves ---------------------------------------------------------------------------------------------------------
@@ -318,7 +317,7 @@ TEST(Table, ErrorQuartersWithTwiceThePieces) {
   EXPECT_NEAR(coarse.errors.theta / fine.errors.theta, 16, 3);
 }
 
-TEST(Table, RejectsRangeBeyondFloats) {
+TEST(Table, RejectsErrorLimitBelowFloatResolution) {
   pipeline::ModelOptions options;
   options.most_table_error = radians(1e-6);
   const pipeline::ModelResult made = dry(profile("forearm"), options);

@@ -1,8 +1,14 @@
-"""Programs that a joint's model is for, as judges of what `fusee model` leaves.
-Usage: judge_model.py mujoco FOLDER --law transmission.csv   MuJoCo loads joint.xml and joint_tendons.xml, drives the motor there and back over the range, and
-its joint is within the error that the file states of θ(α) as `fusee build` writes it; both tendons have the lengths that a string round their pins has.
-judge_model.py urdf FOLDER   urdfdom's check_urdf reads joint.urdf and joint_ros2_control.urdf; ros2_control's own keys stand where its parser looks for them.
-Either with --self-test: that the judge sees a wrong file.   Prints what is wrong; exit 1 when anything is, 77 where the judge is not installed."""
+"""MuJoCo and urdfdom as judges of the files of `fusee model`.
+
+    judge_model.py mujoco FOLDER --law transmission.csv   MuJoCo loads joint.xml and joint_tendons.xml and drives the motor over the
+                                                          range in both directions: θ(α) must be that of `fusee build` within the
+                                                          error that the file states, and both tendons must have the lengths of
+                                                          strings round their pins
+    judge_model.py urdf FOLDER                            check_urdf reads joint.urdf and joint_ros2_control.urdf; the keys of
+                                                          ros2_control must be where its parser reads them
+    either with --self-test                               the judge must detect a wrong file
+
+Exit 0: no faults; 1: faults, on stdout; 77: the judge is not installed."""
 import argparse
 import csv
 import json

@@ -1,15 +1,15 @@
 """OpenSCAD as a judge of pulley.scad.
 
-    judge_scad.py part FOLDER      rendered as it is, it must be the part of pulley.stl (box within 0.01 mm, of several turns 0.025 mm, volume within 0.5 %), and what it
-                                   shows as "P1", "P2" and "print" must be the files that the manifest sends to the printer, side by side;
-                                   rendered with another bore (where it is round) and another groove, the part must change by what that means
-    judge_scad.py preview FOLDER   the quick preview must look like the full render, from five sides
-    judge_scad.py part FOLDER --self-test   that this judge sees what is broken on purpose, in a pulley that is printed in two parts
-    judge_scad.py preview --self-test   that this judge sees a polyhedron without its convexity
-    judge_scad.py customizer FOLDER     every parameter has words and a range, a list or a tick box; at each end and in the middle of its
-                                   range the part renders without a word of complaint
+    judge_scad.py part FOLDER             the rendered part must equal pulley.stl: box within 0.01 mm (several turns: 0.025 mm),
+                                          volume within 0.5 %; "P1", "P2" and "print" must show the files that the manifest lists
+                                          for printing; another bore (if round) and a shallower groove must change the volume
+    judge_scad.py part FOLDER --self-test the judge must detect faults in a pulley of two printed parts
+    judge_scad.py preview FOLDER          the quick preview must look like the full render, from five sides
+    judge_scad.py preview --self-test     the judge must detect a polyhedron without its convexity
+    judge_scad.py customizer FOLDER       each parameter has a description and a range, a list or a tick box; at the ends and in
+                                          the middle of its range the part renders without complaints
 
-FOLDER is what `fusee build` wrote. Exit 0: content; 1: not, with the faults on stdout; 77: a program is not installed."""
+FOLDER is the output of `fusee build`. Exit 0: no faults; 1: faults, on stdout; 77: a program is not installed."""
 import argparse
 import concurrent.futures
 import contextlib
@@ -134,7 +134,7 @@ def part_self_test(folder, scratch):
     text = (folder / "pulley.scad").read_text()
     for what, right, wrong, seen in BROKEN:
         if text.count(right) != 1:
-            yield f"the program no longer says {right!r}"
+            yield f"pulley.scad no longer contains {right!r}"
             continue
         (scratch / "pulley.scad").write_text(text.replace(right, wrong))
         if not any(fault.startswith(seen + ": ") for fault in part_faults(scratch, scratch)):
@@ -162,7 +162,7 @@ def changed_bore(scad, scratch, volume):
 # Views by rotation about x, y and z, degrees: from above, from below, level, and along the axis in both directions.
 SIDES = ("60,0,30", "125,0,210", "90,0,120", "0,0,0", "180,0,0")
 SIZE = "480,360"
-# Limit for single pixels at edges: up to 0.01 % on the seven profiles. A wrong convexity changes 33 % of the forearm's
+# Limit for single pixels at edges: up to 0.01 % on seven profiles. A wrong convexity changes 33 % of the forearm's
 # pulley.
 MOST_DIFFERENT_PIXELS = 0.002
 SAME_COLOUR = 40  # of 255, for each channel
@@ -274,7 +274,7 @@ def customizer_faults(folder, scratch):
     tries = []
     for name, value, behind, words in customizer(scad):
         if not words:
-            yield f"{name} has no words"
+            yield f"{name} has no description"
         try:
             tries += [(name, choice) for choice in choices(value, behind) if choice != value]
         except ValueError as fault:

@@ -39,7 +39,7 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& beginn
   });
 }
 
-// ---- one function a verb --------------------------------------------------------------------------------------------
+// ---- one function per command ---------------------------------------------------------------------------------------
 
 /// Only the part for CAD: the other files are pinned without it.
 Outputs built_for_cad(const fs::path& spec) {
@@ -88,11 +88,12 @@ Outputs built_corrected(const fs::path& spec, const std::vector<fs::path>& measu
 Outputs optimum_outputs(const fs::path& spec) {
   const optimize::Problem problem = optimize::make_problem(read_mechanism(spec));
   const optimize::CertifiedResult result = optimize::certified_optimum(problem, problem.objectives.front());
-  const std::string said = "value " + rounded(result.value, 7) + "\ntheta_deg " + rounded(degrees(result.theta), 4) +
-                           "\nlower_bound " + rounded(result.lower_bound, 8) + "\nboxes " +
-                           std::to_string(result.boxes) + "\nevaluations " + std::to_string(result.evaluations) + "\n";
+  const std::string figures = "value " + rounded(result.value, 7) + "\ntheta_deg " + rounded(degrees(result.theta), 4) +
+                              "\nlower_bound " + rounded(result.lower_bound, 8) + "\nboxes " +
+                              std::to_string(result.boxes) + "\nevaluations " + std::to_string(result.evaluations) +
+                              "\n";
   return {{"new.toml", edit_values(read_file(spec, k_largest_spec), optimize::edits_of(problem, result.best))},
-          {"said.txt", said}};
+          {"said.txt", figures}};
 }
 
 // ---- inputs ---------------------------------------------------------------------------------------------------------
@@ -193,7 +194,7 @@ void add_models(std::vector<PinnedRun>& all) {
                  }});
 }
 
-/// Together these have identified a tendon, a pin, and several effects at once.
+/// These calibrations identify a tendon, a pin, and several effects at once.
 void add_corrected_builds(std::vector<PinnedRun>& all) {
   for (const std::string name : {"b_stretch", "d_guide_radius"}) {
     const fs::path folder = k_root / "tests/data/rig" / name;

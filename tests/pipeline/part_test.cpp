@@ -108,9 +108,9 @@ TEST_F(MadePart, UnmovedPartIsNotChanged) {
   const pipeline::RewoundPart part = pipeline::rewind_moved_part({*mechanism_, {}}, *mesh_);
   EXPECT_EQ(part.place, pipeline::PartPlace::as_made);
   EXPECT_THAT(part.placements, IsEmpty());
-  const profile::RewindResult as_it_lies = pipeline::rewind_part({*mechanism_, {}}, *mesh_);
-  EXPECT_EQ(part.as_built.max_theta_error, as_it_lies.max_theta_error);
-  EXPECT_EQ(part.as_built.max_excess, as_it_lies.max_excess);
+  const profile::RewindResult unmoved = pipeline::rewind_part({*mechanism_, {}}, *mesh_);
+  EXPECT_EQ(part.as_built.max_theta_error, unmoved.max_theta_error);
+  EXPECT_EQ(part.as_built.max_excess, unmoved.max_excess);
 }
 
 TEST_F(MadePart, MovedPartHasSameAngles) {
@@ -130,14 +130,14 @@ TEST_F(MadePart, MovedPartHasSameAngles) {
 }
 
 TEST_F(MadePart, FaultRemainsAfterMove) {
-  // Half a per cent too small: the part fits no better elsewhere, so it was not moved, and its error remains.
+  // Half a percent too small: the part fits no better elsewhere, so it is not moved, and its error remains.
   const solid::TriangleMesh small = changed([](Vec3& v) { v.head<2>() *= 0.995; });
-  const profile::RewindResult as_it_lies = pipeline::rewind_part({*mechanism_, {}}, small);
+  const profile::RewindResult unmoved = pipeline::rewind_part({*mechanism_, {}}, small);
   EXPECT_EQ(pipeline::rewind_moved_part({*mechanism_, {}}, small).place, pipeline::PartPlace::as_made);
   const pipeline::RewoundPart moved =
       pipeline::rewind_moved_part({*mechanism_, {}}, put(small, true, 40, Vec3(125, 105, 30)));
   EXPECT_EQ(moved.place, pipeline::PartPlace::found);
-  EXPECT_NEAR(degrees(moved.as_built.max_theta_error), degrees(as_it_lies.max_theta_error), 0.02);
+  EXPECT_NEAR(degrees(moved.as_built.max_theta_error), degrees(unmoved.max_theta_error), 0.02);
   EXPECT_GT(degrees(moved.as_built.max_theta_error), 0.05);
 }
 
@@ -206,7 +206,7 @@ TEST_F(MadePart, ReportsPartOfAnotherMechanism) {
   EXPECT_THROW(pipeline::rewind_moved_part({impossible, {}}, *mesh_), InputError);
 }
 
-TEST_F(MadePart, HasItsSize) {
+TEST_F(MadePart, SizeMatchesMeshOrDrawing) {
   const pipeline::PartSize size = pipeline::size_of(*mesh_, pipeline::check_part(*mesh_));
   const solid::Bounds box = solid::bounds(*mesh_);
   EXPECT_EQ(*size.extent, box.high - box.low);

@@ -68,7 +68,7 @@ void add_capstan(Dice& dice, std::vector<Setting>& settings) {
   settings.push_back({"joint.length_mm", fmt::format("{:.3f}", drum + 0.3)});
   settings.push_back({"joint.attachment1_mm", tie});
   settings.push_back({"joint.attachment2_mm", tie});
-  // The length of both tendons' paths along the drum.
+  // The pins lie as in the profile, in proportion to the drum.
   settings.push_back({"guides.EB_mm", fmt::format("{:.3f}", 1.45 * drum)});
   settings.push_back({"guides.ED_mm", fmt::format("{:.3f}", 1.45 * drum)});
   settings.push_back({"guides.OE_mm", fmt::format("{:.3f}", 1.45 * drum)});

@@ -75,7 +75,7 @@ TEST_P(SeveralTurns, FollowTargetMotion) {
 INSTANTIATE_TEST_SUITE_P(Profiles, SeveralTurns, ::testing::Values("wrist_turns", "elbow_capstan", "fusee_proper"),
                          [](const auto& which) { return which.param; });
 
-/// Smallest error of θ, deg, when pins, lengths and grooves deviate and the pulley is not corrected.
+/// Largest error of θ, deg, of the declared pulley on the identified joint.
 double uncorrected(const std::string& profile, const joint::IdentifiedJoint& joint) {
   const formats::Product product = made(read_profile(profile)).product;
   const std::vector<helical_solid::FloorLine> floors =
@@ -89,7 +89,7 @@ struct Found {
   const char* profile;
   const char* key;
   const char* value;
-  double without;  ///< minimum of that error where pins and lengths deviate
+  double without;  ///< least error of the declared pulley, deg; 0: not tested
 };
 
 class IdentifiedTurns : public ::testing::TestWithParam<Found> {};
@@ -165,7 +165,7 @@ TEST(TheFuseeOfAClock, PullTimesRadiusIsConstant) {
       paid_out.push_back(wound + hand * (std::sqrt(to_pin * to_pin - out * out) - k_pin * std::asin(out / to_pin)) -
                          curve[i].along());
     }
-    // At home 400 N mm are held.
+    // The spring's torque at home is 400 N mm.
     const double home = k_torque * k_barrel / 400.0;
     const auto at_home = std::min_element(curve.begin(), curve.end(), [home](const Place& a, const Place& b) {
       return std::abs(a.radius() - home) < std::abs(b.radius() - home);
@@ -258,7 +258,7 @@ TEST(SeveralTurnsPrint, FitEveryPrinter) {
   }
 }
 
-// At most 4.68°: 1/cos and 1/cos³ of it.
+// At a slope of 4.68° tensions grow by 1/cos, and their stretch by 1/cos³.
 TEST(SeveralTurnsWords, NoteErrorOfLevelTendons) {
   const auto note_of = [](const std::vector<Setting>& settings) {
     std::string text;
@@ -406,7 +406,7 @@ TEST(SeveralTurnsBodies, PassRegressions) {
     const pipeline::BuildResult built = made(read_profile("elbow_capstan", settings));
     EXPECT_EQ(built.status, pipeline::BuildStatus::done) << settings.front().value << "\n" << failures_of(built);
   }
-  // Turns of one normal are far apart sideways.
+  // Turns of the same normal are far apart in plan.
   const pipeline::BuildResult aside = made(read_profile("wrist_turns", {{"pulley.ratio", "6.71"},
                                                                         {"joint.length_mm", "246.3"},
                                                                         {"guides.EB_mm", "136.6"},
@@ -428,7 +428,7 @@ TEST(SeveralTurnsWords, RejectWideHub) {
 
 // ---- rewinding of files
 
-/// As found by the build, on each of its mesh files; shrinking materials are printed larger.
+/// Each mesh file of a build, of a shrinking material printed larger, gives the error that the build reports.
 TEST_P(SeveralTurns, RewindOnFiles) {
   const MechanismFile file = read_profile(GetParam(), {{"material.shrinkage_percent", "0.8"}});
   const pipeline::BuildResult built = made(file);

@@ -6,8 +6,9 @@ import sys
 import unittest
 from pathlib import Path
 
-# Modules whose words are not revised yet. Pages that the program writes follow them.
+# Modules whose words are not revised yet.
 PENDING = ()
+# Pages that the program writes.
 GENERATED = ("docs/reference/commands.md", "docs/reference/keys.md", "docs/reference/catalogue.md", "docs/reference/columns.md",
              "docs/reference/json.md", "docs/background/paper.md")
 # This file quotes what it refuses; a corpus and pictures have no comments of ours.

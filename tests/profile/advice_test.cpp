@@ -147,7 +147,7 @@ TEST(Advice, RespectsBuildsLeft) {
   EXPECT_EQ(made, 1);
 }
 
-// 5 mm is a slip of 50 mm: nine times its magnitude away, and in a narrow window.
+// 5 mm was entered in place of 50 mm. The feasible window is narrow, and nine times the value away.
 TEST(Advice, SearchesWholeRangeOfEachNumber) {
   Mechanism mechanism = testing::forearm();
   mechanism.guides.EB = 5.0;

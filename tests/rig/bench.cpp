@@ -231,11 +231,12 @@ void Bench::build_link(BenchTendon& tendon, std::size_t side, const DeclaredMech
 void Bench::add_sheath(BenchTendon& tendon, const DeclaredMechanism& declared) const {
   const Sheath& sheath = declared.sheath;
   tendon.guide = {tendon.axis + Vec2(sheath.exit_across, sheath.exit_above), 0.0};
-  const double give = std::max(0.0, (sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0) + hidden_.sheath_give);
+  const double compliance =
+      std::max(0.0, (sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0) + hidden_.sheath_compliance);
   const double holds = std::max(0.0, sheath.mu * sheath.bend + hidden_.sheath_friction);
   for (int i = 0; i <= k_sheath_bends; ++i) {
     const double share = (i == 0 || i == k_sheath_bends ? 0.5 : 1.0) / k_sheath_bends;
-    tendon.sheath.push_back({share * sheath.length, share * give, i == 0 ? 0.0 : holds / k_sheath_bends});
+    tendon.sheath.push_back({share * sheath.length, share * compliance, i == 0 ? 0.0 : holds / k_sheath_bends});
   }
 }
 
@@ -249,7 +250,7 @@ double Bench::pull_through(std::vector<SheathPiece>& sheath, const Cord& cord, d
   for (SheathPiece& piece : sheath) {
     piece.bristle = bend_bristle(piece.bristle, slipped);
     tension *= std::exp(-piece.holds * piece.bristle);
-    const double material = cord.material(piece.length - piece.give * (tension - home), tension);
+    const double material = cord.material(piece.length - piece.compliance * (tension - home), tension);
     slipped += material - piece.material;
     piece.material = material;
   }
@@ -459,19 +460,19 @@ double Bench::solve_balance(std::array<LowerSpan, 2>& below, const Conditions& a
   if (std::isnan(now)) return now;
   if (std::abs(now) <= dry) return theta_;
   const double towards = now > 0 ? 1.0 : -1.0;
-  const auto left = [&](double way) { return towards * excess_torque(below, theta_ + towards * way, at) - dry; };
+  const auto unbalanced = [&](double way) { return towards * excess_torque(below, theta_ + towards * way, at) - dry; };
   double low = 0;
   double at_low = std::abs(now) - dry;
   double high = std::max(1e-6, 1.2 * std::abs(step_));
-  double at_high = left(high);
+  double at_high = unbalanced(high);
   while (at_high > 0) {
     low = high;
     at_low = at_high;
     high *= 2.0;
     if (!(std::abs(theta_ + towards * high) < furthest_)) return std::numeric_limits<double>::quiet_NaN();
-    at_high = left(high);
+    at_high = unbalanced(high);
   }
-  return theta_ + towards * find_root_between(low, at_low, high, at_high, 1e-12, left);
+  return theta_ + towards * find_root_between(low, at_low, high, at_high, 1e-12, unbalanced);
 }
 
 /// Fixed point of displacements that depend on the forces: compliant pins, and elongations that depend on tension.
@@ -540,7 +541,7 @@ double Bench::to(double pulley, double alpha, const Conditions& conditions) {
     for (std::size_t side = 0; side < 2; ++side) {
       const auto own = static_cast<Eigen::Index>(3 * side);
       all[own] = longer_[side].preview(at);
-      all.segment<2>(own + 1) = hidden_.frame_give * (push[side] - tendons_[side].home_push);
+      all.segment<2>(own + 1) = hidden_.frame_compliance * (push[side] - tendons_[side].home_push);
     }
     return all;
   };

@@ -19,10 +19,10 @@ struct Conditions : Moment {
 
 /// A segment of tendon in a sheath, followed by a bend towards the pulley.
 struct SheathPiece {
-  double length = 0;   ///< at home, mm
-  double give = 0;     ///< compliance, mm/N
-  double holds = 0;    ///< ln of the largest ratio of tensions across the bend: μφ
-  double bristle = 0;  ///< as BenchTendon::bristle
+  double length = 0;      ///< at home, mm
+  double compliance = 0;  ///< mm/N
+  double holds = 0;       ///< ln of the largest ratio of tensions across the bend: μφ
+  double bristle = 0;     ///< as BenchTendon::bristle
   double material = 0;
 };
 

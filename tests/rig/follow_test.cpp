@@ -69,10 +69,10 @@ TEST(Follow, DrivesRunsAfterThoseThatWereMade) {
   ASSERT_EQ(made.logs.size(), 2u);
   EXPECT_EQ(made.logs[0].back().theta, first.back().theta);
   EXPECT_GT(made.logs[1].front().time, first.back().time);
-  double apart = 0;
+  double difference = 0;
   for (std::size_t k = 0; k < first.size(); ++k)
-    apart = std::max(apart, std::abs(made.logs[1][k].theta - first[k].theta));
-  EXPECT_GT(apart, 0.003) << "the sensor was not turned";
+    difference = std::max(difference, std::abs(made.logs[1][k].theta - first[k].theta));
+  EXPECT_GT(difference, 0.003) << "the sensor was not turned";
   EXPECT_THAT(csv_text(made.logs[1], false, made.plans[1]), ::testing::HasSubstr("load_N,joint_sensor_turned_deg\n"));
 }
 

@@ -51,8 +51,8 @@ const std::vector<SameFault> k_faults{
     {"guide_radius", [](Hidden& h) { h.guide_radius = 1.0; }, [](Imperfections& at) { at.pins.radius = 1.0; }, 0.01},
     {"left_pin", [](Hidden& h) { h.pin_outward[0] = 1.2, h.pin_down[0] = -0.6; }, [](Imperfections& at) { at.pins.left = {1.2, -0.6}; }, 0.012},
     {"right_pin", [](Hidden& h) { h.pin_outward[1] = -0.8, h.pin_down[1] = 1.0; }, [](Imperfections& at) { at.pins.right = {-0.8, 1.0}; }, 0.004},
-    {"frame_compliance", [](Hidden& h) { h.frame_give = 5e-3; }, [](Imperfections& at) { at.pins.compliance = 5e-3; }, 0.01},
-    {"soft_frame", [](Hidden& h) { h.frame_give = 0.04; }, [](Imperfections& at) { at.pins.compliance = 0.04; }, 0.01},
+    {"frame_compliance", [](Hidden& h) { h.frame_compliance = 5e-3; }, [](Imperfections& at) { at.pins.compliance = 5e-3; }, 0.01},
+    {"soft_frame", [](Hidden& h) { h.frame_compliance = 0.04; }, [](Imperfections& at) { at.pins.compliance = 0.04; }, 0.01},
     {"joint_length", [](Hidden& h) { h.joint_length = 1.5; }, [](Imperfections& at) { at.joint.length = 1.5; }, 0.01},
     {"joint_friction", [](Hidden& h) { h.bearing = 60; }, [](Imperfections& at) { at.joint.friction = 60; }, 0.015},
     {"gravity", [](Hidden& h) { h.gravity = 300, h.gravity_direction = 0.8; }, [](Imperfections& at) { at.joint.weight = {300 * std::sin(0.8), -300 * std::cos(0.8)}; }, 0.01},
@@ -150,7 +150,7 @@ const std::vector<WideFault> k_wide_faults{
     {"elbow_idlers", 2.5, {"idler_friction", [](Hidden& h) { h.bearing_friction = 0.8; }, [](Imperfections& at) { at.pins.bearing_friction = 0.8; }, 0.05}},
     {"wrist_sheath", 2, {"sheath_friction", [](Hidden& h) { h.sheath_friction = 0.2; }, [](Imperfections& at) { at.sheath.friction = 0.2; }, 0.05}},
     {"wrist_sheath", 2, {"sheath_slippery", [](Hidden& h) { h.sheath_friction = -0.15; }, [](Imperfections& at) { at.sheath.friction = -0.15; }, 0.05}},
-    {"wrist_sheath", 2, {"sheath_stiffness", [](Hidden& h) { h.sheath_give = 0.015; }, [](Imperfections& at) { at.sheath.compliance = 0.015; }, 0.05}},
+    {"wrist_sheath", 2, {"sheath_stiffness", [](Hidden& h) { h.sheath_compliance = 0.015; }, [](Imperfections& at) { at.sheath.compliance = 0.015; }, 0.05}},
     {"wrist_sheath", 2, {"pulley_scale", [](Hidden& h) { h.pulley_scale = 0.01; }, [](Imperfections& at) { at.pulley.scale = 0.01; }, 0.02}},
 };
 // clang-format on

@@ -136,8 +136,8 @@ std::vector<Fault> joint_faults() { return {
    .place = Place::joint_torque, .parameters = [](const D& d) -> N { return {d.sign * d.size, 1.0 + 5.0 * d.share, chance(d)}; },
    .act = [](const M& now, const N& n, N& memory) {
      if (memory.empty()) memory = {0.0, 0.0};
-     const double left = std::exp(-std::max(0.0, now.seconds) / n[1]);
-     memory[0] = left * memory[0] + std::sqrt(1.0 - left * left) * numbered(n[2] + memory[1]++, 149).normal();
+     const double decay = std::exp(-std::max(0.0, now.seconds) / n[1]);
+     memory[0] = decay * memory[0] + std::sqrt(1.0 - decay * decay) * numbered(n[2] + memory[1]++, 149).normal();
      return n[0] * memory[0] * memory[0];
    }},
   // An axle nut turns with the link: it tightens on the way to +θ and loosens by 4/5 on the way back; friction of n[0]

@@ -48,16 +48,16 @@ struct Hidden {
   /// The strain grows by this share of T/EA with every decade of time under T, from one run to the next: a spring and a
   /// dashpot for each decade (Kelvin), at rest under home's tension.
   double creep = 0;
-  double slip = 0;               ///< material let go at one knot, mm
+  double slip = 0;               ///< material released at one knot, mm
   std::size_t slip_side = 1;     ///< 0: tendon 1, 1: tendon 2
   std::size_t slip_run = 0;      ///< the run in which it happens
   double slip_at = 0.5;          ///< share of that run
   double expansion = 0;          ///< strain per K
-  double expansion_other = 0.3;  ///< tendon 1 stands in the draught: it follows by this share
+  double expansion_other = 0.3;  ///< share of the temperature that tendon 1, in a draught, follows
 
   // Sheaths, both alike.
-  double sheath_friction = 0;  ///< added to the coefficient times the bends
-  double sheath_give = 0;      ///< added to what a sheath gets shorter by, mm/N
+  double sheath_friction = 0;    ///< added to the coefficient times the bends
+  double sheath_compliance = 0;  ///< added to a sheath's, mm/N
 
   // Pins.
   double friction = 0;                  ///< added to μ
@@ -67,7 +67,7 @@ struct Hidden {
   std::array<double, 2> pin_outward{};  ///< each pin beyond that, mm; [0] is tendon 1's
   std::array<double, 2> pin_down{};
   double bearing_friction = 0;  ///< added to the coefficient of idlers' bearings
-  double frame_give = 0;        ///< pins move by this along the tendon's force on them, mm/N
+  double frame_compliance = 0;  ///< of the pins, along the tendon's force on them, mm/N
 
   // Joint.
   double joint_length = 0;       ///< added to OC, mm
@@ -165,8 +165,8 @@ std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const st
 /// Rms of the differences of θ over all rows, rad. 0 where a joint has no equilibrium.
 double rms_difference(const std::vector<Log>& one, const std::vector<Log>& other);
 
-/// A log file: time_s, alpha_deg, theta_deg, load_N, if asked for temperature_C, and how far the
-/// sensors were turned, where they were.
+/// A log file: time_s, alpha_deg, theta_deg, load_N, temperature_C if requested, and the rotations of the sensors if there
+/// are any.
 std::string csv_text(const Log& log, bool temperature = false, const RunPlan& plan = {});
 
 /// Reading of the joint's sensor at `theta`, but for its delay, noise and actions.

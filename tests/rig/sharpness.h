@@ -23,7 +23,7 @@ struct Sharpness {
 };
 
 /// The log odds for an unmodelled cause, between −1000 and 1000: of the discrepancy beside all effects, or of the best
-/// alternative to an effect, whichever is more. 1000 if the runs are not repeatable, −1000 if nothing speaks for it.
+/// alternative to an effect, whichever is more. 1000 if the runs are not repeatable, −1000 without any evidence.
 double unmodelled_log_odds(const calibration::Calibration& found);
 
 /// The Cramér-Rao bound takes all rows, the sensor's true noise, and the reported effects that are faults of the joint

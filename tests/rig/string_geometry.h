@@ -2,7 +2,7 @@
 /// A taut string between a point, a round pin and a convex polygon, by tangents alone. Right-hand image: the string
 /// runs down on the right of pin and pulley. mm, rad.
 ///
-/// Nothing here knows the transmission's equations: no support functions, no moment-arm formulas.
+/// Uses no equation of the transmission: no support functions, no moment-arm formulas.
 #pragma once
 
 #include <cstddef>
@@ -52,10 +52,10 @@ struct LowerString {
   double arm = 0;             ///< about the origin
   double height = 0;          ///< of that corner
 };
-/// `near`: where to begin looking. InputError when the pulley swallows the pin, or a spiral ends before.
+/// `near`: start of the search. InputError if the pin lies inside the pulley, or if a spiral ends before.
 LowerString lower_string(const Hull& hull, const Circle& pin, std::ptrdiff_t near);
 
-/// A corner near the one that the string meets, found without knowing anything but a spiral's `home`.
+/// A corner near the one that the string meets. Uses a spiral's `home` only.
 std::ptrdiff_t first_look(const Hull& hull, const Circle& pin);
 
 }  // namespace fusee::rig

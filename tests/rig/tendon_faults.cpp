@@ -82,9 +82,9 @@ std::vector<Fault> tendon_faults() { return {
      return {{"outward1_mm", h.pin_outward[0]}, {"down1_mm", h.pin_down[0]}, {"outward2_mm", h.pin_outward[1]}, {"down2_mm", h.pin_down[1]}};
    }},
   {.split = "named", .name = "frame_compliance", .first = 1e-3, .most = 0.2,
-   .set = [](H& h, double s, const C&, const J&) { h.frame_give = s; },
+   .set = [](H& h, double s, const C&, const J&) { h.frame_compliance = s; },
    .kin = {"tendon_stretch"},
-   .numbers = [](const H& h, const J&) -> Numbers { return {{"mm_per_N", h.frame_give}}; }},
+   .numbers = [](const H& h, const J&) -> Numbers { return {{"mm_per_N", h.frame_compliance}}; }},
 
   {.split = "wide", .name = "idler_friction", .first = 0.1, .most = 1.5,
    .set = [](H& h, double s, const C&, const J&) { h.bearing_friction = s; },
@@ -95,11 +95,11 @@ std::vector<Fault> tendon_faults() { return {
    .kin = {"capstan_friction"},
    .numbers = [](const H& h, const J& j) -> Numbers { return {{"mu_bend", j.declared.sheath.mu * j.declared.sheath.bend + h.sheath_friction}}; }},
   {.split = "wide", .name = "sheath_stiffness", .first = 0.01, .most = 0.1,
-   .set = [](H& h, double s, const C&, const J&) { h.sheath_give = s; },
+   .set = [](H& h, double s, const C&, const J&) { h.sheath_compliance = s; },
    .kin = {"tendon_stretch", "frame_compliance"},  // springs along the tendon
    .numbers = [](const H& h, const J& j) -> Numbers {
      const double stiffness = j.declared.sheath.stiffness;
-     return {{"mm_per_N", (stiffness > 0 ? 1.0 / stiffness : 0.0) + h.sheath_give}};
+     return {{"mm_per_N", (stiffness > 0 ? 1.0 / stiffness : 0.0) + h.sheath_compliance}};
    }},
 
   {.split = "tuning", .name = "lump", .first = 0.1, .most = 3.0,
@@ -209,8 +209,8 @@ std::vector<Fault> tendon_faults() { return {
      const double path = motor_path(now, memory[0]);
      return n[0] * followed(now.direction, path, n[1], memory[1]);
    }},
-  // Galling of dry steel on steel: friction of n[0] N·mm at n[1] N in both (100 … 3000) in the end, 63 % of it after
-  // n[2] rad under that pull. Memory: α, work.
+  // Galling of dry steel on steel: at last a friction of n[0] N·mm (100 … 3000) at n[1] N in both tendons, 63 % of it
+  // after n[2] rad under that pull. Memory: α, work.
   {.split = "heldout_13", .name = "wires_and_pins_galling", .first = 500.0, .most = 8000.0,
    .kin = {"capstan_friction"},  // its final state
    .place = Place::dry_friction, .parameters = [](const D& d) -> N { return {d.size, d.pretension(), 5.0 + 20.0 * d.share}; },
@@ -225,8 +225,8 @@ std::vector<Fault> tendon_faults() { return {
    .kin = {"tendon_stretch"},  // below the contact force
    .place = Place::both_tendons, .parameters = [](const D& d) -> N { return {d.size, (1.1 + 0.8 * d.share) * d.pretension(), d.pretension()}; },
    .act = [](const M& now, const N& n, N&) { return n[0] * (std::clamp(now.tension[now.side], 0.0, n[1]) / n[2] - 1.0); }},
-  // From θ = n[2] on to the side n[3] the far tendon bends over an edge, evenly over n[4]: friction of n[0] N·mm at
-  // n[1] N (50 … 2000).
+  // Beyond θ = n[2], towards the side n[3], the far tendon bends over an edge: a friction that rises over n[4] rad to
+  // n[0] N·mm at n[1] N (50 … 2000).
   {.split = "heldout_13", .name = "tendon_over_edge_of_cover", .first = 500.0, .most = 10000.0,
    .place = Place::dry_friction, .parameters = [](const D& d) -> N { return {d.size, d.pretension(), d.theta_within(), d.sign, 0.3}; },
    .act = [](const M& now, const N& n, N&) {

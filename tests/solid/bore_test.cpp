@@ -30,7 +30,7 @@ BoreLayout recess(const Polygon& outline, const Polygon& hole) {
   return bore;
 }
 
-// Checks every property by which the cone ends in the hole itself.
+// Checks that the cone joins the whole outline to the whole hole.
 void expect_cone(const BoreLayout& bore) {
   const RecessCone cone = recess_cone(bore);
   const Polygon& hole = bore.screw_holes.front();

@@ -26,7 +26,7 @@ TEST(CheckMesh, AcceptsCube) {
   EXPECT_EQ(bounds(cube(2, {1, 2, 3})).high, Vec3(3, 4, 5));
 }
 
-TEST(CheckMesh, MissingFacet) {
+TEST(CheckMesh, RejectsMissingFacet) {
   TriangleMesh mesh = cube(10);
   mesh.triangles.erase(mesh.triangles.begin() + 4);
   const auto checks = check_mesh(mesh);
@@ -43,9 +43,9 @@ TEST(CheckMesh, ReportsFlippedFacetWithPlace) {
   EXPECT_EQ(check_named(checks, "flipped_facets").where, "facet 0 at (3.000, 3.000, 0.000) mm");
 }
 
-TEST(CheckMesh, InsideOut) { EXPECT_EQ(failed(check_mesh(turned_inside_out(cube(10)))), "inverted_parts"); }
+TEST(CheckMesh, RejectsPartInsideOut) { EXPECT_EQ(failed(check_mesh(turned_inside_out(cube(10)))), "inverted_parts"); }
 
-TEST(CheckMesh, OneOfTwoPartsInsideOut) {
+TEST(CheckMesh, RejectsOneOfTwoPartsInsideOut) {
   EXPECT_EQ(failed(check_mesh(joined(cube(10), cube(5, {20, 0, 0})))), "");
   EXPECT_EQ(failed(check_mesh(joined(cube(10), turned_inside_out(cube(5, {20, 0, 0}))))), "inverted_parts");
 }
@@ -55,7 +55,7 @@ TEST(CheckMesh, AcceptsCavity) {
   EXPECT_EQ(failed(check_mesh(joined(cube(10), cube(4, {3, 3, 3})))), "inverted_parts");
 }
 
-TEST(CheckMesh, DuplicateFacet) {
+TEST(CheckMesh, RejectsDuplicateFacet) {
   TriangleMesh mesh = cube(10);
   mesh.triangles.push_back(mesh.triangles[7]);
   const auto checks = check_mesh(mesh);
@@ -63,7 +63,7 @@ TEST(CheckMesh, DuplicateFacet) {
   EXPECT_EQ(check_named(checks, "duplicate_facets").value, 1);
 }
 
-TEST(CheckMesh, DegenerateFacet) {
+TEST(CheckMesh, RejectsDegenerateFacet) {
   // A vertex in the middle of an edge, and a facet without area that closes the gap.
   TriangleMesh mesh = cube(10);
   mesh.vertices.emplace_back(5, 5, 0);
@@ -137,7 +137,7 @@ TEST(CheckMesh, CornerOfHolesIsNotPinched) {
   EXPECT_EQ(failed(check_mesh(mesh)), "open_edges");
 }
 
-TEST(CheckMesh, CrossingParts) {
+TEST(CheckMesh, RejectsCrossingParts) {
   const auto checks = check_mesh(joined(cube(10), cube(10, {4.5, 4.25, 4.125})));
   EXPECT_EQ(failed(checks), "self_intersections");
   EXPECT_NE(check_named(checks, "self_intersections").where.find("crosses facet"), std::string::npos);
@@ -155,11 +155,11 @@ TEST(CheckMesh, RejectsFoldedFacet) {
   EXPECT_NE(failed(check_mesh(mesh)).find("self_intersections"), std::string::npos);
 }
 
-TEST(CheckMesh, TwoCubesOnOneEdge) {
+TEST(CheckMesh, RejectsTwoCubesOnOneEdge) {
   EXPECT_EQ(failed(check_mesh(joined(cube(10), cube(10, {10, 10, 0})))), "edges_of_more_than_two_facets");
 }
 
-TEST(CheckMesh, TwoCubesOnOneCorner) {
+TEST(CheckMesh, RejectsTwoCubesOnOneCorner) {
   EXPECT_EQ(failed(check_mesh(joined(cube(10), cube(10, {10, 10, 10})))), "pinched_vertices");
 }
 
@@ -187,7 +187,7 @@ TEST(CheckMesh, RejectsSingleFacet) {
   EXPECT_EQ(check_named(checks, "facets").where, "1 facet encloses no solid: at least 4 are required");
 }
 
-TEST(CheckMesh, IndicesOutOfRange) {
+TEST(CheckMesh, RejectsIndicesOutOfRange) {
   TriangleMesh mesh = cube(10);
   mesh.triangles[3][1] = 4'000'000'000u;
   const auto checks = check_mesh(mesh);
@@ -233,7 +233,7 @@ TEST(CheckMesh, SkipsCrossingsAtCrowdedEdge) {
               ::testing::HasSubstr("too many overlapping facets"));
 }
 
-TEST(Section, Cube) {
+TEST(Section, OfCubeIsSquare) {
   const auto loops = section(cube(10), 4);
   ASSERT_EQ(loops.size(), 1u);
   EXPECT_DOUBLE_EQ(signed_area(loops[0]), 100.0);
@@ -241,7 +241,7 @@ TEST(Section, Cube) {
   EXPECT_TRUE(section(cube(10), -0.5).empty());
 }
 
-TEST(Section, ThroughVerticesAndFlatFaces) {
+TEST(Section, AtFlatFaceCutsJustBelow) {
   // A plane through a flat face cuts just below it.
   EXPECT_DOUBLE_EQ(signed_area(outer_loop(section(cube(10), 10))), 100.0);
   EXPECT_TRUE(section(cube(10), 0).empty());
@@ -267,7 +267,7 @@ TEST(Section, SkipsBadIndices) {
   EXPECT_DOUBLE_EQ(signed_area(outer_loop(section(mesh, 4))), 100.0);
 }
 
-TEST(RoundedToFloat, EveryCoordinate) {
+TEST(RoundedToFloat, RoundsEveryCoordinate) {
   TriangleMesh mesh;
   for (int k = 0; k < 100; ++k) mesh.vertices.emplace_back(0.1 + k, 8.7320158389 + k, 1e-3 * k + 0.7);
   for (const Vec3& vertex : rounded_to_float(mesh).vertices) {

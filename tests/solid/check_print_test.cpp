@@ -631,7 +631,7 @@ TEST(CheckPrint, AgreesWithLayersOnRandomTurnedParts) {
   EXPECT_GT(bad, 5);
 }
 
-// Straight holes through a wall over random legs, with known spans.
+// Tunnels of random width and direction. The span is the width.
 TEST(CheckPrint, MeasuresRandomTunnels) {
   std::mt19937 random(7);
   for (int round = 0; round < 40; ++round) {

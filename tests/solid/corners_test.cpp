@@ -47,14 +47,14 @@ TEST(Corners, RemovesPointsOnStraightLines) {
 // One of two, three or many points at the same place, or closer than floats resolve, remains.
 TEST(Corners, MergesNearlyEqualPoints) {
   const Polygon corners = regular(8, 5);
-  for (const double apart : {0.0, 1e-12, 5e-7, 5e-5}) {
+  for (const double distance : {0.0, 1e-12, 5e-7, 5e-5}) {
     for (const int times : {2, 3, 7}) {
       Polygon points;
       for (const Vec2& corner : corners) {
-        for (int k = 0; k < times; ++k) points.push_back(corner + apart / times * unit(2.4 * k));
+        for (int k = 0; k < times; ++k) points.push_back(corner + distance / times * unit(2.4 * k));
       }
-      SCOPED_TRACE(std::to_string(apart) + " mm, " + std::to_string(times) + " times");
-      expect_near(corners_of(points), corners, apart + 1e-12);
+      SCOPED_TRACE(std::to_string(distance) + " mm, " + std::to_string(times) + " times");
+      expect_near(corners_of(points), corners, distance + 1e-12);
     }
   }
 }

@@ -24,7 +24,7 @@ struct Loop {
   std::vector<Vec2> points;
   Vec2 middle = Vec2::Zero();  ///< its centroid
   double room = 0;             ///< diameter of the circle about `middle` that touches the nearest side
-  double reach = 0;            ///< radius of the circle through the furthest corner
+  double reach = 0;            ///< diameter of the circle about `middle` through the furthest corner
 };
 
 double side_distance(const Vec2& p, const Vec2& a, const Vec2& b) {
@@ -150,7 +150,7 @@ void expect_holes(const BuiltPiece& made, const Horn& horn) {
     const bool low = z < sinks;
     if (horn.spline_teeth > 0 && (low || sinks == 0)) {
       EXPECT_EQ(teeth_of(bore), horn.spline_teeth);
-      // The shaft's crests touch the flats above them, and its grounds the crests of the bore.
+      // The bore's furthest corners lie over the shaft's crests, and its nearest sides over the shaft's roots.
       EXPECT_NEAR(bore.reach, horn.spline_diameter + k_compensation, 0.01);
       EXPECT_NEAR(bore.room, horn.spline_diameter - 2 * horn.spline_depth + k_compensation, 0.01);
     } else {
@@ -212,7 +212,7 @@ TEST(Horn, CatalogueHornEqualsItsNumbers) {
 TEST(Horn, ScrewsFollowTheFirst) {
   Horn horn{.bolt_circle = 20, .bolt_count = 4, .bolt_hole = 3.2, .centre_hole = 8};
   const Pulley straight = BuiltPiece(with_horn(horn)).pulley;
-  horn.first_bolt = radians(90);  // a quarter of a turn of four screws is none
+  horn.first_bolt = radians(90);  // four screws turned by 90° lie as before
   const Pulley turned = BuiltPiece(with_horn(horn)).pulley;
   EXPECT_NEAR(straight.expected_volume, turned.expected_volume, 1e-9 * straight.expected_volume);
 }

@@ -77,7 +77,7 @@ TEST(PaperForces, TorqueAndWeightActLikeATipForce) {
   EXPECT_NEAR(paper_forces(weight, at).T2, paper_forces(tip, at).T2, 1e-12);
 }
 
-TEST(PaperForces, TipAnglesExceedRightAngle) {
+TEST(PaperForces, AnglesAtCMatchGeometry) {
   const Mechanism mechanism = testing::reference();
   const TransmissionPoint at = Transmission(mechanism, 0.0).at_theta(-0.5);
   const PaperForces forces = paper_forces(mechanism, at);

@@ -41,7 +41,7 @@ TEST(Transmission, PaperMethodUsesPointPins) {
   EXPECT_NE(Transmission(mechanism).alpha_max(), Transmission(forearm()).alpha_max());
 }
 
-// Independent physics: the pulley winds in what the path above it loses.
+// Independent physics: the pulley winds the length that the path above it loses.
 TEST(Transmission, MomentArmsSatisfyVirtualWork) {
   constexpr double step = 1e-5;
   for (const Mechanism& mechanism : every_law()) {
@@ -51,11 +51,11 @@ TEST(Transmission, MomentArmsSatisfyVirtualWork) {
       const TransmissionPoint at = transmission.at_alpha(alpha);
       const double before = transmission.theta(alpha - step);
       const double after = transmission.theta(alpha + step);
-      const auto taken = [&](Side side, double theta) {
+      const auto length = [&](Side side, double theta) {
         return upper_span(transmission.place(side), mirror_sign(side) * theta).length;
       };
-      EXPECT_NEAR((taken(Side::left, after) - taken(Side::left, before)) / (2 * step), at.t1.p, 1e-6);
-      EXPECT_NEAR((taken(Side::right, after) - taken(Side::right, before)) / (2 * step), -at.t2.p, 1e-6);
+      EXPECT_NEAR((length(Side::left, after) - length(Side::left, before)) / (2 * step), at.t1.p, 1e-6);
+      EXPECT_NEAR((length(Side::right, after) - length(Side::right, before)) / (2 * step), -at.t2.p, 1e-6);
     }
   }
 }

@@ -34,7 +34,7 @@ Effect drum_radius(JointKind) {
        .least = -20,
        .most = 20,
        .step = 2e-3,
-       .prior = 0.3,  // printed or turned by hand; a tendon that sinks in or rides up
+       .prior = 0.3,  // printed, or turned by hand; a tendon that sinks in or rides up
        .shown = drum_total,
        .key = key::plain("drum_radius_mm", "mm", -500, 500, "added to joint.drum_radius_mm"),
        .merge_rule = MergeRule::add,

@@ -30,14 +30,14 @@ std::vector<CaliperReading> right_down_by_caliper(const DeclaredMechanism& decla
 }
 
 /// One coordinate of one pin.
-EffectParameter place_part(std::string name, double& (*number)(Imperfections&), const IdentifiedKey& key,
-                           const ManualMeasurement& by_hand, const SignWords& sign) {
+EffectParameter pin_coordinate(std::string name, double& (*number)(Imperfections&), const IdentifiedKey& key,
+                               const ManualMeasurement& by_hand, const SignWords& sign) {
   return {.name = std::move(name),
           .number = number,
           .least = -20,
           .most = 20,
           .step = 1e-2,
-          .prior = 1,  // holes drilled or printed by hand
+          .prior = 1,  // holes printed, or drilled by hand
           .shown = shown::as_is,
           .key = key,
           .merge_rule = MergeRule::add,
@@ -47,8 +47,8 @@ EffectParameter place_part(std::string name, double& (*number)(Imperfections&), 
 
 }  // namespace
 
-// Four parameters for two pins. A rotation of both pins about the joint is equivalent to a zero of the joint and of the
-// pulleys; the priors keep such undetermined combinations small.
+// Four parameters for two pins. A rotation of both pins about the joint is equivalent to zero errors of joint and
+// pulleys. The priors keep such undetermined combinations small.
 Effect guide_position(JointKind) {
   Effect effect;
   effect.name = "guide_position";
@@ -59,29 +59,31 @@ Effect guide_position(JointKind) {
   effect.correctable_by = CorrectableBy::pulley;
   effect.needs = {.tendons = true};
   effect.parameters = {
-      place_part("outward1_mm", [](Imperfections& at) -> double& { return at.pins.left.outward; },
-                 key::plain("guide1_outward_mm", "mm", -10000, 10000, "added to guides.EB_mm"),
-                 {"measure the left pin's distance from the middle and enter it as prior.EB_mm", k_caliper,
-                  left_by_caliper, "prior.EB_mm"},
-                 {"the left pin is too close to the middle", "the left pin is too far from the middle"}),
-      place_part("down1_mm", [](Imperfections& at) -> double& { return at.pins.left.down; },
-                 key::plain("guide1_down_mm", "mm", -10000, 10000,
-                            "distance of the left pin below guides.OE_mm; the pulley's axis does not move"),
-                 {"measure how far the left pin is below the joint's axis (above it: negative) and enter it as prior."
-                  "OE1_mm",
-                  k_caliper, left_down_by_caliper, "prior.OE1_mm"},
-                 {"the left pin is too high", "the left pin is too low"}),
-      place_part("outward2_mm", [](Imperfections& at) -> double& { return at.pins.right.outward; },
-                 key::plain("guide2_outward_mm", "mm", -10000, 10000, "added to guides.ED_mm"),
-                 {"measure the right pin's distance from the middle and enter it as prior.ED_mm", k_caliper,
-                  right_by_caliper, "prior.ED_mm"},
-                 {"the right pin is too close to the middle", "the right pin is too far from the middle"}),
-      place_part("down2_mm", [](Imperfections& at) -> double& { return at.pins.right.down; },
-                 key::plain("guide2_down_mm", "mm", -10000, 10000, "distance of the right pin below guides.OE_mm"),
-                 {"measure how far the right pin is below the joint's axis (above it: negative) and enter it as prior."
-                  "OE2_mm",
-                  k_caliper, right_down_by_caliper, "prior.OE2_mm"},
-                 {"the right pin is too high", "the right pin is too low"})};
+      pin_coordinate("outward1_mm", [](Imperfections& at) -> double& { return at.pins.left.outward; },
+                     key::plain("guide1_outward_mm", "mm", -10000, 10000, "added to guides.EB_mm"),
+                     {"measure the left pin's distance from the middle and enter it as prior.EB_mm", k_caliper,
+                      left_by_caliper, "prior.EB_mm"},
+                     {"the left pin is too close to the middle", "the left pin is too far from the middle"}),
+      pin_coordinate(
+          "down1_mm", [](Imperfections& at) -> double& { return at.pins.left.down; },
+          key::plain("guide1_down_mm", "mm", -10000, 10000,
+                     "distance of the left pin below guides.OE_mm; the pulley's axis does not move"),
+          {"measure how far the left pin is below the joint's axis (above it: negative) and enter it as prior."
+           "OE1_mm",
+           k_caliper, left_down_by_caliper, "prior.OE1_mm"},
+          {"the left pin is too high", "the left pin is too low"}),
+      pin_coordinate("outward2_mm", [](Imperfections& at) -> double& { return at.pins.right.outward; },
+                     key::plain("guide2_outward_mm", "mm", -10000, 10000, "added to guides.ED_mm"),
+                     {"measure the right pin's distance from the middle and enter it as prior.ED_mm", k_caliper,
+                      right_by_caliper, "prior.ED_mm"},
+                     {"the right pin is too close to the middle", "the right pin is too far from the middle"}),
+      pin_coordinate(
+          "down2_mm", [](Imperfections& at) -> double& { return at.pins.right.down; },
+          key::plain("guide2_down_mm", "mm", -10000, 10000, "distance of the right pin below guides.OE_mm"),
+          {"measure how far the right pin is below the joint's axis (above it: negative) and enter it as prior."
+           "OE2_mm",
+           k_caliper, right_down_by_caliper, "prior.OE2_mm"},
+          {"the right pin is too high", "the right pin is too low"})};
   return effect;
 }
 

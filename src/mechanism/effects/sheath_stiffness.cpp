@@ -3,10 +3,10 @@
 namespace fusee {
 namespace {
 
-double sheath_give(double added, const Mechanism& declared) {
-  const double declared_give = declared.sheath.stiffness > 0 ? 1.0 / declared.sheath.stiffness : 0.0;
-  const double there = declared_give + added;
-  return there > 0 ? there : 0.0;
+double total_compliance(double added, const Mechanism& declared) {
+  const double declared_compliance = declared.sheath.stiffness > 0 ? 1.0 / declared.sheath.stiffness : 0.0;
+  const double total = declared_compliance + added;
+  return total > 0 ? total : 0.0;
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ Effect sheath_stiffness(JointKind) {
        .most = 1,
        .step = 2e-4,
        .prior = 0.005,  // a wire spiral under compression, and its end supports: 50 N/mm and more
-       .shown = sheath_give,
+       .shown = total_compliance,
        .key = key::plain("sheath_give_mm_per_N", "mm_per_N", -10, 10, "added to 1 / sheath.stiffness_N_per_mm"),
        .merge_rule = MergeRule::add}};
   effect.starts = {{0.003}, {0.02}};

@@ -3,11 +3,11 @@
 namespace fusee {
 namespace {
 
-double section(double stretch, const Mechanism& declared) {
+double real_section_stiffness(double stretch, const Mechanism& declared) {
   return section_stiffness(declared.tendon) / (1.0 + stretch);
 }
 
-constexpr double k_metre = 0.1;  // uncertainty, by a ruler, of a compliance of one or two times the declared one
+constexpr double k_metre = 0.1;  // by a ruler: uncertainty of the compliance, relative to the declared one
 
 std::vector<CaliperReading> by_modulus(const DeclaredMechanism& declared) {
   const std::vector<double>& modulus = declared.prior.modulus;
@@ -48,7 +48,7 @@ Effect tendon_stretch(JointKind kind) {
        .most = 60,
        .step = 0.01,
        .prior = 1,  // catalogue moduli of braids are known to a factor of two
-       .shown = section,
+       .shown = real_section_stiffness,
        .key =
            key::plain("stretch", "", -0.999, 1e+06, "compliance of the tendon beyond the declared one, relative to it"),
        .merge_rule = MergeRule::compound,

@@ -31,7 +31,7 @@ Drawing plate() {
 
 TEST(CheckDrawing, AcceptsGoodDrawing) { EXPECT_THAT(failed(check_drawing(plate())), IsEmpty()); }
 
-TEST(CheckDrawing, AnEmptyDrawingFails) { EXPECT_THAT(failed(check_drawing({})), ElementsAre("contours")); }
+TEST(CheckDrawing, RejectsEmptyDrawing) { EXPECT_THAT(failed(check_drawing({})), ElementsAre("contours")); }
 
 TEST(CheckDrawing, RejectsOpenContour) {
   Drawing drawing = plate();

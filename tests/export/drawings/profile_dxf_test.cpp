@@ -24,7 +24,7 @@ class BothVersions : public ::testing::TestWithParam<DxfVersion> {
 };
 INSTANTIATE_TEST_SUITE_P(ProfileDxf, BothVersions, ::testing::Values(DxfVersion::ac1015, DxfVersion::r12));
 
-TEST_P(BothVersions, CurvesComeBackToTheMicron) {
+TEST_P(BothVersions, ReadsCurvesBackWithinMicrons) {
   const Product product = egg();
   const Drawing drawing = drawn(product);
   EXPECT_TRUE(drawing.millimetres);
@@ -44,7 +44,7 @@ TEST_P(BothVersions, CurvesComeBackToTheMicron) {
   }
 }
 
-TEST_P(BothVersions, ARoundPulleyIsACircle) {
+TEST_P(BothVersions, RoundPulleyIsCircle) {
   const Drawing drawing = drawn(egg());
   for (const auto& [layer, diameter] : {std::pair{"P1_PITCH", 32.0}, {"P1_FLOOR", 31.0}}) {
     const auto paths = on_layer(drawing, layer);
@@ -62,16 +62,17 @@ TEST(ProfileDxf, FitsFewTangentArcs) {
     double turn = 0;
     for (std::size_t i = 0; i < arcs.size(); ++i) {
       const BulgeVertex &here = arcs[i], &next = arcs[(i + 1) % arcs.size()], &after = arcs[(i + 2) % arcs.size()];
-      const Vec2 chord = next.place - here.place, then = after.place - next.place;
+      const Vec2 chord = next.place - here.place, next_chord = after.place - next.place;
       const double end = 2 * std::atan(here.bulge), start = 2 * std::atan(next.bulge);
-      EXPECT_NEAR(std::atan2(cross(chord, then), chord.dot(then)), end + start, 1e-6) << "a corner at arc " << i;
+      EXPECT_NEAR(std::atan2(cross(chord, next_chord), chord.dot(next_chord)), end + start, 1e-6)
+          << "a corner at arc " << i;
       turn += 2 * end;
     }
     EXPECT_NEAR(turn, k_two_pi, 1e-6);
   }
 }
 
-// Normals that belong to no smooth curve leave the outline's own edges.
+// If the normals belong to no smooth curve, the outline's edges are kept.
 TEST(ProfileDxf, KeepsEdgesWithoutArcs) {
   profile::Outline outline = egg().synthesis.p2;
   for (profile::OutlinePoint& point : outline.points) point.normal = -point.normal;
@@ -117,7 +118,7 @@ TEST_P(BothVersions, DBoreIsArcAndFlat) {
   EXPECT_THAT(failed(check_drawing(drawn(product))), IsEmpty());
 }
 
-TEST_P(BothVersions, AHornsScrewsAreCircles) {
+TEST_P(BothVersions, HornScrewHolesAreCircles) {
   Product product = egg();
   product.joint.mechanism.body.bore = Bore::horn;
   product.joint.mechanism.body.horn = "lynxmotion-ses";
@@ -126,7 +127,7 @@ TEST_P(BothVersions, AHornsScrewsAreCircles) {
   EXPECT_THAT(bore, ::testing::Each(::testing::Field(&DrawingPath::entity, "CIRCLE")));
 }
 
-TEST_P(BothVersions, AHexBoreHasItsSixCorners) {
+TEST_P(BothVersions, HexBoreHasSixCorners) {
   Product product = egg();
   product.joint.mechanism.body.bore = Bore::hex;
   const auto bore = on_layer(drawn(product), "BORE");

@@ -282,7 +282,7 @@ TEST(ReadDxf, AcceptsEllipseRatioAboveOne) {
   EXPECT_EQ(bounding_box(tall.paths[0].points).size(), Vec2(20, 30));
   ASSERT_EQ(tall.remarks.size(), 1u);
   EXPECT_THAT(tall.remarks[0].text, HasSubstr("ELLIPSE is 1.5, above 1"));
-  // Above 1 by rounding is 1.
+  // A ratio above 1 by rounding counts as 1.
   EXPECT_TRUE(ellipse("1.0000001").remarks.empty());
 }
 

@@ -77,7 +77,7 @@ TEST(OffReader, BoundsAllocation) {
 }
 
 TEST(OffReader, ReadsOrRejectsTruncations) {
-  // The colour of the last face may be cut off, and nothing else: of " 9 9\n" all but none of its five bytes.
+  // Only the end of the last face's colour may be cut off: one to five bytes of " 9 9\n".
   EXPECT_EQ(testing::meshes_among_truncations("OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2 9 9\n", "x.off"), 5);
 }
 

@@ -1,4 +1,4 @@
-// Numbers that were found, in words.
+// Texts of identified parameters.
 #include <gtest/gtest.h>
 
 #include "fusee/export.h"

@@ -89,7 +89,7 @@ TEST(TransmissionCsv, RowsMatchComputation) {
     EXPECT_NEAR(value("alpha_deg"), degrees(point.alpha), 1e-6);
     EXPECT_NEAR(value("r1_mm"), 20.0, 1e-6);
     EXPECT_NEAR(value("r2_mm"), point.t2.p, 1e-6);
-    // Virtual work: r2/r1 = m2/m1; and the tip force by the moment arm of tendon 2.
+    // Virtual work: r2/r1 = m2/m1. T2 · m2 is the torque of the tip force.
     EXPECT_NEAR(value("r2_mm") / value("r1_mm"), value("m2_mm") / value("m1_mm"), 1e-6);
     EXPECT_NEAR(value("T2_N") * value("m2_mm"), 10.0 * 100.0, 1e-3);
     EXPECT_NEAR(value("theta_as_built_deg") - value("theta_deg"), 0.01, 2e-6);
