@@ -32,7 +32,7 @@ StepTool cylinder(const Vec2& centre, double radius, double low, double high) {
   return {{StepFrustum{centre, centre, std::min(low, high), std::max(low, high), radius, radius}}};
 }
 
-// ---- along the axis ----
+// ---- along the axis -------------------------------------------------------------------------------------------------
 
 /// The bore's outline; its first points may describe an arc about the axis.
 StepContour bore_contour(const solid::BoreLayout& bore) {
@@ -111,7 +111,7 @@ void add_set_screw(std::vector<StepTool>& tools, const solid::BodyLayout& layout
                                 screw.z - solid::nut_corner(screw), layout.z_hub + solid::k_overshoot));
 }
 
-// ---- tie-offs ----
+// ---- tie-offs -------------------------------------------------------------------------------------------------------
 
 /// Heights above the groove's plane in print orientation, as z in the part.
 struct Upwards {

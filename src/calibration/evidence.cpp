@@ -287,8 +287,7 @@ std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::
   return rows;
 }
 
-// ---- caliper readings
-// ------------------------------------------------------------------------------------------------
+// ---- caliper readings -----------------------------------------------------------------------------------------------
 
 std::vector<HandReading> hand_readings(const DeclaredMechanism& declared) {
   std::vector<HandReading> readings;
