@@ -31,8 +31,7 @@ constexpr double k_drawn = 1e-6;         // mm, resolution of a drawing's coordi
 
 constexpr auto k_contour_layers =
     std::to_array<std::string_view>({"CUT_OUTER", "CUT_INNER", "P1_PITCH", "P2_PITCH", "P1_FLOOR", "P2_FLOOR", "BORE"});
-constexpr std::string_view k_as_declared =
-    "BORE";  // of a pulley's profile: as narrow as its shaft, and not cut from plates
+constexpr std::string_view k_as_declared = "BORE";  // as narrow as the shaft
 constexpr auto k_frame_layers = std::to_array<std::string_view>({"CHECK_10MM", "SHEET"});
 
 template <std::size_t n>
@@ -206,8 +205,8 @@ bool folds_back(const Edge& a, const Edge& b) {
 
 bool consecutive(const Edge& a, const Edge& b) {
   if (a.path != b.path) return false;
-  const std::size_t apart = a.index > b.index ? a.index - b.index : b.index - a.index;
-  return apart == 1 || (a.path->closed && apart == a.last);
+  const std::size_t steps = a.index > b.index ? a.index - b.index : b.index - a.index;
+  return steps == 1 || (a.path->closed && steps == a.last);
 }
 
 Vec2 crossing_point(const Edge& a, const Edge& b) {
@@ -445,7 +444,7 @@ Check check_inside(const Drawing& drawing) {
     const std::vector<Framed> outers = framed(drawing, pair.outer);
     if (outers.empty()) continue;
     for (const Framed& inner : framed(drawing, pair.inner)) {
-      const bool held = std::any_of(outers.begin(), outers.end(), [&](const Framed& outer) {
+      const bool is_inside = std::any_of(outers.begin(), outers.end(), [&](const Framed& outer) {
         budget -= std::min(budget, std::size_t{1});
         if (budget == 0 || !box_within(inner.box, outer.box)) return false;
         if (pair.outer == "SHEET") return true;  // a rectangle: its box is sufficient
@@ -456,7 +455,7 @@ Check check_inside(const Drawing& drawing) {
       if (budget == 0)
         return exactly("nothing_outside", static_cast<double>(outside + 1), 0, "1",
                        "the drawing has too many contours to check");
-      if (held || outside++ > 0) continue;
+      if (is_inside || outside++ > 0) continue;
       where = fmt::format("not inside {}: {}", pair.outer, place(*inner.path, inner.path->points.front()));
     }
   }

@@ -92,7 +92,7 @@ void fill(draco::Mesh& to, const solid::TriangleMesh& mesh) {
 // Reading ------------------------------------------------------------------------------------------------------------
 
 /// Entropy coding lets a few bytes announce any number of faces, and Draco allocates the announced number. A real mesh
-/// takes more than a byte for each face. The bound admits the most regular meshes.
+/// takes about a byte for each face. The bound also admits the most regular meshes, which take less.
 constexpr std::uint64_t k_most_faces_per_byte = 64;
 /// Bound on the ratio of decoded attributes to the file's size; below 20 for real meshes.
 constexpr std::uint64_t k_most_unpacking = 256;

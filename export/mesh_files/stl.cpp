@@ -57,7 +57,7 @@ bool has_high_byte(std::string_view bytes) {
 /// admesh and PrusaSlicer treat a binary STL as ASCII unless a byte > 127 occurs within 128 bytes after the header.
 /// Almost every facet has one, downward facets always (the sign of their normal). If the first facets have none, one
 /// that has is swapped with the first.
-void tell_from_ascii(std::string& bytes) {
+void distinguish_from_ascii(std::string& bytes) {
   constexpr std::size_t k_looked_at = 128;
   const std::string_view facets = std::string_view(bytes).substr(k_facets_start);
   if (has_high_byte(facets.substr(0, k_looked_at))) return;
@@ -179,7 +179,7 @@ std::uint32_t announced_facets(std::string_view bytes) {
   return count;
 }
 
-/// Number of facets of a binary file. A writer that did not know it left 0 or −1, and the size gives it. Bytes after
+/// Number of facets of a binary file. Writers that do not know it write 0 or −1; the size then gives it. Bytes after
 /// the announced facets are skipped unless they are facets. Empty if count and size contradict.
 std::optional<std::size_t> binary_facets(std::string_view bytes) {
   if (bytes.size() < k_facets_start) return std::nullopt;
@@ -221,7 +221,7 @@ std::string stl_bytes(const solid::TriangleMesh& mesh, const std::string& name) 
 
   char* to = bytes.data() + k_facets_start;
   for (const auto& triangle : mesh.triangles) to = put_facet(to, mesh, triangle);
-  tell_from_ascii(bytes);
+  distinguish_from_ascii(bytes);
   return bytes;
 }
 

@@ -33,7 +33,7 @@ std::string numbers(const std::vector<double>& values) {
   return text;
 }
 
-/// Converts a polynomial of a length per angle to one per length: `arm` times the angle.
+/// Converts a polynomial in an angle, with values in mm, to one in the length `arm` times that angle, in m.
 model::Polynomial over_arm(model::Polynomial p, double arm) {
   double power = 1e-3;
   for (double& c : p.c) {

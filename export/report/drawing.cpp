@@ -143,7 +143,7 @@ std::string tendon_name(transmission::Side side) { return side == transmission::
 std::string tendon_group(const TendonTrace& trace, const View& view, const Mechanism& mechanism,
                          transmission::Side side) {
   const double width = std::max(2.0, mechanism.tendon.diameter * view.scale);
-  // Dashes as long as the line is wide, so that tendon 1 is visible below tendon 2.
+  // Tendon 2 is dashed, so that tendon 1 is visible below it.
   const std::string dashes = side == transmission::Side::right
                                  ? ";stroke-dasharray:" + svg_number(3 * width) + " " + svg_number(1.6 * width)
                                  : "";
@@ -376,7 +376,7 @@ struct LegendEntry {
 };
 
 std::string legend(const std::vector<LegendEntry>& entries) {
-  // Two in a line: there the larger font of a narrow column has space.
+  // Two entries a line leave space for the larger font of a narrow column.
   std::string svg;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const double x = i % 2 == 0 ? 4 : 0.5 * k_profile_width, y = 44 + (i < 2 ? 0 : 24);
@@ -394,8 +394,7 @@ std::string profile_legend(const profile::Outline& outline) {
                  {"flange", "groove edge"}});
 }
 
-// The polar drawing for comparison
-// --------------------------------------------------------------------------------------
+// The polar drawing for comparison ------------------------------------------------------------------------------------
 
 /// A place of the active arc in polar coordinates about the axis.
 struct PolarPlace {
@@ -538,19 +537,19 @@ std::optional<Figure> polar_figure(const profile::SynthesisResult& synthesis, tr
   const std::vector<PolarPlace> drawing = polar_drawing(synthesis.stroke, side);
   if (is_round(drawing)) return std::nullopt;
   std::vector<Vec2> drawn;
-  std::vector<PolarPlace> apart;  // difference of the drawing from the profile
+  std::vector<PolarPlace> differences;  // of the drawing from the profile
   PolarPlace most;
   for (const PolarPlace& place : drawing) {
     drawn.push_back(place.r * unit(place.angle));
     const double difference = place.r - radius_towards(outline, place.angle);
     if (!std::isfinite(difference)) continue;
-    apart.push_back({place.alpha, place.angle, difference});
-    if (std::abs(difference) > std::abs(most.r)) most = apart.back();
+    differences.push_back({place.alpha, place.angle, difference});
+    if (std::abs(difference) > std::abs(most.r)) most = differences.back();
   }
   if (most.r == 0) return std::nullopt;
   const double factor = magnification(std::abs(most.r), drawing.front().r);
   std::vector<Vec2> magnified;
-  for (const PolarPlace& place : apart)
+  for (const PolarPlace& place : differences)
     magnified.push_back((radius_towards(outline, place.angle) + factor * place.r) * unit(place.angle));
 
   const std::string name(transmission::pulley_name(side));

@@ -21,7 +21,7 @@ std::vector<Vec2> of_side(const Product& product, std::size_t side, Value value)
   return points;
 }
 
-std::vector<Vec2> stretch(const std::vector<helix::SpiralRow>& rows, std::size_t first, std::size_t last) {
+std::vector<Vec2> plan_points(const std::vector<helix::SpiralRow>& rows, std::size_t first, std::size_t last) {
   std::vector<Vec2> points;
   for (std::size_t i = first; i <= last; ++i) points.emplace_back(rows[i].x, rows[i].y);
   return points;
@@ -59,7 +59,7 @@ Figure spiral_figure(const Product& product, transmission::Side side) {
   const double scale = (0.5 * k_size - k_margin) / reach;
   const auto drawn = [&](std::size_t first, std::size_t last) {
     std::vector<Vec2> points;
-    for (const Vec2& point : stretch(rows, first, last))
+    for (const Vec2& point : plan_points(rows, first, last))
       points.emplace_back(0.5 * k_size + scale * point.x(), k_heading + 0.5 * k_size - scale * point.y());
     return thinned(points, 0.1);
   };

@@ -100,7 +100,7 @@ Json helical_grooves_json(const Product& product) {
           helical_groove_json(product, transmission::Side::right)};
 }
 
-/// Null if `fusee kit` makes no rig for this joint that holds the tendons in a way of its own.
+/// Length to cut for the rig of `fusee kit`; null without a rig.
 Json cut_in_rig(const Product& product, transmission::Side side) {
   if (!product.rig) return nullptr;
   for (const KitCut& cut : rig_cuts(product, *product.rig)) {

@@ -43,7 +43,7 @@ std::string svg_element(const Figure& figure, std::string_view attributes, std::
 
 }  // namespace
 
-// page.css keeps texts readable by the width of the drawing, --w.
+// The drawing's width, --w, lets page.css keep its texts readable.
 std::string inline_svg(const Figure& figure) {
   const auto classes = [](const Figure& one, std::string_view name) {
     return std::string(name) + "\" style=\"--w:" + svg_number(one.width) + "\"";

@@ -25,7 +25,7 @@ std::vector<Vec2> sheath_curve(const Mechanism& mechanism, transmission::Side si
 Vec2 attachment(const Mechanism& mechanism, transmission::Side side, double theta);
 
 /// One tendon at one place of the stroke, in the frame of the mechanism: C → pin → pulley → along the groove to
-/// `wound_to`.
+/// the anchor's end of the active arc.
 ///
 /// Computed on the sampled outline by geometry alone (tangents to circles and polygons), independently of the
 /// transmission's formulas.

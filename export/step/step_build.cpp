@@ -276,7 +276,7 @@ StepPart helical_part(const Product& product) {
   return part;
 }
 
-// ---- scaling to the printed size ----
+// ---- scaling to the printed size ------------------------------------------------------------------------------------
 
 void scale(StepContour& contour, double by) {
   contour.start *= by;

@@ -199,7 +199,7 @@ TopoDS_Solid solid_of(const TopoDS_Shape& sewn_faces) {
   return outward(BRepBuilderAPI_MakeSolid(TopoDS::Shell(shells.Current())).Solid());
 }
 
-// ---- the body: rows and bands ----
+// ---- the body: rows and bands ---------------------------------------------------------------------------------------
 
 class BodyMaker {
  public:
@@ -296,7 +296,7 @@ class BodyMaker {
   std::vector<TopoDS_Face> faces_;
 };
 
-// ---- the body: a skin of faces ----
+// ---- the body: a skin of faces --------------------------------------------------------------------------------------
 
 class SkinMaker {
  public:
@@ -413,7 +413,7 @@ class SkinMaker {
   std::vector<TopoDS_Edge> edges_;
 };
 
-// ---- cut features ----
+// ---- cut features ---------------------------------------------------------------------------------------------------
 
 class ToolMaker {
  public:
@@ -598,7 +598,7 @@ void shorten_curves(const TopoDS_Shape& shape) {
   }
 }
 
-// ---- names, colours, bytes ----
+// ---- names, colours, bytes ------------------------------------------------------------------------------------------
 
 struct Zone {
   const char* name;
@@ -684,7 +684,7 @@ std::string write(const StepPart& part, std::string& complaint) {
   return {};
 }
 
-// ---- read again ----
+// ---- read again -----------------------------------------------------------------------------------------------------
 
 int unpaired_edges(const TopoDS_Shape& shape) {
   TopTools_IndexedMapOfShape edges;

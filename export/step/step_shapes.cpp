@@ -32,7 +32,7 @@ StepTool cylinder(const Vec2& centre, double radius, double low, double high) {
   return {{StepFrustum{centre, centre, std::min(low, high), std::max(low, high), radius, radius}}};
 }
 
-// ---- along the axis ----
+// ---- along the axis -------------------------------------------------------------------------------------------------
 
 /// The bore's outline; its first points may describe an arc about the axis.
 StepContour bore_contour(const solid::BoreLayout& bore) {
@@ -111,7 +111,7 @@ void add_set_screw(std::vector<StepTool>& tools, const solid::BodyLayout& layout
                                 screw.z - solid::nut_corner(screw), layout.z_hub + solid::k_overshoot));
 }
 
-// ---- tie-offs ----
+// ---- tie-offs -------------------------------------------------------------------------------------------------------
 
 /// Heights above the groove's plane in print orientation, as z in the part.
 struct Upwards {
@@ -154,7 +154,7 @@ ChannelPlan plan_of(const solid::Anchor& anchor, double half_width) {
   const auto half = static_cast<std::ptrdiff_t>(anchor.entry.size() / 2);
   const Polygon outer(anchor.entry.begin(), anchor.entry.begin() + half);
   const Polygon inner(anchor.entry.rbegin(), anchor.entry.rbegin() + half);
-  // The arc's part of the inner edge, which is an arc and a straight.
+  // The inner edge is an arc, whose last point has the index `arc`, and a straight.
   std::size_t arc = 0;
   const double inner_radius = bend.radius - half_width;
   while (arc + 1 < inner.size() && std::abs((inner[arc + 1] - bend.centre).norm() - inner_radius) < 1e-7) ++arc;
@@ -254,7 +254,7 @@ void add_pocket(std::vector<StepTool>& tools, const solid::Anchor& anchor, const
   tools.push_back(std::move(tool));
 }
 
-/// Coordinates seen from the face, which lies at 0: depths.
+/// Depths below a face, as z in the part.
 struct FromFace {
   double face = 0;
   double in = 1;

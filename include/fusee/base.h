@@ -25,9 +25,10 @@ namespace fusee {
 // ---- Failures -------------------------------------------------------------------------------------------------------
 // Errors and diagnostics: what is wrong, where, and what to change.
 //
-// There are three kinds of failure and no fourth:
+// There are four kinds of failure:
 //   bad input           InputError, with *all* its diagnostics
 //   infeasible design   a value (fusee/profile.h, fusee/solid.h)
+//   no place for output OutputError
 //   a bug in fusee      Bug, thrown by demand(), with the values that broke it
 
 /// Position in an input file. Lines and columns count from 1; 0 means "the whole file".
@@ -155,13 +156,13 @@ double distance_to_edges(const Polygon& polygon, const Vec2& point);
 Polygon convex_hull(Polygon points);
 
 // ---- Access to files ------------------------------------------------------------------------------------------------
-// Through it a run reads its inputs and reports its outputs. Bundles of a run are recorded and replayed with it.
+// A run reads its inputs and reports its outputs through a FileAccess, which can record or replay a bundle.
 
 /// Receives the next bytes of a file, in order.
 using TakeBlock = std::function<void(std::string_view block)>;
 
-/// Request for the bytes of one file, in blocks. Throws InputError when the file is missing, a directory, unreadable,
-/// larger than `limit` bytes, or not a regular file. Pipes are accepted with `pipes`.
+/// Request for the bytes of one file, in blocks. Reading throws InputError when the file is missing, a directory,
+/// unreadable, larger than `limit` bytes, or not a regular file. Pipes are accepted with `pipes`.
 struct ReadRequest {
   std::filesystem::path path;
   std::size_t limit = 0;

@@ -157,7 +157,7 @@ void set_statics(JointModel& model, const MountedMechanism& mounted);
 // Model: two elastic tendons that cannot push. Each has two spans with stick-slip capstan friction at the pin between
 // them, and further spans with friction at each bend of a sheath. The wound tendon slides in its groove as far as
 // friction permits (JointModel::groove_friction), as does the tendon on the joint's drum (drum_friction). Limits: the
-// paper's [6]-[11] (tension.h).
+// paper's [6]-[11] (fusee/transmission.h).
 
 /// Changes of both tendons since home: creep, temperature, a slipping anchor. Not included in energies.
 struct TendonChange {

@@ -290,7 +290,7 @@ std::string_view word(CorrectableBy remedy);  ///< "pulley", "table" or ""
 // 2 C → D → P2 on the right. α > 0 turns the pulley clockwise: tendon 1 is paid out, tendon 2 is wound in, and θ
 // increases.
 //
-// Each number has one row in the field table (fields.h) with its key, unit, range, default and meaning.
+// Each number has one row in the field table (fusee/mechanism_file.h) with its key, unit, range, default and meaning.
 
 /// The end of a tendon, in the link's frame at home. mm
 struct Attachment {
@@ -378,7 +378,7 @@ struct TorqueRow {
   bool operator==(const TorqueRow&) const = default;
 };
 
-/// Place and function of the pulley. (solid/pulley.h's Pulley is the resulting part.)
+/// Place and function of the pulley. (solid::Pulley is the resulting part.)
 struct PulleyDrive {
   double EF = 0;  ///< from the line of the pins down to the pulley's axis G; with a sheath only for drawings
   double r1 = 0;  ///< P1's pitch radius (law = compensate)

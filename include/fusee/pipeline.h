@@ -184,7 +184,7 @@ struct CompareResult {
 };
 
 /// Reads the runs of both states, compares them with the joint of `file`, and writes comparison.json, report.html and
-/// manifest.json. Files that are not two states of one joint give a verdict and the same files. Throws InputError for
+/// manifest.json. Runs that are not of two states of one joint give a verdict, and all files too. Throws InputError for
 /// unreadable input and for a repeated run, and OutputError before the work if the output may not be written.
 CompareResult compare(const MechanismFile& file, const std::vector<std::filesystem::path>& before,
                       const std::vector<std::filesystem::path>& after, const CompareOptions& options,

@@ -259,7 +259,7 @@ class Transmission {
 // ---- Tensions -------------------------------------------------------------------------------------------------------
 // The paper's chain of forces at one point of the stroke: T2 [6], φ [8], T_b [7], Δ [9], Δθ [10],[11].
 //
-// One tendon carries the load and the other is slack, without pretension. equilibrium.h has the full model.
+// One tendon carries the load and the other is slack, without pretension. fusee/joint.h has the full model.
 
 /// Forces and elongation by the paper's formulas.
 struct PaperForces {

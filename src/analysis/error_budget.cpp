@@ -17,7 +17,7 @@ std::vector<double> places_of(const transmission::Transmission& transmission) {
   return transmission::alphas_over_range(transmission, k_places);
 }
 
-// ---- simplifications -------------------------------------------------------------------------------------------------
+// ---- simplifications ------------------------------------------------------------------------------------------------
 
 /// Skips undefined deviations (a tendon beyond the curve's end).
 void include(ErrorSource& source, double deviation, double alpha) {

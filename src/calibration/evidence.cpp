@@ -26,7 +26,7 @@ constexpr std::size_t k_rows_a_dwell = 3;
 /// Segments repeat one another only if their α end points agree within this share of the range of α. A load that varies
 /// with the motion divides strokes into segments at different places; their difference is θ(α), not noise (the jaw of
 /// docs/background/real-joint.md).
-constexpr double k_one_way = 0.1;
+constexpr double k_place_tolerance = 0.1;
 
 /// Selects whole cycles, evenly spread, so that each keeps enough rows; of other strokes the ends are kept as history.
 std::vector<bool> select_strokes(const measurement::Run& run, std::size_t most_pairs) {
@@ -287,8 +287,7 @@ std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::
   return rows;
 }
 
-// ---- caliper readings
-// ------------------------------------------------------------------------------------------------
+// ---- caliper readings -----------------------------------------------------------------------------------------------
 
 std::vector<HandReading> hand_readings(const DeclaredMechanism& declared) {
   std::vector<HandReading> readings;
@@ -435,7 +434,8 @@ class BlockMaker {
   }
 
   bool in_one_place(const SegmentKind& a, const SegmentKind& b) const {
-    const double tolerance = (a.is_dwell ? k_dwell_tolerance : k_one_way) * (alphas_.any() ? alphas_.size() : 0.0);
+    const double tolerance =
+        (a.is_dwell ? k_dwell_tolerance : k_place_tolerance) * (alphas_.any() ? alphas_.size() : 0.0);
     return std::abs(a.from - b.from) <= tolerance && std::abs(a.to - b.to) <= tolerance;
   }
 
@@ -523,10 +523,10 @@ void weigh(Evidence& evidence) {
   joint::Forward forward(*evidence.declared, evidence.log, evidence.earlier);
   const Eigen::VectorXd declared = flat(forward({}));
   Discrepancy discrepancy = discrepancy_of(evidence, deflection(evidence, declared));
-  const Eigen::VectorXd left = (evidence.theta - declared)(evidence.rows());
+  const Eigen::VectorXd residual = (evidence.theta - declared)(evidence.rows());
   Tangent nothing;
-  nothing.residual = left.unaryExpr([](double angle) { return std::isfinite(angle) ? angle : 0.0; });
-  nothing.J.resize(left.size(), 0);
+  nothing.residual = residual.unaryExpr([](double angle) { return std::isfinite(angle) ? angle : 0.0; });
+  nothing.J.resize(residual.size(), 0);
   const EvidenceModel white(std::move(discrepancy), evidence.floor, 1.0);
   const Posterior explained = white.best(nothing, white.first_guess());
   const double autocorrelation =

@@ -66,7 +66,7 @@ struct Evidence {
 Evidence gather(const DeclaredMechanism& declared, const measurement::Measurement& measurement, double floor,
                 const std::optional<joint::EarlierState>& earlier = {});
 
-/// Fills `marginal` from all other members.
+/// Fills `evidence_model` from all other members.
 void weigh(Evidence& evidence);
 
 /// Thins each run to a number of rows, evenly over its strokes.

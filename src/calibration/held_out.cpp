@@ -112,10 +112,10 @@ Fitted effects_alone(const Fit& fit) {
   return fitted;
 }
 
-// ---- discrepancy beside the effects
-// -----------------------------------------------------------------------------------
+// ---- discrepancy beside the effects ---------------------------------------------------------------------------------
 
-/// Columns of the discrepancy in use and their scales: in these units the wide prior is that of the amplitude.
+/// Columns of the discrepancy in use, scaled so that the wide prior of their coefficients is the prior with the fitted
+/// amplitudes.
 struct Scaled {
   std::vector<Eigen::Index> columns;
   std::vector<double> size;

@@ -81,7 +81,7 @@ Baseline baseline_of(const Calibration& found) {
   return {found.before.held_out_rms, found.after_effects.held_out_rms, is_explained(found)};
 }
 
-/// True if the corrected file alone explains data that several large effects explain equally well.
+/// True if the corrected file alone explains data far from the declared joint, even if effects explain them as well.
 bool is_simpler(const Trial& trial, const Baseline& baseline) {
   return is_within(trial, k_thresholds.input_error_alone) &&
          baseline.declared > k_thresholds.input_error_large * trial.floor;

@@ -7,9 +7,9 @@ namespace fusee::calibration {
 
 namespace {
 
-/// Weight of a row of a joint with so much play, 1 for a taut joint.
+/// Weight of a row in which the joint has the play `loose`, 1 if it is taut.
 double weight_of(double loose, double floor) {
-  // share of the play within which a loose joint may rest, standard deviation
+  // Standard deviation of the place at which a loose joint rests, as a share of its play.
   constexpr double uncertain = 1.0 / 3.0;
   return floor / std::hypot(floor, uncertain * loose);
 }
@@ -54,14 +54,14 @@ LooseRows loose_rows(const Eigen::VectorXd& residual, const Eigen::VectorXd& loo
     if (loose[i] > 0) count += 1;
   }
   if (count == 0) return result;
-  const auto surely_pushed = [&](Eigen::Index i, double share) {
+  const auto pushed_probability = [&](Eigen::Index i, double share) {
     return (1.0 - share) * pushed[i] / ((1.0 - share) * pushed[i] + share * anywhere[i]);
   };
   double share = 0.5;  // share of rows that rest anywhere, by expectation maximisation
   for (int round = 0; round < k_most_rounds; ++round) {
     double sum = 0;
     for (Eigen::Index i = 0; i < rows; ++i) {
-      if (loose[i] > 0) sum += 1.0 - surely_pushed(i, share);
+      if (loose[i] > 0) sum += 1.0 - pushed_probability(i, share);
     }
     share = std::clamp(sum / count, 1e-9, 1.0 - 1e-9);
   }
@@ -70,7 +70,7 @@ LooseRows loose_rows(const Eigen::VectorXd& residual, const Eigen::VectorXd& loo
     if (!(loose[i] > 0)) continue;
     const double squares = residual[i] * residual[i] / (floor * floor);
     result.nats -= std::log((1.0 - share) * pushed[i] + share * anywhere[i]) + 0.5 * squares;
-    result.extra_information[i] = surely_pushed(i, share) * (1.0 / (weight[i] * weight[i]) - 1.0);
+    result.extra_information[i] = pushed_probability(i, share) * (1.0 / (weight[i] * weight[i]) - 1.0);
   }
   return result;
 }

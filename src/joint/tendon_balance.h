@@ -28,7 +28,7 @@ struct TendonBalance {
 
 TendonBalance balance(const Spans& spans);
 
-/// d upper / d upper_length without crossing material (`upper_tension` > 0).
+/// d upper / d upper_length without crossing material; TendonBalance::upper > 0.
 double stuck_rate(const Spans& spans, const TendonBalance& now);
 /// d upper / d upper_length with pins that slide at the present tension ratio.
 double sliding_rate(const Spans& spans, const TendonBalance& now);

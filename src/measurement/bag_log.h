@@ -1,5 +1,5 @@
 /// \file
-/// Internal: messages of a ROS 2 bag, whatever file they come from, to rows.
+/// Internal: converts messages of a ROS 2 bag, from any kind of file, to rows.
 #pragma once
 
 #include <cstddef>

@@ -9,7 +9,7 @@
 
 namespace fusee::measurement {
 
-/// Reading a number of a std_msgs message: nullptr for types that are not one number.
+/// Reads the number of a std_msgs message; nullptr for types that are not one number.
 class CdrReader;
 using ReadNumber = double (*)(CdrReader&);
 

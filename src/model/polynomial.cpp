@@ -20,7 +20,7 @@ Eigen::VectorXd chebyshev(double t, int degree) {
   return values;
 }
 
-/// Converts a polynomial in t = (x − middle)/half to one in x.
+/// Converts a Chebyshev series in t = (x − middle)/half to a polynomial in x.
 Polynomial in_x(const Eigen::VectorXd& c, double middle, double half) {
   const auto degree = static_cast<int>(c.size()) - 1;
   using Row = std::vector<double>;
@@ -122,8 +122,8 @@ double Polynomial::slope(double x) const {
 }
 
 // On degree + 2 of the points, the best polynomial has equal errors with alternating signs, which gives a linear
-// system. The point with the largest error enters this reference until it belongs to it. The error of the reference
-// increases with each exchange.
+// system. The point with the largest error enters this reference, unless it is in it: then the polynomial is the best.
+// The error of the reference increases with each exchange.
 PolynomialFit least_largest_error(const std::vector<FitPoint>& points, int degree) {
   const std::size_t n = static_cast<std::size_t>(degree) + 2;
   demand(points.size() > n && points.back().x > points.front().x,

@@ -22,7 +22,7 @@ struct BoxBound {
 /// Computes bounds. Calls are deterministic and thread-safe.
 class BoundCalculator {
  public:
-  /// Designs satisfy the problem's constraints, its cap and, if `feasible`, the conditions of conditions_at.h.
+  /// Designs satisfy the problem's constraints, its cap and, if Problem::feasible, the conditions of conditions_at.h.
   BoundCalculator(const Problem& problem, Objective objective);
 
   /// Bounds the designs of the box with an objective of at most `limit`, and cuts off parts of the box without such

@@ -103,7 +103,7 @@ profile::RewindResult rewind_mesh(const joint::IdentifiedJoint& joint, const sol
                       floor_in_section(mesh, layout.z_p2, layout.scale));
 }
 
-// ---- moved parts ------------------------------------------------------------------------------------------------
+// ---- moved parts ----------------------------------------------------------------------------------------------------
 
 /// Half of the facets' deviation, mm: a part that fits better than this was not moved.
 constexpr double k_as_made = 0.005;
@@ -198,7 +198,7 @@ RewoundPart rewind_placed(const joint::IdentifiedJoint& joint, std::vector<solid
   return result;
 }
 
-// ---- helical parts ----------------------------------------------------------------------------------------------
+// ---- helical parts --------------------------------------------------------------------------------------------------
 
 bool is_helical(const joint::IdentifiedJoint& joint) {
   return profile::need_several_turns(declared_curves(joint)) && !profile::kept_to_one_turn(joint.mechanism);

@@ -73,12 +73,12 @@ std::vector<Check> checks_within(const PrintLimits& limits, const TriangleMesh& 
   const Overhangs overhangs = find_overhangs(mesh, limits.overhang, limits.first_layer);
   WorstPlace flatness{-overhangs.flattest_other, overhangs.flattest_other_at}, step, bridge;
   for (const OverhangPatch& patch : overhangs.patches) {
-    const SupportGaps reach = support_gaps_of(patch, limits);
-    step.consider(reach.step, reach.step_at);
-    bridge.consider(reach.bridge, reach.bridge_at);
-    if (reach.step > limits.step) step.count(patch);
-    if (reach.bridge > limits.bridge) bridge.count(patch);
-    if (reach.within(limits)) continue;
+    const SupportGaps gaps = support_gaps_of(patch, limits);
+    step.consider(gaps.step, gaps.step_at);
+    bridge.consider(gaps.bridge, gaps.bridge_at);
+    if (gaps.step > limits.step) step.count(patch);
+    if (gaps.bridge > limits.bridge) bridge.count(patch);
+    if (gaps.within(limits)) continue;
     flatness.consider(-patch.flattest, patch.flattest_at);
     flatness.count(patch);
   }

@@ -86,8 +86,8 @@ class Conditions {
     return least;
   }
 
-  // Checks the wall for the bore as drawn and as printed. Where holes come out larger, the drawing of the latter is
-  // cut.
+  // Checks the wall for the larger of two bores: of the part, with compensation for printed holes, and of the shaft,
+  // which profile.dxf has.
   void add_bore_wall(const profile::Outline& outline) {
     const Polygon ground = floor(outline);
     const Wall made = wall_to(ground, layout_.bore), printed = wall_to(ground, bore_of_shaft(mechanism_, layout_.bore));

@@ -42,7 +42,7 @@ class FaceHoleSearch {
                   station.lap,
                   station.wrap,
                   0};
-    hole.length = k_beyond_rim + std::max(0.0, support_gaps_of(*site_.rim, hole.normal) - hole.hole.dot(hole.normal));
+    hole.length = k_beyond_rim + std::max(0.0, support_of(*site_.rim, hole.normal) - hole.hole.dot(hole.normal));
     if (!is_free(hole.bars(layout_.channel_width).front())) return std::nullopt;
     for (const double share : {1.0, 0.75, 0.5, 0.25}) {
       FaceHole sunk = hole;
@@ -53,7 +53,7 @@ class FaceHoleSearch {
     return hole;
   }
 
-  static double support_gaps_of(const Polygon& rim, const Vec2& direction) {
+  static double support_of(const Polygon& rim, const Vec2& direction) {
     double most = 0;
     for (const Vec2& point : rim) most = std::max(most, point.dot(direction));
     return most;

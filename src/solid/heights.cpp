@@ -32,7 +32,7 @@ void choose_elephant_foot(BodyLayout& layout, double wanted) {
   }
 }
 
-// P1 is printed turned over where it is printed separately.
+// If P1 is printed separately, it is turned over.
 void choose_walls(BodyLayout& layout, const Mechanism& mechanism) {
   const double lean = 0.5 * mechanism.body.groove_angle;
   const auto half = [&](double angle) {

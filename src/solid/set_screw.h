@@ -22,8 +22,8 @@ struct Screw {
 /// "M2" … "M6", "#2-56" … "1/4-20"; null for any other name.
 const Screw* find_screw(const std::string& name);
 
-/// Hole and nut trap in a hub on `bore`, at half the hub's height or as high as the nut requires. `layout` must have
-/// its heights and bore.
+/// Hole and nut trap in the hub, at half its height or as high as the nut requires. `layout` must have its heights and
+/// bore.
 SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compensation, double wall,
                                 const BodyLayout& layout);
 

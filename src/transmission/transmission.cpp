@@ -39,9 +39,9 @@ TendonPoint tendon_point(const PinPlace& place, Side side, const Arm& arm, doubl
   point.p = pulley_radius(arm.m, g) + excess.p;
   point.dp = arm.dm * g * g + arm.m * dg + excess.dp;
   point.d2p = arm.d2m * g * g * g + 3.0 * arm.dm * g * dg + arm.m * d2g + excess.d2p;
-  Domain unasked;  // NaN where the pin lies inside the pulley
+  Domain ignored_domain;  // NaN where the pin lies inside the pulley
   const LowerGuide guide = place.lower();
-  const LowerLine<double> lower = lower_line(point.p, guide.rho, guide.c(), guide.phi(), unasked);
+  const LowerLine<double> lower = lower_line(point.p, guide.rho, guide.c(), guide.phi(), ignored_domain);
   point.upper_normal = to_world(side, arm.span.normal);
   point.lower_normal = to_world(side, lower.normal);
   point.wrap = arm.span.normal - place.off_pin(lower.normal);
@@ -61,7 +61,7 @@ void lengthen(TransmissionPoint& point, const ChebyshevSeries::Value& q, double 
   point.d2g = d2g * d1 * d1 * d1 + 3.0 * dg * d1 * d2 + g * d3;
 }
 
-/// dq/dα in the tendon's image: L + σ = q + const and d(L + σ) = −m dθ + p dα.
+/// dq/dα in the tendon's image, by [h1] of physics.md and d(L + σ) = −m dθ + p dα.
 Excess excess_of(const ChebyshevSeries::Value& q, Side side) {
   const double sign = mirror_sign(side);
   return {sign * q.d1, sign * q.d2, sign * q.d3};

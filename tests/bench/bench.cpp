@@ -187,7 +187,7 @@ void build_by_tolerance(benchmark::State& state) {
 }
 BENCHMARK(build_by_tolerance)->Arg(1)->Arg(4)->Arg(16)->Unit(benchmark::kMillisecond);
 
-// Growth up to a million triangles: the complexity follows from the exponent ("N" is linear).
+// Growth up to a million triangles, compared with a linear one (RMS of the fit).
 void sizes(benchmark::internal::Benchmark* bench) {
   bench->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMillisecond)->Complexity(benchmark::oN);
 }

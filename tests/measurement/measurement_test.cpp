@@ -690,7 +690,7 @@ TEST(MeasurementAgainstDeclared, NoisyMotionSuspectsNoColumn) {
   EXPECT_THAT(reasons_of(measurement), HasSubstr("use a larger range"));
 }
 
-// ---- input of simulations --------------------------------------------------------------------------------------------
+// ---- input of simulations -------------------------------------------------------------------------------------------
 
 std::filesystem::path written(const std::string& text) {
   const std::filesystem::path path =

@@ -34,7 +34,7 @@ std::vector<Row> held_at(const std::vector<double>& angles, int rows, int betwee
   return log;
 }
 
-/// θ is a quarter of α minus .05° per newton, up to `stop`; both sensors scatter.
+/// θ is a quarter of α minus 0.05° per newton, up to `stop`; both sensors scatter.
 Measurement read(const std::vector<Row>& log, double noise = 0.01, double alpha_quantum = 0, bool has_load = true,
                  double stop = 90) {
   std::mt19937 random(3);
@@ -58,8 +58,8 @@ std::string reasons_of(const Measurement& measurement) {
   return all;
 }
 
-/// Directions from which each dwell is approached: "+40 -40 …", with "·" between strokes.
-std::string stands_of(const fusee::measurement::Run& run) {
+/// Dwells with the direction of approach, "+40 -40 …"; "·" for a segment in motion.
+std::string dwells_of(const fusee::measurement::Run& run) {
   std::string words;
   for (const Segment& segment : run.segments) {
     const int direction = run.strokes[segment.stroke].direction;
@@ -89,29 +89,29 @@ TEST(Segments, RecordDirectionOfApproach) {
     for (const int between : {0, 2}) {
       const Measurement m = read(held_at({-40, 0, 40, 10, -40, 0, 40, 10, -40}, 12, between), noise);
       EXPECT_EQ(reasons_of(m), "") << noise << " " << between;
-      const std::string stands = stands_of(m.runs[0]);
-      EXPECT_EQ(stands, between == 0 ? "+-40 +0 +40 -10 --40 +0 +40 -10 --40"
+      const std::string dwells = dwells_of(m.runs[0]);
+      EXPECT_EQ(dwells, between == 0 ? "+-40 +0 +40 -10 --40 +0 +40 -10 --40"
                                      : "+-40 · +0 · +40 · -10 · --40 · +0 · +40 · -10 · --40")
           << noise;
     }
   }
 }
 
-TEST(Segments, AlternatingEndsAreOneDwellStrokes) {
+TEST(Segments, StrokesBetweenEndsAreSingleDwells) {
   const Measurement m = read(held_at({-40, 40, -40, 40, -40, 40}, 20));
   EXPECT_EQ(reasons_of(m), "");
-  EXPECT_EQ(stands_of(m.runs[0]), "+-40 +40 --40 +40 --40 +40");
+  EXPECT_EQ(dwells_of(m.runs[0]), "+-40 +40 --40 +40 --40 +40");
   EXPECT_EQ(m.runs[0].speed, 0);
   EXPECT_EQ(m.alpha_quantum, 0) << "dwell angles are not sensor steps";
   EXPECT_THAT(m.notes, ElementsAre(HasSubstr("alpha is held 6 times")));
 }
 
-/// Three rows an end scatter like jitter, and a joint that stops early does not follow.
+/// Three rows at each end look like jitter, and the joint, which stops early, does not follow.
 TEST(Segments, JointMayStopEarly) {
   const std::vector<double> ends = {-95, 94, -72, 70, -48, 46, -24, 23};
   const Measurement stopped = read(held_at(ends, 3), 0.002, 0, true, -10);
   EXPECT_THAT(reasons_of(stopped), IsEmpty());
-  EXPECT_EQ(stands_of(stopped.runs.front()), "+-95 +94 --72 +70 --48 +46 --24 +23");
+  EXPECT_EQ(dwells_of(stopped.runs.front()), "+-95 +94 --72 +70 --48 +46 --24 +23");
 }
 
 TEST(Segments, OneRowAtEachEndIsMotion) {
@@ -124,16 +124,16 @@ TEST(Segments, OneRowAtEachEndIsMotion) {
 
 TEST(Segments, LargeStepIsNotUnwrapped) {
   const Measurement m = read(held_at({-150, 150, -150, 150}, 10));
-  EXPECT_EQ(stands_of(m.runs[0]), "+-150 +150 --150 +150");
+  EXPECT_EQ(dwells_of(m.runs[0]), "+-150 +150 --150 +150");
 }
 
 TEST(Segments, FlickeringSensorIsDwell) {
   const Measurement m = read(held_at({-40, 0, 40, 0, -40, 0, 40}, 30), 0.05, 0.1);
-  EXPECT_EQ(stands_of(m.runs[0]), "+-40 +0 +40 -0 --40 +0 +40");
+  EXPECT_EQ(dwells_of(m.runs[0]), "+-40 +0 +40 -0 --40 +0 +40");
   EXPECT_NEAR(degrees(m.alpha_quantum), 0.1, 1e-6);
 }
 
-// Sweeps, slow or coarse, with dwells or round ends, have no segments below a stroke.
+// In a sweep, slow or coarse, with dwells or round ends, each stroke is one segment.
 TEST(Segments, SweepHasWholeStrokes) {
   std::vector<double> sine, dwells;
   for (int i = 0; i < 1200; ++i) sine.push_back(40 * std::sin(k_two_pi * i / 300.0));

@@ -40,14 +40,14 @@ struct Include {
   std::string description() const { return file.string() + ":" + std::to_string(line) + " includes " + target; }
 };
 
-/// "fusee/solid.h" → "solid"; "fusee/mechanism_file.h" and "mechanism/reader.h" → "mechanism"; else "".
+/// "fusee/solid.h" → "solid"; "fusee/mechanism_file.h" and "mechanism/catalogue.h" → "mechanism"; else "".
 std::string module_of(const std::string& target) {
   static const std::regex pattern("^(?:fusee/)?([a-z_]+?)(?:/|(?:_file)?\\.h$)");
   std::smatch match;
   return std::regex_search(target, match, pattern) && flow().count(match[1]) ? match[1].str() : "";
 }
 
-/// include/fusee/solid.h and src/solid/mesh.cpp → "solid"; export/stl.cpp → "export".
+/// include/fusee/solid.h and src/solid/mesh.cpp → "solid"; export/tool.h → "export".
 std::string home_of(const fs::path& file) {
   const std::string path = file.generic_string();
   for (const std::string prefix : {"include/", "src/", ""}) {

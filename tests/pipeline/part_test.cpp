@@ -92,7 +92,7 @@ TEST_F(MadePart, RejectsPartWithoutGrooves) {
   EXPECT_THROW(pipeline::rewind_part({*mechanism_, {}}, solid::TriangleMesh()), InputError);
 }
 
-// ---- moved parts ---------------------------------------------------------------------------------
+// ---- moved parts ----------------------------------------------------------------------------------------------------
 
 /// Turned over about x or not, then turned about its axis, then moved; rounded to floats as in an STL.
 solid::TriangleMesh put(solid::TriangleMesh mesh, bool over, double turn_deg, const Vec3& by) {

@@ -247,8 +247,8 @@ TEST(SeveralTurnsFiles, ScadHasBothGrooves) {
   for (const char* none : {"module channel", "//= ", "face_holes"}) EXPECT_THAT(program, Not(HasSubstr(none)));
 }
 
-// The ceilings of channels slope by 57.5° at least: flatter ones would be impossible on printers with steeper overhang
-// limits.
+// The ceilings of channels slope by at least 57.5° (k_flattest_peak in run_out.cpp), also for printers that can print
+// flatter ones.
 TEST(SeveralTurnsPrint, FitEveryPrinter) {
   for (const char* profile : {"wrist_turns", "elbow_capstan"}) {
     for (const char* overhang : {"20", "35", "60", "70"})

@@ -171,7 +171,7 @@ class Agreement(harness.Scratch):
             self.assertLess(number.ci95[0], number.change)
             self.assertGreater(number.ci95[1], number.change)
 
-    def test_calibrate_from_columns(self):
+    def test_simulate_from_columns(self):
         """Columns give the same result as a file with them."""
         with open(RUNS[0]) as lines:
             rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))

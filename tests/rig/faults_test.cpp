@@ -244,7 +244,7 @@ TEST(Displaced, LooseAxisShortensLink) {
   EXPECT_GT(most_moved, 1e-3);
 }
 
-// ---- random numbers -----------------------------------------------------------------------------------------------------
+// ---- random numbers -------------------------------------------------------------------------------------------------
 
 double act(const Action& action, const Moment& now, std::vector<double>& memory) {
   return action.act(now, action.numbers, memory);

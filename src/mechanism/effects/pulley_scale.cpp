@@ -4,7 +4,7 @@
 namespace fusee {
 namespace {
 
-constexpr double k_of_a_diameter = 0.0015;  // uncertainty of a print's scale from three readings of 0.1 mm in 40 mm
+constexpr double k_scale_by_caliper = 0.0015;  // uncertainty of a print's scale from three readings of 0.1 mm in 40 mm
 
 std::vector<CaliperReading> by_diameters(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.pulley_scale, 1);
@@ -33,7 +33,7 @@ Effect pulley_scale(JointKind) {
        .key = key::in_percent("pulley_scale_percent", -50, 100, "relative enlargement of the made pulley"),
        .merge_rule = MergeRule::compound,
        .by_hand = {"measure two diameters of the print with a caliper and enter measured/nominal as prior.pulley_scale",
-                   k_of_a_diameter, by_diameters, "prior.pulley_scale"},
+                   k_scale_by_caliper, by_diameters, "prior.pulley_scale"},
        .sign = {"both pulleys are too small", "both pulleys are too large"}}};
   return effect;
 }

@@ -137,7 +137,7 @@ std::string kept_error(const std::string& bytes) {
 }
 
 // Names are found by their namespace, whatever prefix another program gave it.
-TEST(Threemf, FindsMechanismUnderAnyPrefixAndNoOther) {
+TEST(Threemf, FindsMechanismByNamespace) {
   const auto with = [](const std::string& attributes, const std::string& metadata) {
     return package("<model " + attributes + ">" + metadata + "<resources/><build/></model>");
   };
@@ -236,7 +236,7 @@ TEST(ThreemfReader, RejectsUnknownRequiredExtension) {
               HasSubstr("requires the extension 'http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02'"));
   EXPECT_THAT(error_of(package(model(object, item, "requiredextensions='q'")), "x.3mf"),
               HasSubstr("undeclared prefix 'q'"));
-  // One that is not required, and those that are read or add colour alone.
+  // Extensions are accepted that are not required, are read, or only add colour.
   EXPECT_EQ(error_of(package(model(object, item, beams)), "x.3mf"), "");
   EXPECT_EQ(error_of(package(model(object, item,
                                    "xmlns:p='http://schemas.microsoft.com/3dmanufacturing/production/2015/06' "

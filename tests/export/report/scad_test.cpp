@@ -86,7 +86,7 @@ TEST(Scad, OmitsParametersOfMissingFeatures) {
   EXPECT_LT(with.find("\nset_screw = true;"), with.find("/* [Hidden] */"));
 }
 
-TEST(Scad, NonConvexBodiesGiveConvexity) {
+TEST(Scad, NonConvexBodiesStateConvexity) {
   const std::string text = scad_text(product_of());
   for (const std::string body : {" polyhedron(", "bore_outline();"}) {
     std::size_t found = text.find(body);

@@ -153,7 +153,7 @@ TEST_F(Skin, VolumeMatchesBlank) {
       continue;
     }
     if (const auto* hub = std::get_if<StepSkin::Cylinder>(&face.surface)) {
-      // Half of it.
+      // Each of two faces is half of the cylinder.
       const StepSkin::Use& up = face.loops.front()[1];
       volume += k_pi * hub->radius * hub->radius * std::abs(up.to.y() - up.from.y()) / 3.0;
       continue;
