@@ -60,6 +60,7 @@ class ColumnFinder {
     }
     header_.has_angles = all_angles;
     refuse_shared_columns();
+    note_unread_load();
     return std::move(header_);
   }
 
@@ -167,6 +168,20 @@ class ColumnFinder {
     if (is_load)
       header_.notes.push_back("load: taken as N, as the name " + shown(column.name) +
                               " states no unit (--unit load=kg overrides this)");
+  }
+
+  /// Without a load, a column whose name ends in a unit of one ("Last_N") may be it.
+  void note_unread_load() {
+    const auto has_role = [&](const Column& column) { return column.role == "load"; };
+    if (std::any_of(header_.columns.begin(), header_.columns.end(), has_role)) return;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const auto is_this = [&](const Column& column) { return column.index == i; };
+      const ColumnName name = parse_column_name(names_[i], Quantity::load);
+      if (name.unit == nullptr || name.base.empty()) continue;
+      if (std::any_of(header_.columns.begin(), header_.columns.end(), is_this)) continue;
+      header_.notes.push_back("column " + shown(names_[i]) +
+                              " is not used: if it is the load, add --column load=" + argument(names_[i]));
+    }
   }
 
   /// Refuses a column that is taken for two roles.

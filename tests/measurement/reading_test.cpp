@@ -457,6 +457,10 @@ TEST(LoggedLoads, RejectUnknownUnit) {
   EXPECT_THAT(error_of(logged("load_stone"), named({{"load", "load_stone"}})), HasSubstr("units: N, mN, cN"));
   EXPECT_THAT(error_of(logged("pull"), in_units({{"load", "stone"}})), HasSubstr("there is no unit \"stone\" of load"));
   EXPECT_THAT(read(logged("load_cell")).notes, HasSubstr("column \"load_cell\" is not used"));
+  EXPECT_THAT(read(logged("Last_N")).notes,
+              HasSubstr("column \"Last_N\" is not used: if it is the load, add --column load=Last_N"));
+  EXPECT_EQ(read(logged("Last_N"), named({{"load", "Last_N"}})).notes, read(logged("load_N")).notes);
+  EXPECT_EQ(read(logged("tension1_N")).notes, read(logged("load_N")).notes);
   const ReadRun bare = read(logged("pull"), named({{"load", "pull"}}));
   EXPECT_THAT(bare.notes, HasSubstr("load: taken as N, as the name \"pull\" states no unit"));
   EXPECT_THAT(error_of("alpha_deg,theta_deg,tension1_Nm\n1,2,3\n", named({{"tension1", "tension1_Nm"}})),
