@@ -160,7 +160,7 @@ class UnitFinder {
     if (column.ticks_per_turn == 0 && column.least >= 0 && column.most < found_ticks_)
       column.ticks_per_turn = found_ticks_;  // of α's encoder, assumed to be of the same type
     if (column.ticks_per_turn == 0) {
-      return refuse(column.role + ": " + shown(column.name) + " dwells " + values_of(column) +
+      return refuse(column.role + ": " + shown(column.name) + " has " + values_of(column) +
                         ", which look like counts of an encoder",
                     "give the counts a turn, --ticks-per-turn " + column.role + "=4096, or their unit: --unit " +
                         column.role + "=deg");
