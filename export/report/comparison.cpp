@@ -92,7 +92,8 @@ std::string percentage_sign_filled(std::string_view text, const std::string& siz
   return words;
 }
 
-/// The most significant number: the largest ratio of change to interval width. A number without an interval follows from others.
+/// The most significant number: the largest ratio of change to interval width. A number without an interval follows from
+/// others.
 const calibration::ChangedParameter* leading(const calibration::StateChange& change) {
   const auto certainty = [](const calibration::ChangedParameter& p) {
     return p.high > p.low ? std::abs(p.change()) / (p.high - p.low) : 0.0;
@@ -109,7 +110,8 @@ std::string interval_words(const calibration::ChangedParameter& parameter, const
   return with_sign(parameter.low) + " … " + with_sign(parameter.high) + unit;
 }
 
-/// "Tendon 1 lost 4.2 N of pretension (95 %: −4.6 … −3.8 N)". An interval with both signs has none in words.
+/// "Tendon 1 lost 4.2 N of pretension (95 %: −4.6 … −3.8 N)". If the interval contains 0, no direction
+/// is stated.
 std::string sentence(const calibration::StateChange& change, const std::string& load_unit) {
   const calibration::ChangedParameter* number = leading(change);
   if (number == nullptr) return first_upper(open_words(change.name)) + " changed";

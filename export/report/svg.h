@@ -17,7 +17,7 @@ struct Figure {
   std::string title;       ///< alternative text
   std::string body;        ///< SVG elements
   std::string attributes;  ///< more attributes of the svg element, such as " data-x=\"1\""
-  /// The same figure laid out for a narrow column. If empty, this one is scaled.
+  /// Layout of this figure for a narrow column. If empty, the figure is scaled.
   std::vector<Figure> narrow = {};
 };
 

@@ -16,7 +16,7 @@ void apply_strict(const Arguments& arguments, Reply& reply) {
   if (warnings == 0) return;
   reply.exit = Exit::check_failed;
   reply.diagnostics.push_back(note(Severity::error, "exit code 5 because of " + std::to_string(warnings) +
-                                                       (warnings == 1 ? " warning" : " warnings") + " (--strict)"));
+                                                        (warnings == 1 ? " warning" : " warnings") + " (--strict)"));
 }
 
 }  // namespace fusee::cli

@@ -140,7 +140,7 @@ InterpolatedAngle on_cubic(const Run& run, std::size_t first, double alpha, doub
   return interpolated.weight < 3 ? interpolated : InterpolatedAngle{};
 }
 
-/// Line fitted to a small part of a stroke, for logs so dense that α dwells still or jitters from row to row.
+/// Line fitted to a small part of a stroke, for logs so dense that α is constant or jitters from row to row.
 InterpolatedAngle on_line(const Run& run, const Segment& stroke, std::size_t place, double alpha) {
   const double longest = std::abs(run.samples[stroke.last].alpha - run.samples[stroke.first].alpha) / 25;
   for (std::size_t half = 4; half <= (stroke.last - stroke.first) / 8; half *= 2) {

@@ -24,8 +24,9 @@ constexpr std::size_t k_min_shape_rows = 6;
 constexpr double k_drift = 1e-3;
 /// A quantised sensor shows more levels over a motion; dwell angles are fewer.
 constexpr double k_steps_of_a_sensor = 40;
-/// Rows in dwells must save this many times the motion that counts as standing; a slow sweep saves once.
-constexpr double k_standing = 5;
+/// Rows within a width form a dwell if at the run's pace they would have moved by this many widths; in a slow sweep, by
+/// one.
+constexpr double k_widths_of_a_dwell = 5;
 /// Smallest distance of load levels, as a share of the load's range in the run.
 constexpr double k_one_level = 0.12;
 /// Width of the pieces that a load ramp is cut into, as a share of the load's range: three or four pieces.
@@ -83,9 +84,9 @@ std::vector<RowRange> dwells_among(const std::vector<Sample>& samples, double st
   for (std::size_t i = 0; i < samples.size();) {
     const RowRange next = within(samples, &Sample::alpha, i, samples.size() - 1, width);
     const std::size_t count = count_of(next);
-    const bool stands = count >= k_min_dwell_rows && static_cast<double>(count) * pace > k_standing * width;
-    if (stands) add_or_join(dwells, next, samples, width);
-    i += stands ? count : std::max<std::size_t>(1, count / 2);
+    const bool is_dwell = count >= k_min_dwell_rows && static_cast<double>(count) * pace > k_widths_of_a_dwell * width;
+    if (is_dwell) add_or_join(dwells, next, samples, width);
+    i += is_dwell ? count : std::max<std::size_t>(1, count / 2);
   }
   return dwells;
 }

@@ -120,7 +120,7 @@ ScaledProgram scaled(const Box& box, int count, const std::vector<LineBelow>& li
     for (double& a : row.a) a /= result.scale[r];
     row.b /= result.scale[r];
   }
-  // Below the bound of every single line: a start value at the bound has no weights that prove it.
+  // The start value lies below the bound of every single line, since weights only prove values above the start.
   result.program.least_t = std::max(least / objective_size, least_of_rows / objective_size - 1.0);
   return result;
 }

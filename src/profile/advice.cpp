@@ -229,9 +229,9 @@ class AdviceSearch {
       std::vector<Mechanism> there;
       for (const std::vector<SearchDirection>& both : pairs)
         there.push_back(changed_mechanism(both, values(both, step)));
-      const std::vector<std::vector<Condition>> left = evaluate(there);
+      const std::vector<std::vector<Condition>> obstacles = evaluate(there);
       for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (!left[i].empty()) continue;
+        if (!obstacles[i].empty()) continue;
         const std::vector<Candidate> proven = built({Candidate{pairs[i], before, step, step, 0, {}}}, 1);
         if (!proven.empty()) return proven.front().changes();
         if (builds_left() == 0) return {};
@@ -293,14 +293,14 @@ class AdviceSearch {
       const std::vector<std::size_t> due = due_at(step, steps);
       std::vector<Mechanism> there;
       for (const std::size_t t : due) there.push_back(changed_mechanism({directions_[t]}, {directions_[t].at(step)}));
-      const std::vector<std::vector<Condition>> left = evaluate(there);
+      const std::vector<std::vector<Condition>> obstacles = evaluate(there);
       std::vector<Candidate> here;
       for (std::size_t i = 0; i < due.size(); ++i) {
         SearchRecord& record = records_[due[i]];
         const double before = std::exchange(record.step, step);
         const SearchDirection& search = directions_[due[i]];
-        if (!left[i].empty()) {
-          record_effect(record, left[i]);
+        if (!obstacles[i].empty()) {
+          record_effect(record, obstacles[i]);
         } else if (!is_done(search)) {
           // Each confirmation is a full build, so that a variable is confirmed only once.
           done_.push_back(search.variable);
@@ -322,7 +322,7 @@ class AdviceSearch {
 
   bool has_evaluations_left() const { return evaluations_ < max_evaluations_; }
 
-  /// Pairs of these changes with different variables, limited by the evaluations left.
+  /// Pairs of these changes with different variables, limited by the remaining evaluations.
   std::vector<std::vector<SearchDirection>> pairs_of(const std::vector<std::size_t>& directions) const {
     std::vector<std::vector<SearchDirection>> pairs;
     for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -336,12 +336,12 @@ class AdviceSearch {
   }
   /// Evaluations are independent. If full builds are required, two run at a time.
   std::vector<std::vector<Condition>> evaluate(const std::vector<Mechanism>& changed) {
-    std::vector<std::vector<Condition>> left(changed.size());
+    std::vector<std::vector<Condition>> obstacles(changed.size());
     evaluations_ += static_cast<int>(changed.size());
     ThreadPool::shared().each(
-        changed.size(), [&](std::size_t i, std::size_t) { left[i] = judge_.obstacles(changed[i]); },
+        changed.size(), [&](std::size_t i, std::size_t) { obstacles[i] = judge_.obstacles(changed[i]); },
         judge_.made ? 2 : 1);
-    return left;
+    return obstacles;
   }
 
   static std::vector<double> values(const std::vector<SearchDirection>& directions, double step) {
@@ -372,11 +372,11 @@ class AdviceSearch {
 
   /// Records the effect of a change that is not sufficient. With an expensive test, a change without effect is
   /// evaluated at growing intervals.
-  void record_effect(SearchRecord& record, const std::vector<Condition>& left) {
+  void record_effect(SearchRecord& record, const std::vector<Condition>& obstacles) {
     if (first_.empty()) first_ = judge_.obstacles(mechanism_);
-    record.gain = std::max(record.gain, weight(first_) - weight(left));
+    record.gain = std::max(record.gain, weight(first_) - weight(obstacles));
     if (!judge_.is_expensive) return;
-    std::vector<Condition> as_before = left;
+    std::vector<Condition> as_before = obstacles;
     std::erase_if(as_before, [this](const Condition& condition) {
       return std::none_of(first_.begin(), first_.end(),
                           [&condition](const Condition& first) { return first.name == condition.name; });
@@ -385,9 +385,9 @@ class AdviceSearch {
     record.skips_left = record.skips;
   }
   /// Sum over failed conditions of 1 plus the violation relative to the limit.
-  static double weight(const std::vector<Condition>& left) {
+  static double weight(const std::vector<Condition>& obstacles) {
     double sum = 0;
-    for (const Condition& condition : left) {
+    for (const Condition& condition : obstacles) {
       const double gap = std::abs(condition.value - condition.limit);
       sum += 1.0 + (std::isfinite(gap) ? gap / (gap + std::abs(condition.limit) + 1.0) : 1.0);
     }
@@ -400,10 +400,10 @@ class AdviceSearch {
     for (const Candidate* candidate : candidates)
       middles.push_back(changed_mechanism(candidate->directions,
                                           values(candidate->directions, 0.5 * (candidate->bad + candidate->good))));
-    const std::vector<std::vector<Condition>> left = evaluate(middles);
-    for (std::size_t i = 0; i < left.size(); ++i) {
+    const std::vector<std::vector<Condition>> obstacles = evaluate(middles);
+    for (std::size_t i = 0; i < obstacles.size(); ++i) {
       Candidate& candidate = *candidates[i];
-      (left[i].empty() ? candidate.good : candidate.bad) = 0.5 * (candidate.bad + candidate.good);
+      (obstacles[i].empty() ? candidate.good : candidate.bad) = 0.5 * (candidate.bad + candidate.good);
     }
   }
 

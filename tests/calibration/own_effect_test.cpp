@@ -104,7 +104,8 @@ TEST(CustomEffect, IsFoundOnlyWithItsFile) {
   EXPECT_EQ(found.effects.front().name, "seven_lobes");
   EXPECT_THAT(found.effects.front().group, ::testing::ElementsAre("seven_lobes"));
   EXPECT_NEAR(found.effects.front().parameters.at(0).value, 0.4, 0.02);
-  EXPECT_NEAR(found.identified.pulley.outline.wave_sin, 0.4, 0.02);  // a discrepancy of any smooth shape is allowed beside it
+  EXPECT_NEAR(found.identified.pulley.outline.wave_sin, 0.4,
+              0.02);  // a discrepancy of any smooth shape is allowed beside it
   EXPECT_EQ(found.identified.pulley.outline.wave_order, 7);
 }
 

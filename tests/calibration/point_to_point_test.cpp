@@ -1,4 +1,4 @@
-// Joints measured at dwells of the motor, by a rig that shares no code with the fit. Such logs have no strokes.
+// Joints measured at dwells of the motor, by a rig that shares no code with the fit. Such logs have no rows in motion.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -165,7 +165,7 @@ TEST(PointToPoint, DeclaredJointHasNoFalsePositive) {
 TEST(PointToPoint, AcceptsDeclaredJointWithFewRows) {
   for (const Protocol& protocol : k_protocols) {
     if (protocol.rows > 1) continue;
-    // With these seeds the ends in turn were reported as not_repeatable on 2, and few repeats as unexplained on all.
+    // Regression: the ends in turn were reported as not_repeatable with seed 2, few repeats as unexplained with both.
     for (const std::uint64_t seed : {2, 3}) {
       const Calibration found = calibrated({log_of(protocol.stops(protocol.rows), {}, seed)});
       EXPECT_EQ(found.verdict, CalibrationVerdict::no_effect) << protocol.name << ", " << seed << ": " << found.summary;

@@ -124,8 +124,8 @@ TEST(HelicalRewind, MatchesClosedForm) {
     ASSERT_EQ(wound.result.points.size(), joint.stroke.size());
     double fleet = 0;
     for (const profile::RewindPoint& point : wound.result.points) {
-      const double by_hand = joint.theta(point.alpha, -1.0, joint.free1, end1, joint.p1);
-      EXPECT_NEAR(degrees(point.theta), degrees(by_hand), 0.0015) << degrees(point.alpha);
+      const double closed_form = joint.theta(point.alpha, -1.0, joint.free1, end1, joint.p1);
+      EXPECT_NEAR(degrees(point.theta), degrees(closed_form), 0.0015) << degrees(point.alpha);
       // Fleet angle in closed form.
       for (const double hand : {-1.0, 1.0}) {
         const double free = hand > 0 ? joint.free2 : joint.free1;

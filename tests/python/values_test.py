@@ -36,7 +36,7 @@ def values_of(arm):
 
 
 def arrays_in(value):
-    """All nested values."""
+    """All arrays in a value, however nested."""
     if isinstance(value, np.ndarray):
         yield value
     parts = value.values() if isinstance(value, fusee.Table) else value if isinstance(value, tuple) else ()

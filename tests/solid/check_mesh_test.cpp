@@ -233,7 +233,7 @@ TEST(CheckMesh, SkipsCrossingsAtCrowdedEdge) {
               ::testing::HasSubstr("too many overlapping facets"));
 }
 
-TEST(Section, OfCubeIsSquare) {
+TEST(Section, CutsCubeIntoSquare) {
   const auto loops = section(cube(10), 4);
   ASSERT_EQ(loops.size(), 1u);
   EXPECT_DOUBLE_EQ(signed_area(loops[0]), 100.0);

@@ -78,7 +78,7 @@ TEST(TieOffs, BeginAtRequestedWrap) {
   EXPECT_THAT(pulley.brief(), HasSubstr("body.wrap_deg"));
 }
 
-// Without supports a part that requires them is rejected. All cases take half a minute.
+// The checks reject a part that requires supports, as none are declared. All cases take half a minute.
 TEST(TieOffs, SmallPulleysAreBuilt) {
   const bool all = std::getenv("FUSEE_LONG_TESTS") != nullptr;
   int through_the_face = 0;

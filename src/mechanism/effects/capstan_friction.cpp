@@ -5,8 +5,8 @@ namespace {
 
 double whole_friction(double added, const Mechanism& declared) {
   const Guides& guides = declared.guides;
-  const double there = guides.kind == GuideKind::idler ? guides.bearing_friction : guides.mu;
-  return there + added > 0 ? there + added : 0.0;
+  const double declared_mu = guides.kind == GuideKind::idler ? guides.bearing_friction : guides.mu;
+  return declared_mu + added > 0 ? declared_mu + added : 0.0;
 }
 
 /// Parameters for a joint declared by a ratio: RubbingCable.

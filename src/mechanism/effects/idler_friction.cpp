@@ -4,8 +4,8 @@ namespace fusee {
 namespace {
 
 double idler_total(double added, const Mechanism& declared) {
-  const double there = declared.guides.bearing_friction + added;
-  return there > 0 ? there : 0.0;
+  const double total = declared.guides.bearing_friction + added;
+  return total > 0 ? total : 0.0;
 }
 
 }  // namespace

@@ -4,8 +4,8 @@ namespace fusee {
 namespace {
 
 double sheath_total(double added, const Mechanism& declared) {
-  const double there = declared.sheath.mu * declared.sheath.bend + added;
-  return there > 0 ? there : 0.0;
+  const double total = declared.sheath.mu * declared.sheath.bend + added;
+  return total > 0 ? total : 0.0;
 }
 
 }  // namespace
