@@ -156,7 +156,7 @@ class Calibrate(harness.Scratch):
         page = Page()
         page.feed(text)
         self.assertEqual(page.open, [])
-        self.assertEqual(page.ids, ["causes", "verdict", "actions", "numbers", "effects", "residuals", "unexplained", "figures", "evidence", "detectable"])
+        self.assertEqual(page.ids, ["causes", "verdict", "actions", "numbers", "effects", "residuals", "unexplained", "figures", "evidence", "detectable", "data"])
         self.assertIn("<b>&joint", page.words)
         self.assertIn("✓ backlash", page.words)
         self.assertNotRegex(page.words, r"\b(nan|inf|null)\b")
@@ -206,7 +206,8 @@ class Calibrate(harness.Scratch):
         os.close(ours)
         process.wait(timeout=60)
         self.assertRegex(shown, rb"\r\x1b\[K\[#+\.*\] \d+ %")
-        self.assertTrue(shown.endswith(b"\r\x1b[K"))
+        after = re.sub(rb"\x1b\[[\d;]*m|\r", b"", shown.rpartition(b"\r\x1b[K")[2])
+        self.assertEqual(after, self.expect(line, 0).stderr)
 
     def test_repeated_notes_are_merged(self):
         for i in range(1, 6):

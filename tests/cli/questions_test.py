@@ -154,7 +154,7 @@ class Questions(harness.Scratch):
         asked = self.ask(answers(length="60", span="±20", room="42", load="1 N", motor="disc-25T-M3", tendon="1"))[1]
         self.assertRegex(asked, r"note: under the load the motor has to hold [\d.]+ Nmm: suitable: ")
 
-    def test_motor_by_its_makers_name_is_in_the_file(self):
+    def test_motor_by_makers_name_is_in_file(self):
         for typed, motor, body in (("XL430-W250", {"model": "XL430-W250"}, ("horn", "dynamixel-xl430")),
                                    ("MG996R horn", {"model": "MG996R"}, ("horn", "disc-25T-M3")),
                                    ("hobby servo, 25-tooth horn, 180 deg", {"travel_deg": 180}, ("horn", "disc-25T-M3")),
