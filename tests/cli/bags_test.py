@@ -144,7 +144,8 @@ class Bags(harness.Scratch):
         (self.folder / "run.mcap").write_bytes(bags.mcap(messages))
         self.expect("calibrate joint.toml run.mcap", 3, err="not obvious which joint is alpha.*/states/m1/position, /states/m2/position, /states/m3/position")
         chosen = "--column alpha=m1 --column theta=/states/m2/position"
-        for column, unit, shown in (("/ft/wrench/force/y", "", "2.5"), ("/weight/data", "--unit load=kg", "2.45"), ("/states/m1/effort", "", "1.5")):
+        # 1.5 Nm about O are 15 N at C, 100 mm away.
+        for column, unit, shown in (("/ft/wrench/force/y", "", "2.5"), ("/weight/data", "--unit load=kg", "2.45"), ("/states/m1/effort", "", "15.0")):
             done = self.fusee(f"simulate arm.toml run.mcap {chosen} --column load={column} {unit}")
             self.assertEqual(done.returncode, 0, done.stderr)
             header, first = done.stdout.decode().splitlines()[:2]
