@@ -388,8 +388,9 @@ TEST(CalibrationPage, ReportsAdditionalMembers) {
   EXPECT_THAT(formats::calibration_report_html(product), Not(HasSubstr("Perhaps")));
   product.calibration.effects.front().beside = {{"joint_sensor_gain", {{"gain_percent", 1.25, 1, 1.5, 1, 1.5}}}};
   EXPECT_THAT(formats::calibration_json(product), HasSubstr("\"beside\""));
-  EXPECT_THAT(formats::calibration_report_html(product),
-              HasSubstr("Perhaps joint sensor gain (gain = 1.25 % (95 %: 1 … 1.5)) acts too: with both, as in corrected.toml"));
+  EXPECT_THAT(
+      formats::calibration_report_html(product),
+      HasSubstr("Perhaps joint sensor gain (gain = 1.25 % (95 %: 1 … 1.5)) acts too: with both, as in corrected.toml"));
 }
 
 TEST(CalibrationPage, OmitsBothIfEmpty) {
