@@ -1,5 +1,7 @@
 #include "export/drawings/dxf_file.h"
 
+#include "base/text.h"
+
 namespace fusee::formats {
 namespace {
 
@@ -100,7 +102,7 @@ class DxfFileReader {
       const DxfValues values(name_, head);
       DxfBlock block{values.point(10), {}};
       read_entities(tag, block.entities, "ENDBLK");
-      file_.blocks.insert_or_assign(block_key(values.text(2)), std::move(block));
+      file_.blocks.insert_or_assign(lower(values.text(2)), std::move(block));
       std::vector<DxfTag> end;
       tag = read_tags(end);
     }
@@ -114,12 +116,6 @@ class DxfFileReader {
 };
 
 }  // namespace
-
-std::string block_key(std::string_view name) {
-  std::string key(name);
-  for (char& c : key) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return key;
-}
 
 double DxfFile::unit_in_mm() const {
   switch (units.value_or(0)) {

@@ -26,15 +26,12 @@ struct DxfBlock {
   std::vector<DxfEntity> entities;
 };
 
-/// Names of blocks do not depend on case.
-std::string block_key(std::string_view name);
-
 /// Refers to the bytes that it was read from.
 struct DxfFile {
   std::string version;       ///< $ACADVER; "AC1009" if missing
   std::optional<int> units;  ///< $INSUNITS; −1 if invalid
   std::vector<DxfEntity> entities;
-  std::map<std::string, DxfBlock> blocks;  ///< by block_key()
+  std::map<std::string, DxfBlock> blocks;  ///< by lower(name): names do not depend on case
 
   /// 1 if the file gives no unit.
   double unit_in_mm() const;

@@ -4,18 +4,10 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/text.h"
 #include "fusee/base.h"
 
 namespace fusee::formats {
-namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-}  // namespace
 
 void fail_in_dxf(const std::string& file, int line, std::string message, std::string hint) {
   throw InputError(Diagnostic{Severity::error, {file, line, 0}, std::move(message), std::move(hint)});

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <limits>
 #include <vector>
 
+#include "base/text.h"
 #include "export/mesh_files/mesh_files.h"
 #include "export/mesh_files/mesh_formats.h"
 #include "export/mesh_files/text_scanner.h"
@@ -28,12 +28,6 @@ constexpr std::array<Ending, 6> k_endings = {{{".stl", read_stl},
                                               {".ply", read_ply},
                                               {".drc", read_drc}}};
 
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 /// Null if the content is ambiguous.
 Reader reader_by_content(const Source& source) {
   if (is_binary_stl(source.bytes)) return read_stl;
@@ -42,13 +36,13 @@ Reader reader_by_content(const Source& source) {
   const std::string_view word = TextScanner(source, '#').flowing_word();
   if (word == "ply") return read_ply;
   if (word == "OFF" || word == "COFF" || word == "NOFF" || word == "CNOFF" || word == "STOFF") return read_off;
-  if (lower_case(std::string(word.substr(0, 6))) == "solid") return read_stl;
+  if (lower(word.substr(0, 6)) == "solid") return read_stl;
   if (word == "v" || word == "o" || word == "mtllib") return read_obj;
   return nullptr;
 }
 
 Reader reader_by_name(const std::string& file_name) {
-  const std::string name = lower_case(file_name);
+  const std::string name = lower(file_name);
   const auto found =
       std::find_if(k_endings.begin(), k_endings.end(), [&](const Ending& e) { return name.ends_with(e.ending); });
   return found == k_endings.end() ? nullptr : found->reader;

@@ -22,26 +22,6 @@ std::string without_negative_zero(std::string text) {
   return text;
 }
 
-void append_utf8(std::string& text, std::uint32_t point) {
-  const auto put = [&text](std::uint32_t byte) { text += static_cast<char>(byte); };
-  const auto follow = [&](int shift) { put(0x80 | ((point >> shift) & 0x3F)); };
-  if (point < 0x80) {
-    put(point);
-  } else if (point < 0x800) {
-    put(0xC0 | point >> 6);
-    follow(0);
-  } else if (point < 0x10000) {
-    put(0xE0 | point >> 12);
-    follow(6);
-    follow(0);
-  } else {
-    put(0xF0 | point >> 18);
-    follow(12);
-    follow(6);
-    follow(0);
-  }
-}
-
 /// Removes one UTF-8 character from the front of `text`. If it is not well formed, removes its longest well-formed
 /// prefix and returns nullopt, as JSON writers do. Overlong forms, surrogates and values above U+10FFFF are not well
 /// formed (Unicode 15, table 3-7).
@@ -91,6 +71,39 @@ std::string with_unfit(std::string_view text, const Unfit& unfit) {
 constexpr std::string_view k_replacement = "\uFFFD";
 
 }  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view k_blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(k_blanks);
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(k_blanks) - first + 1);
+}
+
+std::string lower(std::string_view text) {
+  std::string small(text);
+  for (char& c : small) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return small;
+}
+
+void append_utf8(std::string& text, std::uint32_t point) {
+  const auto put = [&text](std::uint32_t byte) { text += static_cast<char>(byte); };
+  const auto follow = [&](int shift) { put(0x80 | ((point >> shift) & 0x3F)); };
+  if (point < 0x80) {
+    put(point);
+  } else if (point < 0x800) {
+    put(0xC0 | point >> 6);
+    follow(0);
+  } else if (point < 0x10000) {
+    put(0xE0 | point >> 12);
+    follow(6);
+    follow(0);
+  } else {
+    put(0xF0 | point >> 18);
+    follow(12);
+    follow(6);
+    follow(0);
+  }
+}
 
 bool is_utf8(std::string_view text) {
   // Fast path: most text is ASCII, and logs of a million rows are checked line by line.

@@ -2,6 +2,7 @@
 /// Locale-independent number formatting without negative zeros, and sanitizing of untrusted text.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,12 @@ std::string fixed(double value, int decimals);
 std::string trimmed_fixed(double value, int decimals);
 /// Number for messages: `digits` significant digits, no exponent between 1e-4 and 1e7 ("18.9", "0.0123").
 std::string rounded(double value, int digits = 4);
+/// Text without blanks, tabs and carriage returns at both ends.
+std::string_view trimmed(std::string_view text);
+/// Text with A to Z as a to z.
+std::string lower(std::string_view text);
+/// Appends the UTF-8 of a character.
+void append_utf8(std::string& text, std::uint32_t point);
 /// UTF-8 of a text that begins with a UTF-16 byte-order mark of either order; nullopt for any other bytes. An unpaired
 /// surrogate becomes U+FFFD.
 std::optional<std::string> utf8_of_utf16(std::string_view bytes);

@@ -174,13 +174,6 @@ const std::vector<Question>& questions() {
   return all;
 }
 
-/// Removes blanks at both ends.
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 /// "length: 45 mm, range: 0 to 80 deg".
 std::string answered_words(const std::vector<std::string>& understood) {
   std::string words;

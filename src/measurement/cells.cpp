@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "base/text.h"
 #include "measurement/words.h"
 
 namespace fusee::measurement {

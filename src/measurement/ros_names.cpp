@@ -5,6 +5,7 @@
 #include <iterator>
 #include <set>
 
+#include "base/text.h"
 #include "measurement/words.h"
 
 namespace fusee::measurement {

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "base/text.h"
 #include "fusee/base.h"
 #include "measurement/words.h"
 #include "transmission/load.h"

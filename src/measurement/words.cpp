@@ -33,12 +33,6 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-std::string lower(std::string_view text) {
-  std::string small(text);
-  for (char& c : small) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return small;
-}
-
 std::string shown(std::string_view text) {
   constexpr std::size_t k_most = 40;
   std::string words;
@@ -67,18 +61,7 @@ std::string to_utf8(std::string_view bytes) {
   std::string text;
   for (const char c : bytes) {
     const auto byte = static_cast<unsigned char>(c);
-    const unsigned character = byte >= 0x80 && byte < 0xA0 ? k_windows.at(byte - 0x80U) : byte;
-    if (character < 0x80) {
-      text += c;
-      continue;
-    }
-    if (character < 0x800) {
-      text += static_cast<char>(0xC0 | (character >> 6U));
-    } else {
-      text += static_cast<char>(0xE0 | (character >> 12U));
-      text += static_cast<char>(0x80 | ((character >> 6U) & 0x3F));
-    }
-    text += static_cast<char>(0x80 | (character & 0x3F));
+    append_utf8(text, byte >= 0x80 && byte < 0xA0 ? k_windows.at(byte - 0x80U) : byte);
   }
   return text;
 }

@@ -9,8 +9,6 @@ namespace fusee::measurement {
 
 /// Removes blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
-/// Converts A to Z to lower case.
-std::string lower(std::string_view text);
 /// Quotes text for a message: control characters become ?, long text is cut.
 std::string shown(std::string_view text);
 /// Converts Latin-1 or Windows-1252 to UTF-8; UTF-8 is unchanged.

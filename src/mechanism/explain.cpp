@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 
 #include "base/json.h"
 #include "base/text.h"
@@ -11,12 +10,6 @@
 namespace fusee {
 namespace {
 
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 /// Keys whose explanation has this word, such as "dyneema"; "" if there is none.
 std::string keys_with(std::string_view word) {
   constexpr std::size_t k_least_letters = 3, k_most_keys = 4;
@@ -24,7 +17,7 @@ std::string keys_with(std::string_view word) {
   std::string keys;
   std::size_t count = 0;
   for (const Field& field : fields()) {
-    if (lower_case(explain(field.name())).find(lower_case(std::string(word))) == std::string::npos) continue;
+    if (lower(explain(field.name())).find(lower(word)) == std::string::npos) continue;
     if (count++ < k_most_keys) keys += (keys.empty() ? "" : ", ") + field.name();
   }
   return count > k_most_keys ? keys + " or " + std::to_string(count - k_most_keys) + " more" : keys;

@@ -14,12 +14,6 @@ constexpr double k_home_error_deg = 0.01;
 constexpr std::size_t k_min_rows = 4;
 constexpr std::size_t k_max_problems = 20;
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 /// A number with a decimal point, or with a decimal comma where commas do not separate.
 bool parse_number(std::string_view written, double& value, bool decimal_comma) {
   std::string text(written);
