@@ -128,6 +128,8 @@ const HornType* find_horn(std::string_view name);
 const ShaftType* find_shaft(std::string_view name);
 const MotorModel* find_motor_model(std::string_view name);
 
+/// True if the body is made for a shaft or horn of this motor.
+bool fits_bore(const MotorModel& model, const Body& body);
 /// Limits of the mechanism's motor: the numbers of [motor] and, where it has none, those of its model. 0: unknown.
 MotorModel motor_limits(const Motor& motor);
 
