@@ -395,71 +395,66 @@ TypedMotor motor_of(const MotorModel& model) {
   return motor;
 }
 
-}  // namespace
-
-Answer<TypedMotor> read_motor(std::string_view typed, LengthUnit plain) {
-  std::string simple = simplified(typed);
-  const double travel = extract_travel(simple);
-  std::string_view text = simple;
-  if (const auto diameter = take_length(text, plain); diameter) {
-    const std::vector<std::string> rest = split_words(text);
-    const bool flat = std::any_of(rest.begin(), rest.end(), [](const std::string& word) {
-      return word == "d" || word == "d-shaft" || word == "flat";
-    });
-    const bool only = std::all_of(rest.begin(), rest.end(), [](const std::string& word) {
-      return word == "d" || word == "d-shaft" || word == "shaft" || word == "round" || word == "flat";
-    });
-    if (only) {
-      const Field& field = *find_field("body.bore_diameter_mm");
-      if (!(*diameter > 0) || *diameter > field.most)
-        return Refusal{
-            fmt::format("a shaft of {} mm is not within 0 to {} mm", rounded(*diameter), rounded(field.most))};
-      TypedMotor motor;
-      motor.bore = in_micrometres(*diameter);
-      motor.flat = flat;
-      motor.travel = motor.typed_travel = travel;
-      motor.words = fmt::format("a {} shaft of {} mm", flat ? "D" : "round", rounded(*diameter));
-      return motor;
-    }
+/// The model among the words of an answer whose shaft or horn has this name; "" for none.
+std::string named_model(const std::vector<std::string>& words, const std::string& fitting) {
+  for (const MotorModel& model : motor_models()) {
+    const bool is_named = std::find(words.begin(), words.end(), simplified(model.name)) != words.end();
+    if (is_named && std::find(model.fits.begin(), model.fits.end(), fitting) != model.fits.end()) return model.name;
   }
-  std::vector<std::string> words = split_words(simple);
-  std::erase_if(words, [](const std::string& word) {
-    return word == "hobby" || word == "a" || word == "with" || word == "for" || word == "and" || word == "that" ||
-           word == "turns";
+  return {};
+}
+
+/// A shaft by its diameter: "5 mm", "1/4 in D". Empty for any other text.
+std::optional<Answer<TypedMotor>> read_shaft(std::string_view text, LengthUnit plain) {
+  const auto diameter = take_length(text, plain);
+  if (!diameter) return std::nullopt;
+  const auto is_flat = [](const std::string& word) { return word == "d" || word == "d-shaft" || word == "flat"; };
+  const std::vector<std::string> words = split_words(text);
+  for (const std::string& word : words) {
+    if (!is_flat(word) && word != "shaft" && word != "round") return std::nullopt;
+  }
+  const double most = find_field("body.bore_diameter_mm")->most;
+  if (!(*diameter > 0) || *diameter > most)
+    return Refusal{fmt::format("a shaft of {} mm is not within 0 to {} mm", rounded(*diameter), rounded(most))};
+  TypedMotor motor;
+  motor.bore = in_micrometres(*diameter);
+  motor.flat = std::any_of(words.begin(), words.end(), is_flat);
+  motor.words = fmt::format("a {} shaft of {} mm", motor.flat ? "D" : "round", rounded(*diameter));
+  return motor;
+}
+
+/// The words of an answer that may be part of a name.
+std::vector<std::string> words_of_name(std::string_view text) {
+  constexpr std::array<std::string_view, 7> k_others{"hobby", "a", "with", "for", "and", "that", "turns"};
+  std::vector<std::string> words = split_words(text);
+  std::erase_if(words, [&](const std::string& word) {
+    return std::find(k_others.begin(), k_others.end(), word) != k_others.end();
   });
+  return words;
+}
+
+/// An entry of the catalogue by words of its name. `typed`: the whole answer, for the refusal.
+Answer<TypedMotor> read_entry(const std::vector<std::string>& words, std::string_view typed) {
   const std::vector<const ShaftType*> of_shafts = matching(shafts(), words);
   const std::vector<const HornType*> of_horns = matching(horns(), words);
   TypedMotor motor;
-  motor.typed_travel = travel;
-  const auto model_with = [&words](const std::string& fitting) -> std::string {
-    for (const MotorModel& model : motor_models()) {
-      const bool is_named = std::find(words.begin(), words.end(), simplified(model.name)) != words.end();
-      if (is_named && std::find(model.fits.begin(), model.fits.end(), fitting) != model.fits.end()) return model.name;
-    }
-    return {};
-  };
   if (of_shafts.size() == 1 && (of_horns.empty() || words == std::vector{simplified(of_shafts.front()->name)})) {
     motor.shaft = of_shafts.front()->name;
-    motor.model = model_with(motor.shaft);
-    motor.travel = travel;
+    motor.model = named_model(words, motor.shaft);
     motor.words = of_shafts.front()->description;
     return motor;
   }
   if (of_horns.size() == 1 && of_shafts.empty()) {
     motor.horn = of_horns.front()->name;
-    motor.model = model_with(motor.horn);
-    motor.travel = travel > 0 ? travel : travel_with(motor.horn);
+    motor.model = named_model(words, motor.horn);
+    motor.travel = travel_with(motor.horn);
     motor.words = of_horns.front()->description;
     return motor;
   }
   std::string names;
   if (of_shafts.empty() && of_horns.empty()) {
     const std::vector<const MotorModel*> models = matching_models(words);
-    if (models.size() == 1) {
-      motor = motor_of(*models.front());
-      if (travel > 0) motor.travel = motor.typed_travel = travel;
-      return motor;
-    }
+    if (models.size() == 1) return motor_of(*models.front());
     add_names(names, models);
   }
   add_names(names, of_shafts);
@@ -467,6 +462,18 @@ Answer<TypedMotor> read_motor(std::string_view typed, LengthUnit plain) {
   if (!names.empty()) return Refusal{fmt::format("{} fits several entries: {}. Which one?", in_quotes(typed), names)};
   return Refusal{fmt::format("{} is neither a name in the list nor the diameter of a shaft, such as 5 mm or 5 mm D",
                              in_quotes(typed))};
+}
+
+}  // namespace
+
+Answer<TypedMotor> read_motor(std::string_view typed, LengthUnit plain) {
+  std::string simple = simplified(typed);
+  const double travel = extract_travel(simple);
+  const auto shaft = read_shaft(simple, plain);
+  Answer<TypedMotor> answer = shaft ? *shaft : read_entry(words_of_name(simple), typed);
+  if (TypedMotor* const motor = std::get_if<TypedMotor>(&answer); motor != nullptr && travel > 0)
+    motor->travel = motor->typed_travel = travel;
+  return answer;
 }
 
 namespace {
