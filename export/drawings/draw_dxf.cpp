@@ -149,7 +149,7 @@ class DxfDrawer {
 
   const DxfBlock& block_of(const DxfEntity& entity) const {
     const std::string name(DxfValues(file_, entity.tags).text(2));
-    const auto block = dxf_.blocks.find(block_key(name));
+    const auto block = dxf_.blocks.find(lower(name));
     if (block == dxf_.blocks.end()) {
       fail_in_dxf(file_, entity.line,
                   "this INSERT names the block " + quoted_bytes(name) + ", which the file does not hold");

@@ -1,5 +1,5 @@
-// The rows of both grooves on one fan of directions, coarser than the mesh of src/helical_solid. The OpenSCAD program joins
-// them.
+// The rows of both grooves on one fan of directions, coarser than the mesh of src/helical_solid. The OpenSCAD program
+// joins them.
 #include "export/report/helix_scad.h"
 
 #include <fmt/format.h>

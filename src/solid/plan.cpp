@@ -151,7 +151,8 @@ class Planner {
     return least;
   }
 
-  // P2's channels use the space beside the hub only if they keep their pockets. No hub therefore decides whether they fit.
+  // P2's channels use the space beside the hub only if they keep their pockets. No hub therefore decides whether they
+  // fit.
   bool fits(const BodyLayout& layout) const {
     return bore_fits(layout) && tie_offs_.has_room(layout, tie_offs_.wound(layout));
   }
