@@ -21,19 +21,19 @@ namespace fs = std::filesystem;
 /// Largest error of the floor, mm.
 constexpr double k_floor_limit = 1e-4;
 
-struct Loaded {
+struct MakerLoad {
   const StepMaker* maker = nullptr;
   std::string why_not;
 };
 
-Loaded load() {
+MakerLoad load() {
   if (!FUSEE_HAS_STEP) return {nullptr, "its module fusee-step, which needs OpenCASCADE, was left out"};
   const LoadedModule module = load_module("fusee-step", k_step_maker);
   return {static_cast<const StepMaker*>(module.found), module.why_not};
 }
 
-const Loaded& loaded() {
-  static const Loaded once = load();
+const MakerLoad& loaded() {
+  static const MakerLoad once = load();
   return once;
 }
 

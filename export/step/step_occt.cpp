@@ -816,9 +816,9 @@ solid::TriangleMesh mesh_of(const TopoDS_Shape& shape) {
 }
 
 /// Nodes of the faces' meshes in a lattice of cells: start points for nearest-point searches.
-class Nearest {
+class SurfaceSamples {
  public:
-  explicit Nearest(const TopoDS_Shape& shape) {
+  explicit SurfaceSamples(const TopoDS_Shape& shape) {
     for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
       const TopoDS_Face face = TopoDS::Face(faces.Current());
       TopLoc_Location place;
@@ -1010,7 +1010,7 @@ StepReading read(const std::string& path, const StepQuestion& question) {
     for (const double z : question.planes) reading.sections.push_back(floor_at(shape, z));
     reading.open_faces = open_faces(shape, question.grounds != nullptr);
     if (question.grounds) {
-      const Nearest nearest(shape);
+      const SurfaceSamples nearest(shape);
       for (const Vec3& place : question.places) reading.distances.push_back(nearest.distance(point_at(place)));
       for (const Vec3& place : question.grounds(mesh_of(shape))) {
         const gp_Pnt found = nearest.ground(point_at(place));

@@ -54,7 +54,7 @@ void write_whole(const fs::path& path, std::string_view bytes) {
 
 void flush_all(const std::vector<fs::path>& paths) {
   const auto flush = [](const fs::path& path) {
-    const ThreadPool::Waiting for_disk(ThreadPool::shared());
+    const ThreadPool::WaitingScope for_disk(ThreadPool::shared());
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     // Some file systems do not support fsync of folders, which is no failure.
     if (!file.ok() || (::fsync(file.number()) != 0 && errno != EINVAL && errno != ENOTSUP))

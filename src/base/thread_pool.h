@@ -135,12 +135,12 @@ class ThreadPool {
   void each(std::size_t count, const LoopJob& job, unsigned most_threads = 0, const std::stop_token& stop = {});
 
   /// While an object lives, its thread waits for the disk or for another thread, and does not count as working.
-  class Waiting {
+  class WaitingScope {
    public:
-    explicit Waiting(ThreadPool& pool) : pool_(pool) { pool_.count_working(-1); }
-    ~Waiting() { pool_.count_working(1); }
-    Waiting(const Waiting&) = delete;
-    Waiting& operator=(const Waiting&) = delete;
+    explicit WaitingScope(ThreadPool& pool) : pool_(pool) { pool_.count_working(-1); }
+    ~WaitingScope() { pool_.count_working(1); }
+    WaitingScope(const WaitingScope&) = delete;
+    WaitingScope& operator=(const WaitingScope&) = delete;
 
    private:
     ThreadPool& pool_;

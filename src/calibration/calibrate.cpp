@@ -182,12 +182,12 @@ void describe_changes(const Evidence& evidence, const Selection& selection, Cali
 
 /// Held-out rows for the validation of a correction: the runs kept for validation, or whole runs left out in turn. A
 /// single run is validated with the numbers of all its strokes.
-std::vector<LeftOut> left_out(const Evidence& evidence, const Estimate& estimate, const std::vector<std::string>& kept,
-                              const Imperfections& identified) {
+std::vector<HeldOutFit> left_out(const Evidence& evidence, const Estimate& estimate,
+                                 const std::vector<std::string>& kept, const Imperfections& identified) {
   if (!kept.empty()) return {{kept, identified}};
   if (evidence.measurement.runs.size() < 2) return {{{evidence.measurement.runs.front().name}, identified}};
   const std::vector<Imperfections> numbers = estimates_without(evidence, estimate, evidence.run_folds);
-  std::vector<LeftOut> all;
+  std::vector<HeldOutFit> all;
   for (std::size_t i = 0; i < numbers.size(); ++i)
     all.push_back({evidence.run_names(evidence.run_folds[i]), numbers[i]});
   return all;
@@ -244,7 +244,7 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const measurement::M
   calibration.detectable = detectable_sizes(evidence, pool, selection);
   calibration.identified = without_idle_numbers(numbers, numbers.at);
   calibration.left_out = left_out(evidence, answer.reported.estimate, options.hold_out, calibration.identified);
-  for (LeftOut& left : calibration.left_out) left.identified = without_idle_numbers(numbers, left.identified);
+  for (HeldOutFit& left : calibration.left_out) left.identified = without_idle_numbers(numbers, left.identified);
   describe_errors(evidence, measurement, answer, calibration);
   name_held_out(evidence, calibration);
   validate(declared, kept, answer, calibration);

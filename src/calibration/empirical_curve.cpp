@@ -62,13 +62,13 @@ double value_at(const Way& way, double alpha) {
   return low.second + share * (above->second - low.second);
 }
 
-struct BothWays {
+struct UpAndDown {
   Way up, down;
 };
 
-BothWays ways_of(const Evidence& evidence, const Eigen::VectorXd& curve) {
+UpAndDown ways_of(const Evidence& evidence, const Eigen::VectorXd& curve) {
   const Eigen::VectorXd alpha = alphas(evidence.measurement);
-  BothWays ways;
+  UpAndDown ways;
   Eigen::Index row = 0;
   for (const Block& block : evidence.blocks) {
     const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
@@ -83,7 +83,7 @@ BothWays ways_of(const Evidence& evidence, const Eigen::VectorXd& curve) {
 }
 
 /// Range measured in both directions.
-measurement::ValueRange seen_both_ways(const BothWays& ways) {
+measurement::ValueRange seen_both_ways(const UpAndDown& ways) {
   measurement::ValueRange span;
   if (ways.up.size() < 2 || ways.down.size() < 2) return span;
   span.least = std::max(ways.up.front().first, ways.down.front().first);
@@ -91,7 +91,7 @@ measurement::ValueRange seen_both_ways(const BothWays& ways) {
   return span;
 }
 
-void draw(const BothWays& ways, const measurement::ValueRange& seen, EmpiricalCurve& curve) {
+void draw(const UpAndDown& ways, const measurement::ValueRange& seen, EmpiricalCurve& curve) {
   const measurement::Bins pieces{seen, k_pieces};
   const Way up = smoothed(ways.up, seen), down = smoothed(ways.down, seen);
   for (int i = 0; i <= k_pieces; ++i) {
@@ -229,7 +229,7 @@ EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const D
     return curve;
   }
   const Eigen::VectorXd at_rows = sum_of_families(discrepancy, unmodelled.posterior.coefficients, is_of_place);
-  const BothWays ways = ways_of(evidence, at_rows);
+  const UpAndDown ways = ways_of(evidence, at_rows);
   const measurement::ValueRange seen = seen_both_ways(ways),
                                 all = measurement::value_range(evidence.measurement, &measurement::Sample::alpha);
   if (!seen.any() || std::max(widest_gap(ways.up), widest_gap(ways.down)) > k_widest_gap * all.size()) {

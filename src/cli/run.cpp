@@ -164,8 +164,8 @@ const std::vector<Command>& commands() {
   return all;
 }
 
-Ending ending_of(const std::vector<std::string>& words, Console& console, RunContext context) {
-  Ending ending;
+CommandOutcome ending_of(const std::vector<std::string>& words, Console& console, RunContext context) {
+  CommandOutcome ending;
   context.progress = [&console](std::string_view step, std::optional<double> share) {
     console.progress(share ? progress_bar(*share) + ", " + std::string(step) : step);
   };
@@ -188,9 +188,9 @@ class CommandFiles : public FileAccess {
   void will_publish(const std::filesystem::path&, const std::filesystem::path&) override { prevent_exit_by_signal(); }
 };
 
-Ending recorded_ending(const std::vector<std::string>& words, const std::string& bundle, Console& console,
-                       const std::stop_token& stop) {
-  Ending ending;
+CommandOutcome recorded_ending(const std::vector<std::string>& words, const std::string& bundle, Console& console,
+                               const std::stop_token& stop) {
+  CommandOutcome ending;
   ending.json = has_switch(words, "--json");
   try {
     Recording recording(bundle, words, has_switch(words, "--force"));
@@ -219,7 +219,7 @@ int run(const std::vector<std::string>& given) {
     return bundle.empty() ? ending_of(words, console, {.stop = watch.stop(), .files = &files})
                           : recorded_ending(words, bundle, console, watch.stop());
   };
-  const Ending ending = ended();
+  const CommandOutcome ending = ended();
   const Reply& reply = ending.reply;
   for (const Diagnostic& diagnostic : reply.diagnostics) console.report(diagnostic);
   console.end_progress();

@@ -333,10 +333,10 @@ measurement::Measurement some_runs(measurement::Measurement measurement, const s
 
 /// Evaluates each run with the parameters and table from the other runs. With a single run the table is made from it.
 HeldOutSquares measured(const CorrectedJoint& joint, const measurement::Measurement& measurement,
-                        const transmission::TargetMotion& law, const std::vector<calibration::LeftOut>& left_out) {
+                        const transmission::TargetMotion& law, const std::vector<calibration::HeldOutFit>& left_out) {
   const measurement::Measurement thin = calibration::with_fewer_rows(measurement, k_rows_a_run);
   HeldOutSquares all;
-  for (const calibration::LeftOut& left : left_out) {
+  for (const calibration::HeldOutFit& left : left_out) {
     const measurement::Measurement held = some_runs(thin, left.runs, true), others = some_runs(thin, left.runs, false);
     const DirectionalCurves table = table_of(joint, others.runs.empty() ? held : others, law, left.identified);
     const joint::BenchLog log = measurement::bench_log(held);

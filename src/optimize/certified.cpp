@@ -83,7 +83,7 @@ class BranchAndBound {
     for (const Design& design : options_.first_tries) accept_if_better(evaluated(design));
     constexpr int k_first_tries = 200;
     Random random(1);
-    for (int i = 0; i < k_first_tries && !stopped(-k_none); ++i)
+    for (int i = 0; i < k_first_tries && !must_stop(-k_none); ++i)
       accept_if_better(evaluated(random_design(problem_, random)));
     for (std::size_t i = 0; i < count_; ++i) {
       root_.lower[i] = problem_.variables[i].lower;
@@ -106,7 +106,7 @@ class BranchAndBound {
     while (!queue_.empty()) {
       const double bound = queue_.top().bound;
       if (is_met(bound, gap)) return true;
-      if (boxes_ >= most_boxes || stopped(bound)) return false;
+      if (boxes_ >= most_boxes || must_stop(bound)) return false;
       std::vector<Box> batch;
       while (!queue_.empty() && batch.size() < k_batch && !is_met(queue_.top().bound, gap)) {
         for (const Box& half : halves(queue_.top())) batch.push_back(half);
@@ -121,7 +121,7 @@ class BranchAndBound {
     return !best_.empty() && best_value_ - bound <= gap * std::abs(best_value_);
   }
 
-  bool stopped(double bound) {
+  bool must_stop(double bound) {
     if (stopped_) return true;
     const double gap = (best_value_ - bound) / std::abs(best_value_);
     // The gap closes by powers of ten.
@@ -223,7 +223,7 @@ class BranchAndBound {
     constexpr double k_least = 1e-8, k_smaller = 0.25, k_larger = 2.0;
     constexpr int k_steps = 40;
     double size = 0.05;
-    for (int step = 0; step < k_steps && size > k_least && !best_.empty() && !stopped(-k_none); ++step) {
+    for (int step = 0; step < k_steps && size > k_least && !best_.empty() && !must_stop(-k_none); ++step) {
       const double before = best_value_;
       const Design lowest = bounds_.lowest_around(best_, size);
       if (!lowest.empty()) accept_if_better(evaluated(kept(lowest, root_)));
@@ -299,7 +299,7 @@ class BranchAndBound {
       if (box.bound <= tie_limit()) by_size.emplace(relative_size(box), box);
     }
     ties.known = {best_, best_};
-    while (!by_size.empty() && by_size.begin()->first > k_small && !stopped(best_value_) &&
+    while (!by_size.empty() && by_size.begin()->first > k_small && !must_stop(best_value_) &&
            static_cast<long>(by_size.size()) < options_.most_tie_boxes) {
       std::vector<Box> batch;
       for (; !by_size.empty() && by_size.begin()->first > k_small && batch.size() < k_batch;

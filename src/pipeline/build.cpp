@@ -12,7 +12,7 @@
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
 #include "pipeline/agreement.h"
-#include "pipeline/axle_room.h"
+#include "pipeline/axle_clearance.h"
 #include "pipeline/design.h"
 #include "pipeline/law_table_copy.h"
 #include "pipeline/layout.h"
@@ -515,7 +515,7 @@ std::vector<std::string> advised_notes(const formats::Product& product, const Bu
 
 std::vector<Diagnostic> parts_in_the_way(const formats::Product& product, const BuildOptions& options,
                                          const RunContext& context) {
-  return pulley_in_the_way(product, [&](const Mechanism& changed) {
+  return axle_clearance_warnings(product, [&](const Mechanism& changed) {
     return options.advice ? made(with_declared(product.file, changed), options, context) : std::nullopt;
   });
 }

@@ -56,7 +56,7 @@ bool all_hold(const Holding& holding) {
 std::optional<Holding> with_planned_tie_offs(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
                                              const StrokeLoads& loads) {
   const BodyPlan plan = plan_body(mechanism, synthesis);
-  if (!plan.possible()) return std::nullopt;
+  if (!plan.is_possible()) return std::nullopt;
   Holding holding;
   holding.strength = analysis::tendon_strength(mechanism.tendon);
   for (const PlannedAnchor& anchor : plan.anchors) {

@@ -139,7 +139,7 @@ TEST(ThreadPool, WaitingThreadBlocksOthers) {
   std::latch end(1);
   auto slow = pool.run_async([&] {
     begun.count_down();
-    const ThreadPool::Waiting waiting(pool);
+    const ThreadPool::WaitingScope waiting(pool);
     end.wait();
   });
   begun.wait();

@@ -16,7 +16,7 @@ namespace fusee::rig {
 /// A fault that a pulley can correct.
 struct LoopCase {
   std::string name;  ///< of the effect
-  Hidden hidden;
+  HiddenFaults hidden;
   std::vector<RunPlan> plans;
   double load = 0;  ///< load of the compared runs, N: where stretch matters, the mean of the plans' loads
 };

@@ -64,7 +64,7 @@ std::string test_name(const ::testing::TestParamInfo<PinnedRun>& info) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Outputs, ::testing::ValuesIn(runs()), test_name);
+INSTANTIATE_TEST_SUITE_P(Commands, Outputs, ::testing::ValuesIn(runs()), test_name);
 
 // Eigen would block its products by the cache sizes, which changes the last digits of sums.
 TEST(Pins, IgnoreProcessorCaches) {

@@ -347,6 +347,6 @@ TEST_P(Choices, AreBuiltOrRefused) {
               ends[End::refused]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Choices, ::testing::Values("forearm.toml", "gripper.toml", "wrist_exo.toml"));
+INSTANTIATE_TEST_SUITE_P(Profiles, Choices, ::testing::Values("forearm.toml", "gripper.toml", "wrist_exo.toml"));
 
 }  // namespace

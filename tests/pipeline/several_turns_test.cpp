@@ -85,18 +85,18 @@ double uncorrected(const std::string& profile, const joint::IdentifiedJoint& joi
   return degrees(wound.result.max_theta_error);
 }
 
-struct Found {
+struct IdentifiedCase {
   const char* profile;
   const char* key;
   const char* value;
   double without;  ///< least error of the declared pulley, deg; 0: not tested
 };
 
-class IdentifiedTurns : public ::testing::TestWithParam<Found> {};
+class IdentifiedTurns : public ::testing::TestWithParam<IdentifiedCase> {};
 
 // The corrected pulley follows the target motion on the identified joint, rewound on its mesh.
 TEST_P(IdentifiedTurns, AreCorrectedByPulley) {
-  const Found& found = GetParam();
+  const IdentifiedCase& found = GetParam();
   const pipeline::BuildResult built =
       made(read_profile(found.profile, {{std::string("identified.") + found.key, found.value}}));
   ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
@@ -114,15 +114,15 @@ TEST_P(IdentifiedTurns, AreCorrectedByPulley) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, IdentifiedTurns,
-                         ::testing::Values(Found{"wrist_turns", "guide_radius_mm", "0.3", 0.01},
-                                           Found{"wrist_turns", "guide1_outward_mm", "1", 0.05},
-                                           Found{"wrist_turns", "length_mm", "0.5", 0.02},
-                                           Found{"wrist_turns", "radius_offset_mm", "0.1", 0.05},
-                                           Found{"wrist_turns", "runout_x_mm", "0.15", 0},
-                                           Found{"wrist_turns", "profile_sin_mm", "0.1", 0},
-                                           Found{"elbow_capstan", "drum_radius_mm", "0.3", 0.1},
-                                           Found{"elbow_capstan", "pulley_scale_percent", "1", 0}),
+INSTANTIATE_TEST_SUITE_P(Profiles, IdentifiedTurns,
+                         ::testing::Values(IdentifiedCase{"wrist_turns", "guide_radius_mm", "0.3", 0.01},
+                                           IdentifiedCase{"wrist_turns", "guide1_outward_mm", "1", 0.05},
+                                           IdentifiedCase{"wrist_turns", "length_mm", "0.5", 0.02},
+                                           IdentifiedCase{"wrist_turns", "radius_offset_mm", "0.1", 0.05},
+                                           IdentifiedCase{"wrist_turns", "runout_x_mm", "0.15", 0},
+                                           IdentifiedCase{"wrist_turns", "profile_sin_mm", "0.1", 0},
+                                           IdentifiedCase{"elbow_capstan", "drum_radius_mm", "0.3", 0.1},
+                                           IdentifiedCase{"elbow_capstan", "pulley_scale_percent", "1", 0}),
                          [](const auto& which) { return std::string(which.param.profile) + "_" + which.param.key; });
 
 /// A point of a pitch curve in profile.csv, within the range.
@@ -470,11 +470,11 @@ profile::Outline turn_about(const helix::Spiral& spiral, transmission::Side side
 }
 
 /// A tendon at one place of the stroke, by tangents to the drawing: from its end on the joint to the row it leaves.
-struct Strung {
+struct TracedTendon {
   formats::TendonTrace trace;
   std::size_t row = 0;
 };
-Strung strung(const formats::Product& product, transmission::Side side, std::size_t place) {
+TracedTendon strung(const formats::Product& product, transmission::Side side, std::size_t place) {
   const helix::HelixSide& helix = product.helix->synthesis.sides.at(side == transmission::Side::left ? 0 : 1);
   const double z = helix.stroke.at(place).z;
   std::size_t near = 0;

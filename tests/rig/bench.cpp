@@ -72,14 +72,14 @@ double find_root(double guess, double at_zero, Function function) {
 }
 
 /// A point of the printed curve with all errors of the print, in the right-hand image.
-Vec2 print_point(const profile::OutlinePoint& point, std::size_t side, const Hidden& hidden) {
+Vec2 print_point(const profile::OutlinePoint& point, std::size_t side, const HiddenFaults& hidden) {
   const double wave = hidden.profile_error * std::cos(hidden.profile_harmonic * point.psi + hidden.profile_phase);
   const Vec2 moved = (1.0 + hidden.pulley_scale) * point.position + (hidden.radius_offset + wave) * point.normal +
                      Vec2(hidden.runout_x, hidden.runout_y);
   return in_image(side, moved);
 }
 
-Hull print_outline(const profile::Outline& outline, std::size_t side, const Hidden& hidden) {
+Hull print_outline(const profile::Outline& outline, std::size_t side, const HiddenFaults& hidden) {
   Polygon corners;
   corners.reserve(outline.points.size());
   for (const profile::OutlinePoint& point : outline.points) corners.push_back(print_point(point, side, hidden));
@@ -87,7 +87,7 @@ Hull print_outline(const profile::Outline& outline, std::size_t side, const Hidd
 }
 
 /// A printed helical groove with the same errors.
-Hull print_spiral(const MadeSpiral& made, std::size_t side, const Hidden& hidden) {
+Hull print_spiral(const MadeSpiral& made, std::size_t side, const HiddenFaults& hidden) {
   Polygon corners;
   std::vector<double> heights;
   for (const helix::SpiralRow& row : made.rows) {
@@ -150,7 +150,7 @@ UpperString find_upper_string(const BenchTendon& tendon, const Circle& pin, doub
 
 // ---- at home --------------------------------------------------------------------------------------------------------
 
-Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
+Bench::Bench(const MadeJoint& joint, const HiddenFaults& hidden)
     : hidden_(hidden),
       longer_{Actors(hidden.longer[0], 0), Actors(hidden.longer[1], 1)},
       torque_(hidden.torque),

@@ -58,7 +58,7 @@ struct BenchTendon {
 class Bench {
  public:
   /// At home, unloaded, θ = 0.
-  Bench(const MadeJoint& joint, const Hidden& hidden);
+  Bench(const MadeJoint& joint, const HiddenFaults& hidden);
 
   /// θ with the pulley at `pulley` and the motor's sensor at `alpha`. NaN without equilibrium.
   double to(double pulley, double alpha, const Conditions& conditions);
@@ -123,7 +123,7 @@ class Bench {
   template <typename Answer>
   bool solve_displacements(Answer answer, Displacements there);
 
-  Hidden hidden_;
+  HiddenFaults hidden_;
   bool collar_ = false;
   double R_ = 0;
   double EA_ = 0;

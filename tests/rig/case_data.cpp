@@ -171,7 +171,7 @@ Json truth_of(const Case& made, const std::string& kind) {
   return {{"kind", kind},
           {"seed", made.seed},
           {"faults", faults},
-          {"groove_friction_differs", made.hidden.groove_friction != Hidden{}.groove_friction},
+          {"groove_friction_differs", made.hidden.groove_friction != HiddenFaults{}.groove_friction},
           {"sensor_noise_deg", angle_json(made.sensors.noise)}};
 }
 

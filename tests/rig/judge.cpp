@@ -37,7 +37,7 @@ bool is_outside(const std::string& fault, const std::vector<std::string>& withou
 }
 
 /// The friction of the groove differs from the file.
-bool has_other_groove(const Case& made) { return made.hidden.groove_friction != Hidden{}.groove_friction; }
+bool has_other_groove(const Case& made) { return made.hidden.groove_friction != HiddenFaults{}.groove_friction; }
 
 bool holds_truth(const std::vector<std::string>& group, const Case& made, const std::vector<std::string>& without) {
   if (has_other_groove(made) && holds(group, "groove_friction")) return true;

@@ -195,7 +195,7 @@ TEST(Truths, FaultsAreWellSeen) {
       EXPECT_GT(times, 2.5) << truth.name;
       EXPECT_LT(times, 20.0) << truth.name;
     }
-    EXPECT_EQ(made.hidden == Hidden{}, truth.faults.empty()) << truth.name;
+    EXPECT_EQ(made.hidden == HiddenFaults{}, truth.faults.empty()) << truth.name;
   }
 }
 

@@ -30,7 +30,7 @@ double wave(double amplitude, int order, double angle, double phase) {
 /// From the motor's sensor to the pulley, including play.
 class Drive {
  public:
-  Drive(const Hidden& hidden, double stroke)
+  Drive(const HiddenFaults& hidden, double stroke)
       : hidden_(hidden), added_(hidden.shaft), seat_(0.5 * stroke), shaft_(shaft(0.0)), pulley_(shaft_) {}
 
   double to(double alpha, const Moment& now) {
@@ -50,7 +50,7 @@ class Drive {
            hidden_.cogging * std::sin(hidden_.cogging_per_turn * alpha);
   }
 
-  const Hidden& hidden_;
+  const HiddenFaults& hidden_;
   Actors added_;
   double seat_;
   double shaft_;
@@ -108,7 +108,7 @@ class Noise {
 /// The state of joint, drive and sensors over all runs.
 class Session {
  public:
-  Session(const MadeJoint& joint, const Hidden& hidden, const SensorPlan& sensors, const MotionPlan& motion)
+  Session(const MadeJoint& joint, const HiddenFaults& hidden, const SensorPlan& sensors, const MotionPlan& motion)
       : as_mounted_(hidden),
         hidden_(hidden),
         sensors_(sensors),
@@ -220,8 +220,8 @@ class Session {
     return log;
   }
 
-  const Hidden& as_mounted_;
-  Hidden hidden_;
+  const HiddenFaults& as_mounted_;
+  HiddenFaults hidden_;
   const SensorPlan& sensors_;
   const MotionPlan& motion_;
   double low_, high_;
@@ -260,7 +260,7 @@ MadeJoint make_helical_joint(const DeclaredMechanism& declared) {
 
 }  // namespace
 
-Hidden with_turned_sensors(Hidden hidden, const RunPlan& plan) {
+HiddenFaults with_turned_sensors(HiddenFaults hidden, const RunPlan& plan) {
   hidden.motor_eccentricity_phase += plan.motor_turned;
   hidden.motor_harmonic_phase += hidden.motor_harmonic_order * plan.motor_turned;
   hidden.joint_eccentricity_phase += plan.joint_turned;
@@ -268,7 +268,7 @@ Hidden with_turned_sensors(Hidden hidden, const RunPlan& plan) {
   return hidden;
 }
 
-double joint_sensor_reading(const Hidden& hidden, double theta) {
+double joint_sensor_reading(const HiddenFaults& hidden, double theta) {
   return hidden.zero + (1.0 + hidden.gain) * theta +
          wave(hidden.joint_eccentricity, 1, theta, hidden.joint_eccentricity_phase) +
          wave(hidden.joint_harmonic, hidden.joint_harmonic_order, theta, hidden.joint_harmonic_phase) +
@@ -285,7 +285,7 @@ MadeJoint make_joint(const DeclaredMechanism& declared) {
   return {declared, made.p1, made.p2, made.stroke.front().alpha, made.stroke.back().alpha};
 }
 
-std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const std::vector<RunPlan>& runs,
+std::vector<Log> log_runs(const MadeJoint& joint, const HiddenFaults& hidden, const std::vector<RunPlan>& runs,
                           const SensorPlan& sensors, const MotionPlan& motion) {
   Session session(joint, hidden, sensors, motion);
   std::vector<Log> logs;

@@ -19,7 +19,7 @@ constexpr int k_iterations = 8;        // of a size
 
 struct BenchState {
   MadeJoint joint;
-  Hidden hidden;
+  HiddenFaults hidden;
 };
 
 /// A change whose effect grows with `size`.
