@@ -274,7 +274,7 @@ std::vector<std::string> template_words(const KitProduct& product) {
   return words;
 }
 
-/// For helical tendons.
+/// Heights of helical tendons.
 std::string heights_section(const KitProduct& product) {
   const kit::TendonHeights& heights = *product.plan.heights;
   const bool drum = product.pulley.joint.mechanism.joint.drum_radius > 0;

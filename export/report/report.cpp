@@ -238,12 +238,12 @@ std::string key_numbers(const Product& product) {
 
 std::string vector_words(const Vec3& v) { return shortest(v.x()) + " " + shortest(v.y()) + " " + shortest(v.z()); }
 
-/// Middle and half height of a groove along the axis.
+/// Middle and half height of a groove along the axis. A helical groove extends from its first turn to its last one,
+/// including the ribs between them.
 struct GrooveBand {
   double middle = 0, half = 0;
 };
 
-/// For a helical groove, from its first turn to its last one, including the ribs between them.
 GrooveBand groove_band(const Product& product, transmission::Side which) {
   const bool left = which == transmission::Side::left;
   const solid::BodyLayout& layout = product.pulley.layout;

@@ -301,7 +301,7 @@ struct RoundChoice {
   double max_error = 0;  ///< maximum error of θ, rad
   bool suffices = false;
 };
-/// For law = "compensate" only.
+/// The best round P1. Requires law = "compensate".
 RoundChoice round_choice(const DeclaredMechanism& declared);
 
 // ---- Simulation -----------------------------------------------------------------------------------------------------
