@@ -191,7 +191,7 @@ struct SynthesisResult {
 SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& options = {});
 
 /// True when the only failed conditions are those of one turn.
-bool need_several_turns(const SynthesisResult& synthesis);
+bool needs_multi_turn(const SynthesisResult& synthesis);
 /// Reason why a pulley is limited to one turn; null when it may have several.
 std::optional<std::string> kept_to_one_turn(const Mechanism& mechanism);
 

@@ -76,8 +76,8 @@ std::string why_infeasible(const DeclaredMechanism& corrected) {
   options.advice = false;
   const Mechanism mechanism = joint::identified_joint(corrected).mechanism;
   const profile::SynthesisResult made = profile::synthesise(mechanism, options);
-  // The build decides whether a pulley of several turns is feasible.
-  const bool may_be_multi_turn = profile::need_several_turns(made) && !profile::kept_to_one_turn(mechanism);
+  // The build decides whether a multi-turn pulley is feasible.
+  const bool may_be_multi_turn = profile::needs_multi_turn(made) && !profile::kept_to_one_turn(mechanism);
   return made.made() || may_be_multi_turn ? "" : made.brief();
 }
 

@@ -10,7 +10,7 @@
 #include "pipeline/agreement.h"
 #include "pipeline/design.h"
 #include "pipeline/law_table_copy.h"
-#include "pipeline/several_turns.h"
+#include "pipeline/multi_turn.h"
 #include "solid/print.h"
 
 namespace fusee::pipeline {

@@ -2,7 +2,7 @@
 """Chromium judges pages with a moving joint: their scripts and their drawings.
 
     judge_page.py build/forearm [page.html …]   a folder of `fusee build`, and other pages of the same joint
-    judge_page.py build/forearm --self-test     the judge must detect broken pages (also of several turns)
+    judge_page.py build/forearm --self-test     the judge must detect broken pages (also of multi-turn pulleys)
     judge_page.py --narrow page.html …          any pages at 400 and 320 px: nothing cut, no text below 11 px, no broken word
     judge_page.py --still page.html …           pages without scripts: no requests, no overflow, visible pictures
 
@@ -58,7 +58,7 @@ LEVER = """
     };
   };
 """
-# For a pulley of several turns seen from the side, x right and y up, in mm, scaled by the lines at its lower and
+# For a multi-turn pulley seen from the side, x right and y up, in mm, scaled by the lines at its lower and
 # upper face.
 HELIX = """
   const scene = document.querySelector(".helix-scene");
@@ -248,7 +248,7 @@ def faults_of_motion(found, rows, lever):
 
 @dataclasses.dataclass
 class Helix:
-    """A pulley of several turns: the grooves of profile.csv, and the tendons."""
+    """A multi-turn pulley: the grooves of profile.csv, and the tendons."""
     height: float   # mm, of the grooves' part
     spirals: list   # of P1 and P2: turn_deg, x_mm, y_mm, z_mm, in order
     pins: list      # in the pulley's plane, mm, joint above

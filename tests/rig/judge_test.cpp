@@ -61,7 +61,7 @@ TEST(Judge, UnmodelledGroupIsNoFalsePositive) {
   EXPECT_EQ(one.false_names, 0u);
   EXPECT_EQ(one.wrong_alone, 0u);
   const Rates found = rates({one});
-  EXPECT_EQ(found.empty_groups.part, 1u);
+  EXPECT_EQ(found.false_groups.part, 1u);
   EXPECT_EQ(found.false_names.part, 0u);
   EXPECT_EQ(found.held_by_names.part, 1u);
   EXPECT_EQ(found.alone.all, 2u);
@@ -103,9 +103,9 @@ TEST(Judge, RatesAreShares) {
   };
   const Rates found = rates(all);
   EXPECT_DOUBLE_EQ(found.miss.share(), 0.5);
-  EXPECT_DOUBLE_EQ(found.empty_groups.share(), 0.25);
-  EXPECT_DOUBLE_EQ(found.empty_groups_nothing.share(), 0.5);
-  EXPECT_DOUBLE_EQ(found.empty_groups_outside.share(), 0.5);
+  EXPECT_DOUBLE_EQ(found.false_groups.share(), 0.25);
+  EXPECT_DOUBLE_EQ(found.false_groups_nothing.share(), 0.5);
+  EXPECT_DOUBLE_EQ(found.false_groups_outside.share(), 0.5);
   EXPECT_DOUBLE_EQ(found.wrong_alone.share(), 1.0 / 6.0);
   EXPECT_DOUBLE_EQ(found.unexplained_outside.share(), 0.5);
   EXPECT_DOUBLE_EQ(found.quiet.share(), 0.5);

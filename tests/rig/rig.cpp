@@ -280,7 +280,7 @@ MadeJoint make_joint(const DeclaredMechanism& declared) {
   options.chord_error_mm = 2e-5;
   options.advice = false;
   const profile::SynthesisResult made = profile::synthesise(declared, options);
-  if (profile::need_several_turns(made)) return make_helical_joint(declared);
+  if (profile::needs_multi_turn(made)) return make_helical_joint(declared);
   if (!made.made()) throw InputError("rig", made.brief());
   return {declared, made.p1, made.p2, made.stroke.front().alpha, made.stroke.back().alpha};
 }
