@@ -366,7 +366,7 @@ std::vector<StepTool> step_raised(const Mechanism& mechanism, const solid::Pulle
   return raised;
 }
 
-double round_holes_leave(const solid::Pulley& pulley) {
+double round_hole_excess(const solid::Pulley& pulley) {
   const solid::BodyLayout& layout = pulley.layout;
   const solid::BoreLayout& bore = layout.bore;
   double volume = 0;

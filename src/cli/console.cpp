@@ -94,7 +94,7 @@ std::optional<std::string> Console::ask(std::string_view question) {
   return line;
 }
 
-void Console::tell(std::string_view text) {
+void Console::write(std::string_view text) {
   end_progress();
   show(text);
 }

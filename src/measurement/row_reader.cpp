@@ -380,8 +380,8 @@ class RowReader {
         fail(column_of(values_[column.index]),
              column.name + " is in " + std::string(stated->name) + " by its name, but in " + std::string(unit->name) +
                  " by the line below it",
-             "--unit " + column.role + "=" + std::string(unit->name) + " or =" + std::string(stated->name) +
-                 " says which one it is");
+             "select one with --unit " + column.role + "=" + std::string(unit->name) + " or --unit " + column.role +
+                 "=" + std::string(stated->name));
         continue;
       }
       column.unit = unit;

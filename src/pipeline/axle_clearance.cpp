@@ -103,8 +103,7 @@ std::vector<Diagnostic> axle_clearance_warnings(
   Diagnostic warning{Severity::warning, product.file.place_of("pulley.EF_mm"), {}, {}};
   warning.message = fmt::format(
       "{} is {} mm {} the pulley's flanges at theta = {} deg: at least {} mm from them is required for the thinnest "
-      "axle "
-      "(M3)",
+      "axle (M3)",
       part->part, rounded(std::abs(part->distance), 3), part->distance < 0 ? "inside" : "from",
       fixed(degrees(part->theta), 1), rounded(k_thinnest_radius + k_clearance));
   const Field& field = *find_field("pulley.EF_mm");

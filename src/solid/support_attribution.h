@@ -12,8 +12,8 @@
 
 namespace fusee::solid {
 
-/// Places of a part that would need supports in its print orientation: layers that project too far, and unsupported regions.
-/// Coordinates are those of the whole, without the mesh's scale.
+/// Places of a part that would need supports in its print orientation: layers that project too far, and unsupported
+/// regions. Coordinates are those of the whole part, without the mesh's scale.
 std::vector<Vec3> unprintable_places(const TriangleMesh& lying, Piece piece, const BodyLayout& layout, double overhang,
                                      Corners corners);
 

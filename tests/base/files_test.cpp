@@ -132,7 +132,7 @@ TEST_F(Files, RejectsLargeFilesBeforeReading) {
   EXPECT_THAT(input_error([&] { read_file(root_ / "just", 6); }), HasSubstr("is larger than 6 bytes"));
 }
 
-TEST(Sha256, KnownVectors) {  // FIPS 180-2, appendix B
+TEST(Sha256, MatchesKnownVectors) {  // FIPS 180-2, appendix B
   EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),

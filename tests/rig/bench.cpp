@@ -274,7 +274,7 @@ double Bench::level_arm_at_home(BenchTendon& tendon) const {
   const UpperString up = find_upper_string(tendon, tendon.pin, 0.0, tendon.over);
   if (collar_ || !tendon.hull.is_helical()) return up.arm;
   const Circle seen = seen_guide(tendon, tendon.pin);
-  const LowerString low = lower_string(tendon.hull, seen, first_look(tendon.hull, seen));
+  const LowerString low = lower_string(tendon.hull, seen, initial_corner(tendon.hull, seen));
   const double level = up.length + low.length + tendon.pin.radius * (direction(up.normal) - direction(low.normal));
   return up.arm / length_ratio(level, rise_of(tendon, low));
 }
@@ -308,7 +308,7 @@ double Bench::knot_of(const BenchTendon& tendon, const Circle& seen, const Lower
 Vec2 Bench::cut_to_length(BenchTendon& tendon, double tension, double slack, double unwound) {
   const UpperString up = find_upper_string(tendon, tendon.pin, 0.0, tendon.over);
   const Circle seen = seen_guide(tendon, tendon.pin);
-  const LowerString low = lower_string(tendon.hull, seen, first_look(tendon.hull, seen));
+  const LowerString low = lower_string(tendon.hull, seen, initial_corner(tendon.hull, seen));
   const Cord cord{EA_, hidden_.hardening, 1.0};
   // A sheath starts vertically.
   const double off_pin = tendon.sheath.empty() ? direction(low.normal) : 0.0;

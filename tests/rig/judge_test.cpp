@@ -164,7 +164,7 @@ TEST(Judge, ComparesNumbersWithIntervals) {
 }
 
 /// Wilson's interval as Newcombe (1998) prints it for his examples.
-TEST(Judge, WilsonBounds) {
+TEST(Judge, ComputesWilsonBounds) {
   EXPECT_NEAR(wilson({81, 263}).low, 0.2553, 5e-5);
   EXPECT_NEAR(wilson({81, 263}).high, 0.3662, 5e-5);
   EXPECT_NEAR(wilson({0, 20}).low, 0.0, 5e-5);

@@ -65,8 +65,7 @@ constexpr ProtocolWords k_protocols[] = {
     {Protocol::single, "single", "One unloaded run of two cycles a joint.\n"},
     {Protocol::random, "random",
      "Two to seven runs a joint: strokes, staircases of loads at dwells, points at both ends in turn, loads that "
-     "change "
-     "within a run.\nSpeeds of 5 to 120 deg/s, noise of 0.005 to 0.05 deg.\n"},
+     "change within a run.\nSpeeds of 5 to 120 deg/s, noise of 0.005 to 0.05 deg.\n"},
 };
 constexpr std::pair<const char*, Kind> k_kinds[] = {
     {"nothing", Kind::nothing}, {"one", Kind::one},         {"two", Kind::two},

@@ -44,7 +44,7 @@ Polygon circle(double radius, int corners) {
 TEST(String, WindsOnCircle) {
   const Hull hull = hull_of(circle(7.0, 20000));
   const Circle pin{{15.0, 40.0}, 2.0};
-  const LowerString string = lower_string(hull, pin, first_look(hull, pin));
+  const LowerString string = lower_string(hull, pin, initial_corner(hull, pin));
   const double c = pin.centre.norm();
   EXPECT_NEAR(string.length, std::sqrt(c * c - 25.0), 5e-3);  // a corner may lie half a side off
   EXPECT_NEAR(string.arm, 7.0, 1e-6);
@@ -55,7 +55,7 @@ TEST(String, WindsOnCircle) {
 TEST(String, CountsWholeTurns) {
   const Hull hull = hull_of(circle(7.0, 720));
   const Circle pin{{15.0, 40.0}, 2.0};
-  const LowerString once = lower_string(hull, pin, first_look(hull, pin));
+  const LowerString once = lower_string(hull, pin, initial_corner(hull, pin));
   const LowerString later = lower_string(hull, pin, once.corner + 3 * 720);
   EXPECT_NEAR(later.arc - once.arc, 3 * hull.around, 1e-10);
   const LowerString earlier = lower_string(hull, pin, once.corner - 720);
