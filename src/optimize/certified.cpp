@@ -80,11 +80,11 @@ class BranchAndBound {
   // ---- branch and bound ----------------------------------------------------------------------------------------------
 
   void start() {
-    for (const Design& design : options_.first_tries) accept_if_better(evaluated(design));
+    for (const Design& design : options_.first_tries) accept_if_better(evaluate(design));
     constexpr int k_first_tries = 200;
     Random random(1);
     for (int i = 0; i < k_first_tries && !must_stop(-k_none); ++i)
-      accept_if_better(evaluated(random_design(problem_, random)));
+      accept_if_better(evaluate(random_design(problem_, random)));
     for (std::size_t i = 0; i < count_; ++i) {
       root_.lower[i] = problem_.variables[i].lower;
       root_.upper[i] = problem_.variables[i].upper;
@@ -131,11 +131,11 @@ class BranchAndBound {
     return stopped_;
   }
 
-  /// Boxes are bounded in parallel, with the knowledge from before; results are taken in order.
+  /// Bounds all boxes in parallel, with the best design of earlier batches. Outcomes have the order of the boxes.
   std::vector<Outcome> outcomes_of(const std::vector<Box>& boxes) {
     std::vector<Outcome> outcomes(boxes.size());
     ThreadPool::shared().each(
-        boxes.size(), [&](std::size_t i, std::size_t) { outcomes[i] = bounded(boxes[i], i < k_mended); },
+        boxes.size(), [&](std::size_t i, std::size_t) { outcomes[i] = bound_box(boxes[i], i < k_repaired); },
         options_.threads);
     boxes_ += static_cast<long>(boxes.size());
     for (const Outcome& outcome : outcomes) evaluations_ += outcome.evaluations;
@@ -162,8 +162,8 @@ class BranchAndBound {
     }
   }
 
-  /// `mends`: if the resulting design is infeasible, a feasible one near it is searched.
-  Outcome bounded(const Box& given, bool mends) const {
+  /// `repairs`: if the resulting design is infeasible, a feasible one near it is searched.
+  Outcome bound_box(const Box& given, bool repairs) const {
     Outcome outcome;
     outcome.box = given;
     const BoxBound bound = bounds_.bound(outcome.box, tie_limit());
@@ -174,11 +174,11 @@ class BranchAndBound {
     outcome.box.cut = best_cut(outcome.box, bound);
     if (bound.bound > best_value_) return outcome;
     outcome.evaluated.push_back(
-        evaluated(bound.lowest.empty() ? middle_of(outcome.box) : kept(bound.lowest, outcome.box)));
-    if (best_.empty() && !bound.lowest.empty()) outcome.evaluated.push_back(evaluated(middle_of(outcome.box)));
-    if (mends && !bound.lowest.empty() && !outcome.evaluated.front().evaluation.possible) {
-      const Design mended = bounds_.lowest_around(bound.lowest, std::max(1e-3, relative_size(outcome.box)));
-      if (!mended.empty()) outcome.evaluated.push_back(evaluated(kept(mended, root_)));
+        evaluate(bound.lowest.empty() ? middle_of(outcome.box) : constrained(bound.lowest, outcome.box)));
+    if (best_.empty() && !bound.lowest.empty()) outcome.evaluated.push_back(evaluate(middle_of(outcome.box)));
+    if (repairs && !bound.lowest.empty() && !outcome.evaluated.front().evaluation.possible) {
+      const Design repaired = bounds_.lowest_around(bound.lowest, std::max(1e-3, relative_size(outcome.box)));
+      if (!repaired.empty()) outcome.evaluated.push_back(evaluate(constrained(repaired, root_)));
     }
     return outcome;
   }
@@ -195,7 +195,7 @@ class BranchAndBound {
   }
 
   /// Satisfies the constraints, if moving a single variable suffices.
-  Design kept(const Design& design, const Box& box) const {
+  Design constrained(const Design& design, const Box& box) const {
     for (std::size_t i = 0; i < count_ && !problem_.constraints.empty(); ++i) {
       const Design moved = moved_into_constraints(design, i, box);
       if (constraint_violation(problem_, moved) == 0) return moved;
@@ -203,7 +203,7 @@ class BranchAndBound {
     return design;
   }
 
-  EvaluatedDesign evaluated(const Design& design) const {
+  EvaluatedDesign evaluate(const Design& design) const {
     return {design, evaluate_design(problem_, objective_, design)};
   }
 
@@ -226,7 +226,7 @@ class BranchAndBound {
     for (int step = 0; step < k_steps && size > k_least && !best_.empty() && !must_stop(-k_none); ++step) {
       const double before = best_value_;
       const Design lowest = bounds_.lowest_around(best_, size);
-      if (!lowest.empty()) accept_if_better(evaluated(kept(lowest, root_)));
+      if (!lowest.empty()) accept_if_better(evaluate(constrained(lowest, root_)));
       size *= best_value_ < before - 1e-3 * options_.gap * std::abs(before) ? k_larger : k_smaller;
     }
     polished_ = best_value_;
@@ -351,7 +351,7 @@ class BranchAndBound {
   /// Halves per batch: enough for eight threads, and few compared with a search. The search does not depend on the
   /// number of threads.
   static constexpr std::size_t k_batch = 32;
-  static constexpr std::size_t k_mended = 4;  ///< number of boxes of a batch with the lowest bounds
+  static constexpr std::size_t k_repaired = 4;  ///< number of boxes of a batch with the lowest bounds
 
   const Problem& problem_;
   std::size_t count_;
@@ -371,10 +371,6 @@ class BranchAndBound {
   long evaluations_ = 0;
   bool stopped_ = false;
 };
-
-}  // namespace
-
-namespace {
 
 double least_of(const MovingKey& moving, const std::vector<Variable>& variables) {
   double least = moving.constant;

@@ -626,8 +626,8 @@ class PlanStep(Value):
     words: str
     minutes: float
     by_minutes: float  #: from the beginning to the end of this step
-    sees: Tuple[str, ...]
-    tells: Tuple[str, ...]
+    sees: Tuple[str, ...]  #: causes that this step detects first
+    tells: Tuple[str, ...]  #: pairs that this step resolves first: "backlash from creep"
     file: str  #: name of its run file; "" unless it is a run
 
 
