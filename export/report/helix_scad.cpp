@@ -73,7 +73,7 @@ std::string groove_edges_text(const char* name, const helical_solid::Winding& wi
 
 /// `made`: the fan that the part was cut from, which has the projections of its groove edges.
 std::string spiral_arrays(const helical_solid::Fan& fan, const helical_solid::Fan& made, double half) {
-  return "// The groove floors from end to end: x, y, the direction in which the floor looks, degrees, and the height "
+  return "// The groove floors from end to end: x, y, direction of the outward normal, degrees, and the height "
          "of the tendon's\n// centre line there. A turn has as many rows as the fan has columns.\n" +
          fmt::format("columns = {};\n", fan.columns()) +
          fmt::format("first_column1 = {};  // of P1's first row\nfirst_column2 = {};  // of P2's\n",

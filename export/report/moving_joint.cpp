@@ -48,14 +48,16 @@ std::string json_outline(const profile::Outline& outline) {
   return text + "]}";
 }
 
-bool is_held(const joint::EquilibriumPoint& point) { return point.status != joint::EquilibriumStatus::no_equilibrium; }
+bool has_equilibrium(const joint::EquilibriumPoint& point) {
+  return point.status != joint::EquilibriumStatus::no_equilibrium;
+}
 
 /// The joint under its load, in one direction of the stroke.
 std::string json_way(const std::vector<analysis::StrokePoint>& loaded,
                      joint::EquilibriumPoint analysis::StrokePoint::*way) {
   const auto numbers = [&](const std::string& key, int decimals, auto value) {
     return json_numbers(key, loaded, decimals, [&](const analysis::StrokePoint& point) {
-      return is_held(point.*way) ? value(point.*way) : std::nan("");
+      return has_equilibrium(point.*way) ? value(point.*way) : std::nan("");
     });
   };
   const auto tension = [&](const std::string& key, joint::TendonState joint::EquilibriumPoint::*tendon,

@@ -324,7 +324,7 @@ scale(print_scale) {
 }
 //= several turns
 // ---- the turns: rows of the groove's section, one behind the other, over and under one another every `columns` rows ----
-// A row is [x, y, direction in which the floor looks, height]; both grooves fall as that direction grows. Rows continue
+// A row is [x, y, direction of the normal, height]; both grooves fall as that direction grows. Rows continue
 // beyond the end of a groove, filled to its edge: the tendon dives there.
 section = concat(
   [for (k = [len(lower_wall) - 1 : -1 : 0]) [lower_wall[k][0], -lower_wall[k][1]]],

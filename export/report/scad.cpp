@@ -244,8 +244,8 @@ std::string floor_arrays(const Product& product, const solid::FlangeRims& rims) 
   const profile::SynthesisResult& synthesis = product.synthesis;
   const double d = product.joint.mechanism.tendon.diameter;
   const std::vector<std::size_t> kept = kept_points(synthesis.p1, synthesis.p2, rims);
-  return "// The groove floors: x, y, and the direction in which the floor looks there, degrees. Point i of both looks "
-         "the same way.\n" +
+  return "// The groove floors: x, y, and direction of the outward normal, degrees. Point i of both has the same "
+         "normal.\n" +
          floor_array("P1", synthesis.p1, d, kept) + floor_array("P2", synthesis.p2, d, kept);
 }
 
