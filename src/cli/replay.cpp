@@ -92,7 +92,7 @@ BundledOutcome replayed_in(const fs::path& folder, const Bundle& bundle, const s
   ::setenv("TMPDIR", folder.c_str(), 1);
   Console console;
   BundleAccess access(bundle);
-  const CommandOutcome ending = ending_of(bundle.words, console, {.stop = stop, .files = &access});
+  const CommandOutcome ending = run_command(bundle.words, console, {.stop = stop, .files = &access});
   return access.outcome(ending);
 }
 

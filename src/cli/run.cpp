@@ -164,7 +164,7 @@ const std::vector<Command>& commands() {
   return all;
 }
 
-CommandOutcome ending_of(const std::vector<std::string>& words, Console& console, RunContext context) {
+CommandOutcome run_command(const std::vector<std::string>& words, Console& console, RunContext context) {
   CommandOutcome ending;
   context.progress = [&console](std::string_view step, std::optional<double> share) {
     console.progress(share ? progress_bar(*share) + ", " + std::string(step) : step);
@@ -188,13 +188,13 @@ class CommandFiles : public FileAccess {
   void will_publish(const std::filesystem::path&, const std::filesystem::path&) override { prevent_exit_by_signal(); }
 };
 
-CommandOutcome recorded_ending(const std::vector<std::string>& words, const std::string& bundle, Console& console,
-                               const std::stop_token& stop) {
+CommandOutcome run_recorded(const std::vector<std::string>& words, const std::string& bundle, Console& console,
+                            const std::stop_token& stop) {
   CommandOutcome ending;
   ending.json = has_switch(words, "--json");
   try {
     Recording recording(bundle, words, has_switch(words, "--force"));
-    ending = ending_of(words, console, {.stop = stop, .files = &recording});
+    ending = run_command(words, console, {.stop = stop, .files = &recording});
     ending.reply.diagnostics.push_back(recording.pack(ending));
     ending.reply.fields["bundle"] = bundle;
   } catch (const OutputError& error) {
@@ -216,8 +216,8 @@ int run(const std::vector<std::string>& given) {
   const auto ended = [&] {
     const SignalWatch watch;
     CommandFiles files;
-    return bundle.empty() ? ending_of(words, console, {.stop = watch.stop(), .files = &files})
-                          : recorded_ending(words, bundle, console, watch.stop());
+    return bundle.empty() ? run_command(words, console, {.stop = watch.stop(), .files = &files})
+                          : run_recorded(words, bundle, console, watch.stop());
   };
   const CommandOutcome ending = ended();
   const Reply& reply = ending.reply;

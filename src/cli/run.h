@@ -22,7 +22,7 @@ struct CommandOutcome {
 
 /// Runs a command. `words`: the arguments without the program's name. Never throws; prints only progress. `context`: its
 /// progress is shown on the console.
-CommandOutcome ending_of(const std::vector<std::string>& words, Console& console, RunContext context);
+CommandOutcome run_command(const std::vector<std::string>& words, Console& console, RunContext context);
 
 /// Runs a command with --bundle, prints everything and returns the exit code.
 int run(const std::vector<std::string>& words);

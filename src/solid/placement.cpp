@@ -21,7 +21,7 @@ constexpr double k_most_deviation = 0.02;
 constexpr double k_most_deviation_of_copy = 0.001;
 // A size that differs by more is a wrong unit or a slicer's scaling, not shrinkage.
 constexpr double k_most_rescaled = 0.02;
-// Factor by which a more complex placement must fit better: curves that are their own mirror image fit both assignments.
+// Factor by which a more complex placement must fit better: curves that are their own mirror image fit both ways.
 constexpr double k_clearly_better = 0.5;
 // Least depth of a groove, in tendon diameters.
 constexpr double k_least_groove = 0.3;

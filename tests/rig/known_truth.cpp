@@ -43,7 +43,7 @@ constexpr const char* k_usage =
   --most-lost P     exit code 4 if more than P % of the named faults beside an unmodelled one are in no group
   --most-false P    exit code 4 if more than P % of the joints, modelled or not, have a false positive
   --most-false-groups P  exit code 4 if more than P % of the joints, modelled or not, have a group without a true cause,
-                    including groups that say "unmodelled"
+                    including groups with "unmodelled"
   --joint FILE      this joint without its [load] instead of a random one: faults of its drum, attachments, idlers
   --list            prints the truths
 )";

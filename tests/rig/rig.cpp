@@ -15,9 +15,9 @@ namespace {
 
 constexpr double k_approach = radians(2.5);  // steps of α between home and the start of the sweep, and between far rows
 constexpr int k_loading = 8;                 // steps in which the load comes on
-constexpr int k_lag_steps = 4;               // between rows, where a late sensor shows what was there between them
+constexpr int k_lag_steps = 4;               // steps between rows, for a sensor that shows an earlier angle
 constexpr double k_warm = 31.0;              // °C, when the session begins
-constexpr double k_cooling = 11.0;           // K, in the end
+constexpr double k_cooling = 11.0;           // K, after a long time
 constexpr double k_cooling_time = 150.0;     // s
 
 double temperature_at(double time) { return k_warm - k_cooling * (1.0 - std::exp(-time / k_cooling_time)); }
@@ -146,18 +146,18 @@ class Session {
     pulled.load += load_(at_);
     return bench_.to(drive_.to(alpha, at_), alpha, pulled);
   }
-  /// In even steps of time and α.
+  /// Moves in even steps of time, α and load.
   void go(double alpha, double load, double seconds) {
     const double from = at_.alpha;
-    const double hung = at_.load;
-    const int steps =
-        std::max(load != hung ? k_loading : 1, static_cast<int>(std::ceil(std::abs(alpha - from) / k_approach - 1e-9)));
+    const double load_before = at_.load;
+    const int steps = std::max(load != load_before ? k_loading : 1,
+                               static_cast<int>(std::ceil(std::abs(alpha - from) / k_approach - 1e-9)));
     for (int i = 1; i <= steps; ++i) {
-      at_.load = hung + (load - hung) * i / steps;
+      at_.load = load_before + (load - load_before) * i / steps;
       move(from + (alpha - from) * i / steps, 0.0, seconds / steps);
     }
   }
-  /// Within the pause: the load off, home, to the start of the sweep, the load on.
+  /// Takes the load off, moves home and to the start of the sweep, and applies the load. All of it takes one pause.
   void begin(double load) {
     const double quarter = 0.25 * motion_.pause;
     go(at_.alpha, 0.0, quarter);
@@ -197,7 +197,7 @@ class Session {
     return done;
   }
 
-  /// The joint's sensor, but for noise.
+  /// Reading of the joint's sensor without noise.
   double read_joint_sensor(double theta, const Moment& now) {
     return joint_sensor_reading(hidden_, theta) + reading_(now);
   }
