@@ -134,8 +134,8 @@ std::string infeasible_words(const correction::Correction& correction) {
 std::string assembly_angle_words(const correction::Correction& correction) {
   return "tie its tendons with the unloaded joint at home and the motor at " +
          rounded(degrees(correction.assembly_angle), 4) +
-         " deg: under its mean load the joint then follows its law; tied at 0 it is off by as much, which "
-         "compensation.csv has";
+         " deg: under its mean load the joint then follows its law. Assembled at 0, it is off by as much, which "
+         "compensation.csv corrects";
 }
 
 std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(

@@ -94,7 +94,7 @@ struct Measurement {
   double alpha_quantum = 0;  ///< sensor step, rad; 0 if it is too fine to be detected
   double theta_quantum = 0;
   std::string load_unit;                  ///< of the loads: "N", "Nm", "Nmm"; "" without loads
-  std::vector<std::string> notes;         ///< rows dropped or repaired and suspected faults, with file and line
+  std::vector<std::string> notes;         ///< rows dropped or repaired and likely faults, with file and line
   std::vector<std::string> sources;       ///< of bags: topics and clock of the rows. No part of results
   std::vector<std::string> not_testable;  ///< reasons why the data cannot be evaluated; empty if they can
 };

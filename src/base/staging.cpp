@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 void fail_output(const std::string& what, const fs::path& path, int code) {
   std::string hint;
-  if (code == ENOSPC || code == EDQUOT) hint = "the disk is full: make room, or choose another folder with -o";
+  if (code == ENOSPC || code == EDQUOT) hint = "the disk is full: free some space, or choose another folder with -o";
   if (code == EFBIG) hint = "the file exceeds a size limit: ulimit -f, or that of the file system";
   if (code == EACCES || code == EPERM || code == EROFS) hint = "choose a folder that you may write to with -o";
   throw OutputError(what + " " + path.string() + ": " + std::error_code(code, std::generic_category()).message(), hint);

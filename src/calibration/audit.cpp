@@ -272,18 +272,18 @@ Auditor::Set Auditor::search(const SyntheticDataset& data, Set set) const {
 /// True if the true cause would be a member of the group of the reported effect.
 bool Auditor::is_group_member(const SyntheticDataset& data, const Set& found, std::size_t named) const {
   if (data.true_cause == nullptr || data.true_cause == data.excluded) return false;
-  Set instead;
+  Set swapped;
   for (const std::size_t i : found) {
     if (chords_[i].effect == data.true_cause) return true;
-    if (i != named) instead.push_back(i);
+    if (i != named) swapped.push_back(i);
   }
   for (std::size_t i = 0; i < chords_.size(); ++i) {
-    if (chords_[i].effect == data.true_cause) instead.push_back(i);
+    if (chords_[i].effect == data.true_cause) swapped.push_back(i);
   }
   const auto reached = [&](const Set& set) {
     return score_of(evidence_model_.best(sums(data, set), data.start, k_rounds + 2), set);
   };
-  return reached(instead) >
+  return reached(swapped) >
          reached(found) - k_thresholds.temperature * std::log(1.0 / k_thresholds.complete_group_absence);
 }
 

@@ -176,11 +176,11 @@ class Proposals {
     before.load = 0;
     before.change = plan::BenchChange::none;
     before.speed = as_before(evidence_.measurement).speed;
-    const auto found = shown(found_, run), instead = shown(*other.at, run);
+    const auto found = shown(found_, run), alternative = shown(*other.at, run);
     auto expected = shown(found_, before);
-    const auto instead_before = shown(*other.at, before);
+    const auto alternative_before = shown(*other.at, before);
     for (std::size_t k = 0; k < expected.front().size(); ++k)
-      expected.front()[k] = instead.front()[k] + expected.front()[k] - instead_before.front()[k];
+      expected.front()[k] = alternative.front()[k] + expected.front()[k] - alternative_before.front()[k];
     return plan::rms_apart(found, expected);
   }
 

@@ -463,14 +463,14 @@ std::vector<UnmodelledAlternative> find_unmodelled_alternatives(const Evidence& 
       rivals[i].log_odds = 0;  // The effect cannot be distinguished from an unmodelled cause.
       continue;
     }
-    const ShapeSelection& instead = selections[i + 1];
-    rivals[i].log_odds = selections.front().score - std::max(instead.score, loads[i].score);
-    if (loads[i].score > instead.score) {
+    const ShapeSelection& alternative = selections[i + 1];
+    rivals[i].log_odds = selections.front().score - std::max(alternative.score, loads[i].score);
+    if (loads[i].score > alternative.score) {
       rivals[i].words = "loads of " + rounded(loads[i].times, 2) + " times what was logged";
       rivals[i].separating_run = "hang a known weight where the load acts and compare it with what is logged";
       continue;
     }
-    for (const std::size_t shapes : instead.shapes) {
+    for (const std::size_t shapes : alternative.shapes) {
       if (std::count(selections.front().shapes.begin(), selections.front().shapes.end(), shapes)) continue;
       rivals[i].words = search.shape(shapes).words;
       rivals[i].separating_run = separating_run(search.shape(shapes).dependence);

@@ -45,8 +45,8 @@ double lost_motion(const Imperfections& found, const Mechanism& declared, double
   return play + std::abs(declared.transmission->ratio * turned);
 }
 
-/// Combines earlier and new imperfections. Earlier ones are part of the declared model as far as a mechanism has them;
-/// the rest is identified anew.
+/// Combines earlier and new imperfections. Earlier ones that a mechanism has are part of the declared model; others are
+/// identified anew.
 Imperfections composed(const DeclaredMechanism& declared, const Imperfections& found) {
   Imperfections total = merge_findings(declared.identified, found, kind_of(declared));
   total.joint.mean_load = declared.identified.joint.mean_load;

@@ -52,7 +52,7 @@ START, SCALE = np.array([0.0, np.radians(0.5), 0.0]), np.array([1e-3, 1e-2, 1e-3
 
 def path_length(theta):
     """Length of the free tendon on side 1 from C over pin B to the point where it leaves the pin for the pulley, mm.
-    The rest is constant."""
+    The other part is constant."""
     rho = PIN + TENDON / 2
     cx, cy = R * np.sin(theta), R * np.cos(theta)
     dx, dy = cx + EB, cy + OE

@@ -408,7 +408,7 @@ def helix_of(folder, mechanism, page):
     guides, pulley = mechanism["guides"], mechanism["pulley"]
     pins = [(-guides["EB_mm"], pulley["EF_mm"]), (guides["ED_mm"], pulley["EF_mm"])]
     radius = guides["radius_mm"] + (0.5 * mechanism["tendon"]["diameter_mm"] if guides["radius_mm"] > 0 else 0.0)
-    height = json.loads(page.split('id="climb">', 1)[1].split("</script>")[0])["top"]
+    height = json.loads(page.split('id="helix">', 1)[1].split("</script>")[0])["top"]
     return Helix(height, spirals, pins, radius)
 
 
@@ -418,7 +418,7 @@ def read(folder):
     rows = rows[:: max(1, len(rows) // 24)]
     page = (folder / "report.html").read_text(encoding="utf-8")
     mechanism = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["mechanism"]
-    return page, rows, helix_of(folder, mechanism, page) if 'id="climb">' in page else lever_of(mechanism)
+    return page, rows, helix_of(folder, mechanism, page) if 'id="helix">' in page else lever_of(mechanism)
 
 
 # Changes that break a page, with a word of the expected fault.
@@ -442,7 +442,7 @@ LEVER_ALONE = ("angle", "tendon", "error")
 HELIX_BREAKS = {
     "turned back": ("px(row[1] * c - row[0] * s, row[2])", "px(row[1] * c + row[0] * s, row[2])", "to the right, not"),
     "height": ("const z = between(side.z, place), {", "const z = between(side.z, place) + 2, {", "beside its pin"),
-    "slope": ("z + climb * (data.pin", "z - climb * (data.pin", "is drawn rising by"),
+    "slope": ("z + slope * (data.pin", "z - slope * (data.pin", "is drawn rising by"),
     "angle": ("number(between(data.theta, place), 2)", "number(0.9 * between(data.theta, place), 2)", "the page says"),
 }
 

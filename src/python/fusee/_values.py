@@ -194,7 +194,7 @@ class Check(Value):
 class Outline(Value):
     """A closed convex pitch curve about the pulley's axis, counter-clockwise, at home. One row per point; none if infeasible.
 
-    Tendons leave it between the points ``active_first`` and ``active_last`` (counter-clockwise); the rest closes the curve.
+    Tendons leave it between the points ``active_first`` and ``active_last`` (counter-clockwise); the other points close the curve.
     """
 
     side: str  #: "left": P1, of tendon 1; "right": P2, of tendon 2
