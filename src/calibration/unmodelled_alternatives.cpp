@@ -281,12 +281,12 @@ class ShapeSearch {
     ShapeSelection best;
     double most = -std::numeric_limits<double>::infinity();
     for (const Amplitudes& start : {base.posterior.amplitudes, open}) {
-      ShapeSelection selection_;
+      ShapeSelection chosen;
       Amplitudes from = start;
       double reached = evidence_model_.best(sums_of_base.own, start, k_reading_rounds).log_evidence;
-      while (selection_.shapes.size() < k_most_taken && add_one(sums_of_base, selection_.shapes, from, reached)) {
+      while (chosen.shapes.size() < k_most_taken && add_one(sums_of_base, chosen.shapes, from, reached)) {
       }
-      if (reached > most) most = reached, best = std::move(selection_);
+      if (reached > most) most = reached, best = std::move(chosen);
     }
     best.score = most - loose - others;
     return best;
