@@ -58,7 +58,7 @@ class NeedleCollapse {
       }
       gone_[needle] = true;
     }
-    leave_out_what_is_gone();
+    drop_removed_facets();
   }
 
  private:
@@ -104,7 +104,7 @@ class NeedleCollapse {
     }
   }
 
-  void leave_out_what_is_gone() {
+  void drop_removed_facets() {
     std::size_t kept = 0;
     for (std::size_t f = 0; f < gone_.size(); ++f) {
       if (gone_[f]) continue;

@@ -468,7 +468,7 @@ TEST(Programme, LoadChangesBetweenCycles) {
   const Log log = rig::run_of({}, plan, soft());
   EXPECT_EQ(log[100].load, 0.0);
   EXPECT_EQ(log[163].load, 6.0);
-  EXPECT_EQ(log[161].alpha, log[160].alpha) << "the motor stands while it is hung on";
+  EXPECT_EQ(log[161].alpha, log[160].alpha) << "the motor stands while the load is hung";
 }
 
 TEST(Programme, RandomIsWithinBoundsAndRepeatable) {
