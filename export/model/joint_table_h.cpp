@@ -58,7 +58,7 @@ class Header {
     text += array(p_ + "_slope_table", table_.slope);
     if (!table_.holding.empty()) text += array(p_ + "_holding_table", table_.holding);
     text += lookup();
-    for (std::size_t way = 0; way < names.size(); ++way) text += both_ways_round(names[way], table_.ways[way]);
+    for (std::size_t way = 0; way < names.size(); ++way) text += conversions(names[way], table_.ways[way]);
     if (names.size() > 1) text += middle();
     return text + torques() + (table_.unit.ticks ? unwrap() : "") + "#endif\n";
   }
@@ -158,7 +158,7 @@ class Header {
            " + (int32_t)(count < 0.0f ? count - 0.5f : count + 0.5f);\n";
   }
 
-  std::string both_ways_round(const std::string& way, const model::OneWayTable& table) const {
+  std::string conversions(const std::string& way, const model::OneWayTable& table) const {
     const std::string theta = p_ + "_theta" + way, motor = p_ + (ticks() ? "_count" : "_alpha") + way;
     return "/* The joint's angle, deg. */\nstatic inline float " + theta + "_deg(" + motor_type() + " " + motor_word() +
            ") {\n  return " + p_ + "_between(" + theta + "_table, " + motor_place(table) +

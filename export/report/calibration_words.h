@@ -23,8 +23,8 @@ std::string audit_words(const calibration::FoundEffect& effect);
 /// "Or an unmodelled cause with the same effect: a wave of 1.9 times a turn of the motor. Odds for the reported cause:
 /// 99 : 1."; "" if the group has no unmodelled member.
 std::string unmodelled_words(const calibration::FoundEffect& effect);
-/// "Perhaps joint sensor gain (gain = 1.26 % …) acts too: with both … held-out runs are predicted best."; "" if no member
-/// of its group is reported beside it.
+/// "Perhaps joint sensor gain (gain = 1.26 % …) acts too: with both … held-out runs are predicted best."; "" if no
+/// member of its group is reported beside it.
 std::string beside_words(const calibration::FoundEffect& effect, const std::string& load_unit);
 /// "0.021° rms, place: equal at each angle for all directions, loads and speeds …"
 std::string discrepancy_words(const calibration::DiscrepancyComponent& part);

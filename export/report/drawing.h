@@ -30,8 +30,8 @@ std::vector<Figure> mechanism_figures(const Mechanism& mechanism, const profile:
 /// "tendon2".
 std::vector<Figure> moving_figures(const Mechanism& mechanism, const profile::SynthesisResult& synthesis);
 
-/// The joint at home with a dimension line for each key of its geometry (R, EB, ED, OE, EF, r1, drum), named like the key
-/// numbers beside it. Empty for helical pulleys, which have no outline.
+/// The joint at home with a dimension line for each key of its geometry (R, EB, ED, OE, EF, r1, drum), named like the
+/// key numbers beside it. Empty for helical pulleys, which have no outline.
 std::optional<Figure> dimension_figure(const Mechanism& mechanism, const profile::SynthesisResult& synthesis);
 
 /// One pulley of the pair seen along its axis at home: pitch curve (active and closing arc), floor, groove edge, bore,

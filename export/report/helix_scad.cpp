@@ -1,5 +1,5 @@
-// The rows of both grooves on one fan of directions, coarser than the mesh of src/helical_solid. The OpenSCAD program joins
-// them.
+// The rows of both grooves on one fan of directions, coarser than the mesh of src/helical_solid. The OpenSCAD program
+// joins them.
 #include "export/report/helix_scad.h"
 
 #include <fmt/format.h>
@@ -92,8 +92,8 @@ std::string helical_parameters(const Product& product) {
   const solid::BodyLayout& layout = product.pulley.layout;
   return fmt::format(
              R"(// {} - a compound pulley for two tendons that are wound several times, in mm.
-// Made by fusee. Bottom to top: flange, helical groove P1, middle flange, helical groove P2, flange, hub. The axis is z,
-// the joint lies towards +y. Change the numbers here or in the Customizer; the groove floors (P1, P2 below) make the
+// Made by fusee. Bottom to top: flange, helical groove P1, middle flange, helical groove P2, flange, hub. The axis is
+// z, the joint lies towards +y. Change the numbers here or in the Customizer; the groove floors (P1, P2 below) make the
 // joint follow its law and stay as they are.
 
 /* [Bore] */

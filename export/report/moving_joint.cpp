@@ -108,8 +108,8 @@ std::string json_effect(const correction::RehearsedEffect& effect) {
   return text + "]}";
 }
 
-/// The end of a tendon. `lies`: joint angle up to which it lies on the drum (−1000: never). `normal`: normal of the line
-/// from drum to pin, which is constant up to that angle.
+/// The end of a tendon. `lies`: joint angle up to which it lies on the drum (−1000: never). `normal`: normal of the
+/// line from drum to pin, which is constant up to that angle.
 std::string json_end(const Mechanism& mechanism, transmission::Side side) {
   const transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.guide_pitch_radius());
   double lies = -1e3, normal = 0;

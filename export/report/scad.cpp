@@ -97,9 +97,9 @@ std::string parameters(const Product& product) {
   const solid::BodyLayout& layout = product.pulley.layout;
   std::string text = fmt::format(
       R"(// {} - a compound pulley for two tendons, in mm.
-// Made by fusee. Bottom to top: flange, groove P1, middle flange, groove P2, flange, hub. The axis is z, the joint lies towards +y.
-// Change the numbers here or in the Customizer; the groove floors (P1, P2 below) make the joint follow its law and stay as they are.
-// The engraved letters and marks of the printed part are omitted.
+// Made by fusee. Bottom to top: flange, groove P1, middle flange, groove P2, flange, hub. The axis is z, the joint lies
+// towards +y. Change the numbers here or in the Customizer; the groove floors (P1, P2 below) make the joint follow its
+// law and stay as they are. The engraved letters and marks of the printed part are omitted.
 
 /* [View] */
 // the part as it is in use, or the parts to print, in print orientation

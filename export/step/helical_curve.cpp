@@ -94,7 +94,8 @@ double HelicalGroove::bulge(double turn, bool low) const {
   return most * smooth_step(past / std::min(k_bulge_turn, 0.25 * whole)) * (1.0 - late_step(past / whole));
 }
 
-// As in helical_solid/helical_blank.cpp: the ring leaves the turn in the half with the most clearance and returns to its start.
+// As in helical_solid/helical_blank.cpp: the ring leaves the turn in the half with the most clearance and returns to
+// its start.
 Vec2 HelicalGroove::ring(double direction, bool lowest, double outward) const {
   const double first = lowest ? filled_to_ : filled_from_, inwards = lowest ? -1.0 : 1.0;
   const double away = inwards * (direction - first);

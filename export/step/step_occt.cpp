@@ -575,8 +575,8 @@ TopoDS_Solid only_solid(const TopoDS_Shape& shape) {
   return TopoDS::Solid(solids(1));
 }
 
-/// Replaces curves of many poles by equal ones with fewer poles, except isoparametric ones. The kernel makes them where a
-/// cut meets a face with an uneven parameter, because it steps by microns there.
+/// Replaces curves of many poles by equal ones with fewer poles, except isoparametric ones. The kernel makes them where
+/// a cut meets a face with an uneven parameter, because it steps by microns there.
 void shorten_curves(const TopoDS_Shape& shape) {
   constexpr int k_many_poles = 30, k_most_pieces = 20;
   constexpr double k_near = 1e-6;
@@ -783,8 +783,8 @@ Polygon floor_at(const TopoDS_Shape& shape, double z, bool smooth) {
   return largest;
 }
 
-/// The floor with smooth curves. The kernel finds none between the halves of elbow_idlers; for a part of that size chords
-/// are accurate enough.
+/// The floor with smooth curves. The kernel finds none between the halves of elbow_idlers; for a part of that size
+/// chords are accurate enough.
 Polygon floor_at(const TopoDS_Shape& shape, double z) {
   Polygon floor = floor_at(shape, z, true);
   return floor.empty() ? floor_at(shape, z, false) : floor;

@@ -371,11 +371,11 @@ struct SimulationColumn {
   std::string name;
   std::vector<double> values;
 };
-/// The columns of the table, which ends with `status`, in its order. theta_deg: reading of the joint's sensor. joint_deg: true joint
-/// angle. loose_deg: range about it without a restoring torque. tension1_N and tension2_N: between pulley and pin;
-/// tension1_joint_N and tension2_joint_N: between pin and joint. The motor's torque is positive towards +α. time_s,
-/// temperature_C and the encoder offsets appear if they were logged. A joint declared by a ratio has no tensions and no
-/// torque.
+/// The columns of the table, which ends with `status`, in its order. theta_deg: reading of the joint's sensor.
+/// joint_deg: true joint angle. loose_deg: range about it without a restoring torque. tension1_N and tension2_N:
+/// between pulley and pin; tension1_joint_N and tension2_joint_N: between pin and joint. The motor's torque is positive
+/// towards +α. time_s, temperature_C and the encoder offsets appear if they were logged. A joint declared by a ratio
+/// has no tensions and no torque.
 std::vector<SimulationColumn> simulation_columns(const Simulation& simulation);
 /// "held", "loose" (both tendons are slack), "no_equilibrium" (no joint angle carries the load).
 std::string_view word(joint::EquilibriumStatus status);

@@ -24,8 +24,8 @@ namespace fusee::measurement {
 ///
 /// Recordings of ROS 2: MCAP files, SQLite files of ros2 bag, or a bag's folder, known by their content. Their numbers
 /// are columns with the names that PlotJuggler gives them, "/joint_states/motor/position", in rad, N and N·m; "time" is
-/// "header_stamp" or "log_time". Motor and joint may be chosen by their names. Numbers with times of their own, in a bag
-/// or in a table of PlotJuggler, are interpolated in time.
+/// "header_stamp" or "log_time". Motor and joint may be chosen by their names. Numbers with times of their own, in a
+/// bag or in a table of PlotJuggler, are interpolated in time.
 struct MeasurementOptions {
   /// role → column name: {"load", "tau_out_Nm"}. Of a ROS name the end suffices: "motor"
   std::map<std::string, std::string> columns;

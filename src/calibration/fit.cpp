@@ -445,8 +445,8 @@ Fit Fitter::with_evidence(Fit fit) const {
   return fit;
 }
 
-/// Two states are predicted with the discrepancy, which other runs at the same load and speed determine. Without a whole
-/// level there would be no such run, so single runs are held out.
+/// Two states are predicted with the discrepancy, which other runs at the same load and speed determine. Without a
+/// whole level there would be no such run, so single runs are held out.
 void Fitter::hold_out_of(Fit& fit) const {
   if (evidence().earlier) {
     fit.by_run = hold_out_with_discrepancy(evidence(), fit, fit.posterior.amplitudes, evidence().run_folds).with_all;

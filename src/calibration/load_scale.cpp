@@ -10,8 +10,8 @@
 #include "joint/forward.h"
 
 // A load scale changes no fixed shape of a fit: a tendon may be slack under 20 N and not under 15 N, and its compliance
-// is then another one. Hence the set without the effect is refitted to the same readings with all loads scaled: first by
-// a ladder of factors, then in smaller steps about the best one.
+// is then another one. Hence the set without the effect is refitted to the same readings with all loads scaled: first
+// by a ladder of factors, then in smaller steps about the best one.
 
 namespace fusee::calibration {
 namespace {

@@ -1,7 +1,7 @@
 /// \file
 /// Wrong loads as an alternative to an effect: all loads scaled by one factor, because of a cell out of calibration or
-/// a lever of another length. They act through the joint's compliance; no effect describes them, since they are an error of the
-/// log.
+/// a lever of another length. They act through the joint's compliance; no effect describes them, since they are an
+/// error of the log.
 #pragma once
 
 #include <vector>

@@ -94,8 +94,8 @@ struct Thresholds {
 
   /// Largest scatter between repeated strokes, divided by the noise within a stroke.
   double most_stroke_scatter = 0.7;
-  /// Largest scatter of repeats, divided by the scatter of neighbouring rows. Noise with a memory of 0.95 from row to row reaches 6, of
-  /// 0.98 reaches 9.
+  /// Largest scatter of repeats, divided by the scatter of neighbouring rows. Noise with a memory of 0.95 from row to
+  /// row reaches 6, of 0.98 reaches 9.
   double most_repeat_scatter = 10.0;
 
   // ---- extent of the search ----
@@ -125,15 +125,15 @@ struct Thresholds {
 
   // ---- likely input errors ----
 
-  /// Residual of the declared file, in noise floors, above which an input error is likely before any search. Known faults
-  /// leave 15, one of them 27. The corrected file must leave less, if effects are sought beside the error.
+  /// Residual of the declared file, in noise floors, above which an input error is likely before any search. Known
+  /// faults leave 15, one of them 27. The corrected file must leave less, if effects are sought beside the error.
   double input_error_large = 15.0;
-  /// Residual of the corrected file, in noise floors, up to which it explains the data alone. A pulley made for the other
-  /// sign of OE leaves 1.8 where a tendon goes slack.
+  /// Residual of the corrected file, in noise floors, up to which it explains the data alone. A pulley made for the
+  /// other sign of OE leaves 1.8 where a tendon goes slack.
   double input_error_alone = 2.0;
-  /// Above input_error_alone, the corrected file, with nothing fitted, must leave a residual this many times smaller than
-  /// all identified effects do. Rig data: errors leave 3 to 7 times less (signs of a nearly symmetric joint) to 700 times
-  /// less; no right file is reported.
+  /// Above input_error_alone, the corrected file, with nothing fitted, must leave a residual this many times smaller
+  /// than all identified effects do. Rig data: errors leave 3 to 7 times less (signs of a nearly symmetric joint) to
+  /// 700 times less; no right file is reported.
   double input_error_gain = 3.0;
   /// Ratio from which an input error is reported although another cause stays unexplained beside it. Rig data
   /// f_not_in_any_catalogue with the sign of OE turned: 26.

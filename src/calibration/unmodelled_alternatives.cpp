@@ -19,8 +19,8 @@
 // The discrepancy is smooth: a kink, a step, a bump or a short wave requires many of its columns. An absent effect with
 // a bend near that place would be likelier. Shapes of few parameters complete the discrepancy here, each with the prior
 // of an effect with a searched number. The data are explained with and without the effect, and both models may add
-// shapes. The remaining difference in score is the evidence for the effect itself. Wrong loads are no shape: each effect
-// is tested against them by refits (load_scale.h).
+// shapes. The remaining difference in score is the evidence for the effect itself. Wrong loads are no shape: each
+// effect is tested against them by refits (load_scale.h).
 
 namespace fusee::calibration {
 namespace {

@@ -18,8 +18,8 @@ struct Refusal {
 template <class Value>
 using Answer = std::variant<Value, Refusal>;
 
-/// "45", "45 mm", "4.5 cm", "4,5 cm", "1.8 in", "1 3/4\"", "2 ft 3 in", "⌀30". In mm; must be positive. A plain number is
-/// in `plain`.
+/// "45", "45 mm", "4.5 cm", "4,5 cm", "1.8 in", "1 3/4\"", "2 ft 3 in", "⌀30". In mm; must be positive. A plain number
+/// is in `plain`.
 Answer<double> read_length(std::string_view text, LengthUnit plain = LengthUnit::mm);
 /// True for a length that is typed in inches or feet.
 bool is_in_inches(std::string_view text);

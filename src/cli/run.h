@@ -20,8 +20,8 @@ struct CommandOutcome {
   std::string result() const { return json ? document(reply, command) : reply.text; }
 };
 
-/// Runs a command. `words`: the arguments without the program's name. Never throws; prints only progress. `context`: its
-/// progress is shown on the console.
+/// Runs a command. `words`: the arguments without the program's name. Never throws; prints only progress. `context`:
+/// its progress is shown on the console.
 CommandOutcome run_command(const std::vector<std::string>& words, Console& console, RunContext context);
 
 /// Runs a command with --bundle, prints everything and returns the exit code.

@@ -78,9 +78,9 @@ struct Fan {
 };
 
 /// Chooses columns such that the chords of any curve parallel to a pitch curve, up to `outward` outside it, have a
-/// sagitta of at most `chord_error_mm`. Rows are moved outward by a third of the sagitta, so that the polygon of the floor,
-/// `floor_inward` inside the pitch curve, is as long as its curve. `filled`: least length of the filled rows after P1's
-/// end and before P2's beginning. mm.
+/// sagitta of at most `chord_error_mm`. Rows are moved outward by a third of the sagitta, so that the polygon of the
+/// floor, `floor_inward` inside the pitch curve, is as long as its curve. `filled`: least length of the filled rows
+/// after P1's end and before P2's beginning. mm.
 Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, double floor_inward, double chord_error_mm,
              double filled);
 

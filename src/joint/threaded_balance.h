@@ -3,9 +3,9 @@
 /// bend of the sheath has its own friction.
 ///
 /// Friction in a sheath is distributed. When the motor reverses, the adjacent tendon slides first, and further places
-/// follow as their tension is reached; the joint rests until all of it slides. Concentrated friction would release half of the
-/// sheath at once: equal in the end, but with an error of up to 1/8 of the sheath's stretch on the way. With n places
-/// the error is 1/n² of that.
+/// follow as their tension is reached; the joint rests until all of it slides. Concentrated friction would release half
+/// of the sheath at once: equal in the end, but with an error of up to 1/8 of the sheath's stretch on the way. With n
+/// places the error is 1/n² of that.
 #pragma once
 
 #include <array>

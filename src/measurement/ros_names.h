@@ -22,8 +22,8 @@ const Unit* ros_unit(std::string_view name, Quantity quantity);
 /// The name without what a message adds: "/motor_deg/data" is "/motor_deg".
 std::string_view without_field(std::string_view name);
 
-/// True if `wanted` selects `name`: all of it or its end, with or without its last part: "/joint_states/motor/position",
-/// "motor/position", "motor".
+/// True if `wanted` selects `name`: all of it or its end, with or without its last part:
+/// "/joint_states/motor/position", "motor/position", "motor".
 bool selects(std::string_view wanted, std::string_view name);
 
 /// Indices of names that can be angles: all positions, and if there are fewer than two, all numbers of std_msgs.

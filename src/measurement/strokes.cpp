@@ -23,8 +23,7 @@ double reversal_threshold(const std::vector<Sample>& samples, double quantum, bo
 }
 
 /// True for scatter about one place: successive values are independent (von Neumann ratio, 2 for white noise), and the
-/// steps are below a degree or uncorrelated with θ. Alternation between two ends, row by
-/// row, is a motion.
+/// steps are below a degree or uncorrelated with θ. Alternation between two ends, row by row, is a motion.
 bool only_jitters(const std::vector<Sample>& samples) {
   const double n = static_cast<double>(samples.size());
   double mean = 0, spread = 0, steps = 0, steps_of_theta = 0, covariance = 0;

@@ -42,8 +42,7 @@ struct JoinedRows {
 /// neighbours in time. Not interpolated are: times before the first point or after the last; gaps of more than 5 usual
 /// steps of that number; and jumps of more than half a turn, where the nearer point counts. Rows without α or θ are
 /// omitted, with a note. Loads and temperatures that are logged less than every 2 s keep their last
-/// value: they are set by hand.
-/// Where a clock goes back, a new log begins, and nothing is interpolated across.
+/// value: they are set by hand. Where a clock goes back, a new log begins, and nothing is interpolated across.
 ///
 /// Times that count from 1970 become s since the first row; others stay as they are.
 JoinedRows join(const std::vector<Track>& tracks, bool needs_theta, RowKeeper& into);

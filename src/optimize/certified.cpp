@@ -77,7 +77,7 @@ class BranchAndBound {
  private:
   double tie_limit() const { return best_.empty() ? k_none : best_value_ + options_.tie * std::abs(best_value_); }
 
-  // ---- branch and bound ----------------------------------------------------------------------------------------------
+  // ---- branch and bound ---------------------------------------------------------------------------------------------
 
   void start() {
     for (const Design& design : options_.first_tries) accept_if_better(evaluate(design));
@@ -261,7 +261,7 @@ class BranchAndBound {
     return middle;
   }
 
-  // ---- result --------------------------------------------------------------------------------------------------------
+  // ---- result -------------------------------------------------------------------------------------------------------
 
   void finish(CertifiedResult& result) {
     result.best = best_;

@@ -217,8 +217,8 @@ bool design_multi_turn(formats::Product& product, double chord_error_mm, const R
 namespace {
 
 /// A string on a polygon inscribed in its curve is too short by a share of the tolerance per radian of winding. If the
-/// excess length over the range exceeds its limit, the curves are drawn again, as finely as the limit requires (campaign of
-/// seed 620001, design 316: 10.5 rad, 0.11 mm of excess length).
+/// excess length over the range exceeds its limit, the curves are drawn again, as finely as the limit requires
+/// (campaign of seed 620001, design 316: 10.5 rad, 0.11 mm of excess length).
 bool design_turns_within(formats::Product& product, double chord_error_mm, const AsBuiltLimits& limits,
                          const RunContext& context, solid::TieOffSearch search) {
   if (!design_multi_turn(product, chord_error_mm, context, search)) return false;

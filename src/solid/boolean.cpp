@@ -250,8 +250,8 @@ struct KeptPatches {
   std::vector<TriangleMesh> result, common;
 };
 
-// Keeps patches of the second solid only if they are completely inside or outside. Where the surfaces coincide, the patch of
-// the first one is used.
+// Keeps patches of the second solid only if they are completely inside or outside. Where the surfaces coincide, the
+// patch of the first one is used.
 bool sort_patches(const std::vector<TriangleMesh>& patches, const TriangleMesh& solid, bool is_first,
                   Operation operation, KeptPatches& kept) {
   for (const TriangleMesh& patch : patches) {

@@ -1,6 +1,6 @@
 /// \file
-/// Internal: the largest tension of each tendon where it leaves the pulley, and the part of it that reaches a knot after the
-/// wrap.
+/// Internal: the largest tension of each tendon where it leaves the pulley, and the part of it that reaches a knot
+/// after the wrap.
 #pragma once
 
 #include <array>

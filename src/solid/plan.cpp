@@ -102,8 +102,8 @@ class Planner {
     return plan;
   }
 
-  // Features that the hub leaves no space for, pockets that weaken it, and knots that too little wrap relieves. A thread
-  // in the hub does the work of a nut.
+  // Features that the hub leaves no space for, pockets that weaken it, and knots that too little wrap relieves. A
+  // thread in the hub does the work of a nut.
   int cost_of(const BodyPlan& plan) {
     const std::vector<Omission>& omissions = plan.layout.omissions;
     auto cost = std::count_if(omissions.begin(), omissions.end(),
@@ -151,7 +151,8 @@ class Planner {
     return least;
   }
 
-  // P2's channels use the space beside the hub only if they keep their pockets. No hub therefore decides whether they fit.
+  // P2's channels use the space beside the hub only if they keep their pockets. No hub therefore decides whether they
+  // fit.
   bool fits(const BodyLayout& layout) const {
     return bore_fits(layout) && tie_offs_.has_room(layout, tie_offs_.wound(layout));
   }

@@ -184,7 +184,8 @@ TEST(ThreadPool, WorkWithoutWorthStaysUnstarted) {
   EXPECT_FALSE(has_begun);
 }
 
-// The shared pool of the parent has threads that do not exist in the child. There, each of two jobs waits for the other.
+// The shared pool of the parent has threads that do not exist in the child. There, each of two jobs waits for the
+// other.
 TEST(ThreadPool, ForkedProcessHasThreads) {
   if (ThreadPool::shared().threads() < 2) GTEST_SKIP() << "one processor";
   ThreadPool::shared().each(100, [](std::size_t, std::size_t) { sleep_briefly(); });

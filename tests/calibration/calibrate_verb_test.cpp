@@ -283,8 +283,8 @@ TEST(CalibrateVerb, ConvertsTorqueToTipForce) {
 
 // ---- the table of law = "table" -------------------------------------------------------------------------------------
 
-/// The forearm with its law as a table in a separate folder. The table's name also occurs in a comment and in the joint's
-/// name.
+/// The forearm with its law as a table in a separate folder. The table's name also occurs in a comment and in the
+/// joint's name.
 MechanismFile joint_with_table(const std::filesystem::path& folder, const std::string& quoted = "\"laws/law.csv\"") {
   std::filesystem::create_directories(folder / "laws");
   std::string law = "alpha_deg,theta_deg\n";

@@ -393,7 +393,7 @@ std::string directions_behind_play(double behind) {
                        })).run);
 }
 
-TEST(Strokes, UnlikeItsRepeatsAtTheBeginningIsPartial) {
+TEST(Strokes, BeginningUnlikeItsRepeatsIsPartial) {
   EXPECT_EQ(directions_behind_play(-38.0), "+-+-+-");  // as after every reversal
   EXPECT_EQ(directions_behind_play(-42.0), "(+)-+-+-");
 }

@@ -322,7 +322,7 @@ TEST(Chance, SpanDiffersFromRunToRun) {
   EXPECT_NEAR(squares / 1000.0, 1.0, 0.2);
 }
 
-// ---- places: an action in a list of HiddenFaults reaches the log ----------------------------------------------------------
+// ---- places: an action in a list of HiddenFaults reaches the log -----------------------------------------------------
 
 TEST(Place, ShaftTurnsPulley) {
   const transmission::Transmission law(stiff().declared);

@@ -115,8 +115,8 @@ void GrooveChain::reach(double take_off, double before, const Cord& cord) {
   measure();
 }
 
-// Released tendon slides outwards: each tension falls to the most that friction holds against its inner neighbour, while
-// the total length is constant.
+// Released tendon slides outwards: each tension falls to the most that friction holds against its inner neighbour,
+// while the total length is constant.
 void GrooveChain::let_go(double material) {
   if (springs_.empty() || material == 0) return;
   double whole = 0;

@@ -165,8 +165,8 @@ std::vector<Log> log_runs(const MadeJoint& joint, const HiddenFaults& hidden, co
 /// Rms of the differences of θ over all rows, rad. 0 where a joint has no equilibrium.
 double rms_difference(const std::vector<Log>& one, const std::vector<Log>& other);
 
-/// A log file: time_s, alpha_deg, theta_deg, load_N, temperature_C if requested, and the rotations of the sensors if there
-/// are any.
+/// A log file: time_s, alpha_deg, theta_deg, load_N, temperature_C if requested, and the rotations of the sensors if
+/// there are any.
 std::string csv_text(const Log& log, bool temperature = false, const RunPlan& plan = {});
 
 /// Reading of the joint's sensor at `theta`, but for its delay, noise and actions.

@@ -41,8 +41,9 @@ std::vector<Fault> sensor_faults() { return {
    .place = Place::load, .parameters = [](const D& d) -> N { return {d.sign > 0 ? d.size : -0.5 * d.size}; },
    .act = [](const M& now, const N& n, N&) { return n[0] * now.load; }},
 
-  // A draw-wire sensor with a weak spring: in the direction n[2] it follows at once. In the other direction it omits the share n[0] of
-  // any motion above n[1] rad/s, and catches up at that speed. Memory: time, wire pulled out, wire shown.
+  // A draw-wire sensor with a weak spring: in the direction n[2] it follows at once. In the other direction it omits
+  // the share n[0] of any motion above n[1] rad/s, and catches up at that speed. Memory: time, wire pulled out, wire
+  // shown.
   {.split = "regression", .name = "wire_drawn_in_too_slowly", .first = 0.1, .most = 1.0,
    .place = Place::reading, .parameters = [](const D& d) -> N { return {d.size, radians(2.0 + 8.0 * d.share), d.sign}; },
    .act = [](const M& now, const N& n, N& memory) {
@@ -53,8 +54,8 @@ std::vector<Fault> sensor_faults() { return {
      memory = {now.time, out, std::max(out, memory[2] - drawn)};
      return n[2] * memory[2] - now.theta;
    }},
-  // The sensor is compensated by a thermometer on the motor: an error of n[0] rad in steady state
-  // at 1 rad/s, with the square of the speed and the time constant n[1] s. Memory: time, warmth of the motor.
+  // The sensor is compensated by a thermometer on the motor: an error of n[0] rad in steady state at 1 rad/s, with the
+  // square of the speed and the time constant n[1] s. Memory: time, warmth of the motor.
   {.split = "regression", .name = "thermometer_glued_to_motor", .first = 0.01, .most = 0.5,
    .place = Place::reading, .parameters = [](const D& d) -> N { return {d.sign * d.size, 10.0 + 50.0 * d.share}; },
    .act = [](const M& now, const N& n, N& memory) {

@@ -66,8 +66,8 @@ Eigen::VectorXd slope(const CaseInput& input, const Imperfections& at, const Eff
   return (predicted(input, above) - predicted(input, below)) / (high - low);
 }
 
-/// Information of one row about the joint angle, 1/rad². A quantum is uniform noise. Noise with a memory counts as fewer
-/// rows.
+/// Information of one row about the joint angle, 1/rad². A quantum is uniform noise. Noise with a memory counts as
+/// fewer rows.
 double information_of_row(const SensorPlan& sensors) {
   const double variance = sensors.noise * sensors.noise + sensors.quantum * sensors.quantum / 12;
   return (1 - sensors.colour) / (1 + sensors.colour) / variance;
