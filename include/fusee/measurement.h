@@ -31,7 +31,7 @@ struct MeasurementOptions {
   std::map<std::string, std::string> columns;
   bool needs_theta = true;                   ///< false: theta may be missing, as in read_driving()
   std::map<std::string, std::string> units;  ///< role → unit: {"time", "ms"}
-  /// alpha, theta → counts a turn; negative if counts fall while the angle grows
+  /// alpha, theta → counts per turn; negative if counts fall while the angle grows
   std::map<std::string, double> ticks_per_turn;
   std::map<std::string, double> zero_ticks;  ///< alpha, theta → counts at home
   double alpha_span = 0;                     ///< motor range of the declared joint, rad; 0: unknown. See expecting()

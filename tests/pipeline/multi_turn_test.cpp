@@ -150,7 +150,7 @@ std::map<std::string, std::vector<Place>> curves_in(const std::string& table) {
 // A string runs from a barrel of pitch radius 50.3 mm over a pin of 8 mm onto the curves in the file. The wound length
 // gives the barrel's angle, and that the spring's torque. By the clockmaker's rule the chain's pull times the fusee's
 // radius is constant. (For level strings; the slope adds 0.02 %.)
-TEST(TheFuseeOfAClock, PullTimesRadiusIsConstant) {
+TEST(ClockFusee, PullTimesRadiusIsConstant) {
   constexpr double k_barrel = 50.3, k_pin = 8.3, k_torque = 66.6667;
   const double to_pin = std::hypot(70.0, 180.0);
   const pipeline::BuildResult built = made(read_profile("fusee_proper"));
@@ -184,7 +184,7 @@ TEST(TheFuseeOfAClock, PullTimesRadiusIsConstant) {
 }
 
 // The work that turns the wound mesh equals the energy in the spring: 66.67 alpha = 400 theta + 50.93 theta²/2.
-TEST(TheFuseeOfAClock, SpringStoresWork) {
+TEST(ClockFusee, SpringStoresWork) {
   const pipeline::BuildResult built = made(read_profile("fusee_proper"));
   ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   ASSERT_GT(built.product.as_built.points.size(), 50U);

@@ -42,7 +42,7 @@ Effect pulley_runout(JointKind) {
        .least = -2,
        .most = 2,
        .step = 2e-3,
-       .prior = 0.3,  // a printed bore over a shaft with its play and set screw
+       .prior = 0.3,  // a printed bore on a shaft with play and a set screw
        .shown = shown::as_is,
        .key = key::plain("runout_y_mm", "mm", -100, 100, "eccentricity of the made curves at home, upwards"),
        .merge_rule = MergeRule::add,
