@@ -57,13 +57,13 @@ double floor_error(const profile::Outline& outline, double tendon_diameter, doub
 /// Places on the floors of helical grooves under the tendons: half a tendon inside every row of the spirals.
 std::vector<Vec3> floor_places(const HelixProduct& helix, double tendon_diameter, double scale) {
   std::vector<Vec3> places;
-  const helical_solid::SpiralPlace* const lies[] = {&helix.pulley.p1, &helix.pulley.p2};
+  const helical_solid::SpiralPlace* const spirals[] = {&helix.pulley.p1, &helix.pulley.p2};
   for (std::size_t k = 0; k < 2; ++k) {
     const helix::Spiral& spiral = helix.synthesis.sides[k].spiral;
     for (std::size_t i = spiral.first_used; i <= spiral.last_used; ++i) {
       const helix::SpiralRow& row = spiral.rows[i];
       const Vec2 floor = Vec2(row.x, row.y) - 0.5 * tendon_diameter * unit(row.turn);
-      places.push_back(scale * Vec3(floor.x(), floor.y(), lies[k]->height(row.z)));
+      places.push_back(scale * Vec3(floor.x(), floor.y(), spirals[k]->height(row.z)));
     }
   }
   return places;

@@ -315,7 +315,7 @@ void add_tail(std::vector<StepTool>& tools, const solid::Anchor& anchor, const s
         cylinder(slot.to, 0.5 * slot.pilot_diameter, face.at(-solid::k_overshoot), face.at(slot.pilot_depth)));
 }
 
-StepTool sign(const solid::Mark& mark, double low, double high) {
+StepTool mark_tool(const solid::Mark& mark, double low, double high) {
   StepTool tool = prism_between(contour_of(mark.loops.front()), low, high);
   for (std::size_t k = 1; k < mark.loops.size(); ++k)
     std::get<StepPrism>(tool.common.front()).inner.push_back(contour_of(mark.loops[k]));
@@ -347,9 +347,9 @@ std::vector<StepTool> step_cuts(const Mechanism& mechanism, const solid::Pulley&
   }
   const double depth = layout.mark_depth;
   for (const solid::Mark& mark : pulley.marks) {
-    if (!mark.on_top) tools.push_back(sign(mark, -solid::k_overshoot, depth));
+    if (!mark.on_top) tools.push_back(mark_tool(mark, -solid::k_overshoot, depth));
     if (mark.on_top && mechanism.body.marks == Marks::engraved)
-      tools.push_back(sign(mark, layout.z_top - depth, layout.z_top + solid::k_overshoot));
+      tools.push_back(mark_tool(mark, layout.z_top - depth, layout.z_top + solid::k_overshoot));
   }
   return tools;
 }
@@ -361,7 +361,7 @@ std::vector<StepTool> step_raised(const Mechanism& mechanism, const solid::Pulle
   for (const solid::Mark& mark : pulley.marks) {
     if (mark.on_top)
       raised.push_back(
-          sign(mark, layout.z_top - 0.5 * layout.flange_thickness, layout.z_top + mechanism.body.mark_depth));
+          mark_tool(mark, layout.z_top - 0.5 * layout.flange_thickness, layout.z_top + mechanism.body.mark_depth));
   }
   return raised;
 }

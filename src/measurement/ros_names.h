@@ -29,8 +29,8 @@ bool selects(std::string_view wanted, std::string_view name);
 /// Indices of names that can be angles: all positions, and if there are fewer than two, all numbers of std_msgs.
 std::vector<std::size_t> ros_angles(const std::vector<std::string>& names);
 
-/// Motor and joint among the names, by words such as "motor" and "joint" in which they differ. Given ones are kept. Of
-/// two angles of one kind, one decides the other. Empty where the choice is not obvious.
+/// Motor and joint among the names, by words such as "motor" and "joint" in which they differ. Given ones are kept. If
+/// there are two angles of one kind, the choice of one decides the other. Empty where the choice is not obvious.
 struct AnglePair {
   std::optional<std::size_t> alpha, theta;
 };

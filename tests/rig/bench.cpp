@@ -233,10 +233,10 @@ void Bench::add_sheath(BenchTendon& tendon, const DeclaredMechanism& declared) c
   tendon.guide = {tendon.axis + Vec2(sheath.exit_across, sheath.exit_above), 0.0};
   const double compliance =
       std::max(0.0, (sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0) + hidden_.sheath_compliance);
-  const double holds = std::max(0.0, sheath.mu * sheath.bend + hidden_.sheath_friction);
+  const double log_ratio = std::max(0.0, sheath.mu * sheath.bend + hidden_.sheath_friction);
   for (int i = 0; i <= k_sheath_bends; ++i) {
     const double share = (i == 0 || i == k_sheath_bends ? 0.5 : 1.0) / k_sheath_bends;
-    tendon.sheath.push_back({share * sheath.length, share * compliance, i == 0 ? 0.0 : holds / k_sheath_bends});
+    tendon.sheath.push_back({share * sheath.length, share * compliance, i == 0 ? 0.0 : log_ratio / k_sheath_bends});
   }
 }
 
@@ -249,7 +249,7 @@ double Bench::pull_through(std::vector<SheathPiece>& sheath, const Cord& cord, d
                            double& slipped) {
   for (SheathPiece& piece : sheath) {
     piece.bristle = bend_bristle(piece.bristle, slipped);
-    tension *= std::exp(-piece.holds * piece.bristle);
+    tension *= std::exp(-piece.log_ratio * piece.bristle);
     const double material = cord.material(piece.length - piece.compliance * (tension - home), tension);
     slipped += material - piece.material;
     piece.material = material;

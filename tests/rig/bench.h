@@ -21,7 +21,7 @@ struct Conditions : Moment {
 struct SheathPiece {
   double length = 0;      ///< at home, mm
   double compliance = 0;  ///< mm/N
-  double holds = 0;       ///< ln of the largest ratio of tensions across the bend: μφ
+  double log_ratio = 0;   ///< ln of the largest ratio of tensions across the bend: μφ
   double bristle = 0;     ///< as BenchTendon::bristle
   double material = 0;
 };
