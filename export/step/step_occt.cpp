@@ -836,7 +836,7 @@ class SurfaceSamples {
   /// Distance from the surfaces that have a node nearby; infinite if there is none.
   double distance(const gp_Pnt& point) const {
     double best = std::numeric_limits<double>::infinity();
-    for (const auto& [surface, start] : beside(point)) best = std::min(best, foot_distance(point, *start.second));
+    for (const auto& [surface, start] : near(point)) best = std::min(best, foot_distance(point, *start.second));
     return best;
   }
 
@@ -849,7 +849,7 @@ class SurfaceSamples {
     constexpr double k_near = 0.25;
     gp_Pnt best = point;
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& [surface, start] : beside(point)) {
+    for (const auto& [surface, start] : near(point)) {
       const auto found = lowest_on(*surfaces_[surface], point, *start.second);
       if (!found || found->first.Distance(point) > k_near) continue;
       const double radius = radius_of(found->first) - (found->second ? k_level : 0.0);
@@ -875,7 +875,7 @@ class SurfaceSamples {
   }
 
   /// The nearest node of every surface with nodes nearby.
-  std::map<std::size_t, std::pair<double, const Node*>> beside(const gp_Pnt& point) const {
+  std::map<std::size_t, std::pair<double, const Node*>> near(const gp_Pnt& point) const {
     std::map<std::size_t, std::pair<double, const Node*>> of_surface;
     const Cell middle = cell_of(point);
     for (int i = -1; i <= 1; ++i) {

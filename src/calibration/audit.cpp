@@ -239,13 +239,13 @@ Auditor::Set Auditor::search(const SyntheticDataset& data, Set set) const {
   Posterior here = evidence_model_.best(sums(data, set), data.start, k_rounds + 2);
   for (int step = 0; step < k_most_added; ++step) {
     std::vector<std::pair<double, std::size_t>> candidates;
-    const ScaledDiscrepancy beside = evidence_model_.sized(here.amplitudes, deflection_ratio_);
+    const ScaledDiscrepancy scaled_discrepancy = evidence_model_.sized(here.amplitudes, deflection_ratio_);
     for (std::size_t i = 0; i < chords_.size(); ++i) {
       if (chords_[i].count == 0 || chords_[i].effect == data.excluded || std::count(set.begin(), set.end(), i))
         continue;
       Set wider = set;
       wider.push_back(i);
-      candidates.emplace_back(-score_of(evidence_model_.at(sums(data, wider), beside), wider), i);
+      candidates.emplace_back(-score_of(evidence_model_.at(sums(data, wider), scaled_discrepancy), wider), i);
     }
     std::sort(candidates.begin(), candidates.end());
     candidates.resize(std::min(candidates.size(), k_tries));

@@ -28,13 +28,13 @@ constexpr const char* k_usage =
   --first N         seed of the first joint (1)
   --only NAME       only this truth: "nothing", or faults: "tendon_stretch", "backlash + sensor_lag" ...
   --joints N        random joints instead, each of --kinds in turn
-  --kinds NAME      only these: nothing; one, two, three (named faults); unknown (an unmodelled fault); beside (one of
-                    each)
+  --kinds NAME      only these: nothing; one, two, three (named faults); unknown (an unmodelled fault); beside (a named
+                    and an unmodelled fault)
   --split NAME      unmodelled faults are drawn from tuning (the default), regression, or a held-out set: heldout_13
   --leave-out NAME  joints with this effect, calibrated with a catalogue that lacks it; all: each effect in turn
   --protocol NAME   full: five runs; single: one unloaded run; random: any (full; random with --joints)
   --any-groove      friction of the groove is 0.05 to 0.5 while the file says 0.2 (always with --joints)
-  --follow N        then makes the first measurement that calibration asks for and calibrates again, up to N times
+  --follow N        makes the first measurement that calibration asks for and calibrates again, up to N times
   --data-to DIR     keeps the files of each joint in a folder there: spec.toml, runs, case.json with truth and answer,
                     and slopes.csv, the derivatives of the catalogue (tests/bench/baselines.py); not with --leave-out
   --no-calibration  makes the data only
