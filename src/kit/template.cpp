@@ -186,8 +186,8 @@ class TemplateMaker {
       return nullptr;
     }
     for (const NamedHole& hole : holes) {
-      const double beside = beside_motor(*motor, hole.place - pulley, motor_front(pulley));
-      if (beside - hole.radius >= k_between_holes) continue;
+      const double distance = distance_to_motor(*motor, hole.place - pulley, motor_front(pulley));
+      if (distance - hole.radius >= k_between_holes) continue;
       plan_.notes.push_back("the motor " + motor->name + " would overlap the hole of " + hole.name +
                             ": the base has only a hole for its axis. Increase pulley.EF_mm or choose a smaller motor "
                             "(body.shaft, body.horn)");

@@ -94,8 +94,8 @@ class BranchAndBound {
     process({root_});
   }
 
-  /// Best-first search until the smallest bound meets the best design. Then up to the same effort again for a gap a
-  /// hundred times smaller, to improve the design. False if it was stopped before.
+  /// Best-first search until the smallest bound meets the best design; false if it is stopped before. The search then
+  /// goes on for at most as many boxes, to a gap a hundred times smaller, because that improves the design.
   bool branch() {
     const bool met = branch_until(0.5 * options_.gap, options_.most_boxes);
     if (met) branch_until(0.005 * options_.gap, std::min(options_.most_boxes, 2 * boxes_));

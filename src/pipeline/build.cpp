@@ -537,7 +537,7 @@ void write_and_check(BuildContext& context) {
     product.file.warnings.push_back(std::move(*lost));
   }
   compare_with_motor(context);
-  for (Diagnostic& thin : walls_below_a_line(product)) product.file.warnings.push_back(std::move(thin));
+  for (Diagnostic& thin : thin_wall_warnings(product)) product.file.warnings.push_back(std::move(thin));
   write_texts(context, std::move(tables));
   context.result.status = all_ok(context.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
 }

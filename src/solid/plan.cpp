@@ -70,7 +70,7 @@ class Planner {
                                !plan.layout.set_screw.present;  // as large as for the screw that it lacks
       if (best && is_needless) continue;
       const int cost = wishes_.conditions_alone ? 0 : cost_of(plan) + (is_needless ? 1 : 0);
-      const bool is_better = !best || (plan.is_possible() && (!best->possible() || cost < least));
+      const bool is_better = !best || (plan.is_possible() && (!best->is_possible() || cost < least));
       if (!is_better) continue;
       best = std::move(plan);
       least = cost;
