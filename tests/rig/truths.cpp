@@ -186,7 +186,7 @@ std::vector<Truth> all_truths() {
 
 Truth random_truth(Kind kind, const std::string& split, std::uint64_t seed) {
   faults_in(split);
-  // The set's name when its joints were run: they stay the same joints.
+  // heldout_13 was named "unsuspected" when its joints were drawn. Its seeds keep that name.
   Random random(hash_of(split == "heldout_13" ? "unsuspected" : split) ^ (seed * 0xD1B54A32D192ED03ULL));
   Truth truth;
   const auto add = [&](const std::vector<std::string>& names) {
