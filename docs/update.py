@@ -223,10 +223,10 @@ RUNS = [  # file, what makes it (in the bench's folder), what it is
     ("profile_p1.csv", None, "out/arm/profile_p1.csv", "Points of P1 for a spline in CAD; `profile_p2.csv` has those of P2"),
     ("transmission.csv", None, "out/arm/transmission.csv", "The joint over the stroke, one row per motor angle"),
     ("transmission.csv, several turns", "fusee build profiles/wrist_turns.toml", "out/wrist_turns/transmission.csv",
-     "Of a pulley in helical grooves it also has the slopes"),
+     "The table of a helical pulley also has slopes"),
     ("analyze -o FILE.csv", "fusee analyze arm.toml -o a.csv", "a.csv", "Forces over the stroke: by the paper, and by the full model with α rising and falling"),
     ("run_1.csv", "fusee plan arm.toml", "out/arm_plan/run_1.csv", "An empty run of `fusee plan` and `fusee kit`, to fill in; a log for `fusee calibrate`"),
-    ("simulate", "fusee simulate arm.toml out/arm_plan/run_1.csv -o s.csv", "s.csv", "What `fusee simulate` adds to a log"),
+    ("simulate", "fusee simulate arm.toml out/arm_plan/run_1.csv -o s.csv", "s.csv", "Columns that `fusee simulate` adds to a log"),
     ("compensation.csv", "for i in 1 2 3 4 5; do fusee simulate profiles/forearm.toml profiles/measured/forearm_$i.csv "
      "--set identified.backlash_deg=1.5 --noise-deg 0.02 --seed $i -o m_$i.csv; done; "
      "fusee calibrate profiles/forearm.toml m_*.csv --no-audit -o c", "c/compensation.csv",

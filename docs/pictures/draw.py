@@ -49,7 +49,7 @@ def used_style(body):
     return "\n".join(kept).replace("display:block;width:100%;height:auto", "background:var(--paper)")
 
 
-def standing_alone(figure):
+def standalone(figure):
     width, height = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', figure).groups()
     head = f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" class="figure" viewBox="0 0 {width} {height}" role="img">'
     body = re.sub(r"^<svg[^>]*>", "", figure)
@@ -113,11 +113,11 @@ class Joint:
         return turned((0, self.data["R"]), -math.radians(theta))
 
     def mounted(self, which, outline=None):
-        """A pitch curve at home, about the pulley's axis; by itself that of P1 or P2."""
+        """A pitch curve at home, about the pulley's axis. `outline`: a curve in place of that of P1 or P2."""
         return [plus(self.data["axis"], point) for point in outline or self.data["outlines"][which]["points"]]
 
     def tendon(self, which, alpha, theta, outline=None):
-        """C, where the line meets the pin and where it leaves it, where it meets the pulley; and what is wound, as points."""
+        """C, both tangent points on the pin and the contact on the pulley; whether the tendon wraps the pin counter-clockwise; the wound points."""
         data, own = self.data, self.data["outlines"][which]
         points, sign, pin, rho = outline or own["points"], own["sign"], data["pins"][which], data["rho"]
         tie = own["points"][own["end"]]
@@ -134,7 +134,7 @@ class Joint:
         return [c, plus(pin, unit(upper), rho), plus(pin, unit(lower), rho), places[first]], nearer(lower - upper) > 0, wound
 
     def round_slack(self):
-        """Slack of tendon 2 (mm) on a round P2 of P1's radius at each row; below 0 it is stretched by so much. 0 at home."""
+        """Slack of tendon 2 (mm) on a round P2 of P1's radius at each row; negative: stretch. 0 at home."""
         rows, slack = self.rows, [0.0]
         for a, b in zip(rows, rows[1:]):
             mean = (a["r2_mm"] + b["r2_mm"]) / 2 - a["r1_mm"]
@@ -184,7 +184,7 @@ def picture(width, height, title, body):
 
 
 def thinned(points, count):
-    """So many of the points, the ends among them."""
+    """`count` of the points, evenly spaced, with both ends."""
     return [points[round(i * (len(points) - 1) / (count - 1))] for i in range(count)]
 
 
@@ -320,7 +320,7 @@ def pictures(program):
         texts = {}
         for name, mechanism, page, title in FIGURES:
             out = made(program, "kit" if page == "kit.html" else "build", mechanism, folder)
-            texts[name] = standing_alone(figure_of((out / page).read_text(), title))
+            texts[name] = standalone(figure_of((out / page).read_text(), title))
         finger = Joint(program, "finger", folder)
         texts["joint.svg"] = moving_joint(finger)
         texts["slack.svg"] = slack_picture(finger)

@@ -203,7 +203,7 @@ bool folds_back(const Edge& a, const Edge& b) {
   return before(b.left, a.right) && before(a.left, b.right);
 }
 
-bool consecutive(const Edge& a, const Edge& b) {
+bool are_consecutive(const Edge& a, const Edge& b) {
   if (a.path != b.path) return false;
   const std::size_t steps = a.index > b.index ? a.index - b.index : b.index - a.index;
   return steps == 1 || (a.path->closed && steps == a.last);
@@ -257,7 +257,7 @@ class Sweep {
 
  private:
   /// True if edge i is below edge j where both are on the line.
-  struct Below {
+  struct EdgeOrder {
     const std::vector<Edge>* edges;
     bool operator()(std::size_t i, std::size_t j) const {
       const Edge& a = (*edges)[i];
@@ -272,20 +272,20 @@ class Sweep {
       return (side > 0) == a_first;
     }
   };
-  using Line = std::set<std::size_t, Below>;
+  using Line = std::set<std::size_t, EdgeOrder>;
 
   bool fault(std::size_t i, std::size_t j) {
     const Edge& a = edges_[i];
     const Edge& b = edges_[j];
     if (a.path == b.path && !within_paths_) return false;
-    if (!(consecutive(a, b) ? folds_back(a, b) : touch(a, b))) return false;
+    if (!(are_consecutive(a, b) ? folds_back(a, b) : touch(a, b))) return false;
     pair_ = {a, b};
     return true;
   }
 
   const std::vector<Edge>& edges_;
   bool within_paths_;
-  Line line_{Below{&edges_}};
+  Line line_{EdgeOrder{&edges_}};
   std::pair<Edge, Edge> pair_;
 };
 
@@ -405,13 +405,13 @@ std::optional<Check> check_smallest_feature(const Paths& contours) {
 
 // ---- Inside ---------------------------------------------------------------------------------------------------------
 
-struct Framed {
+struct FramedPath {
   const DrawingPath* path;
   Box2d box;
 };
 
-std::vector<Framed> framed(const Drawing& drawing, std::string_view layer) {
-  std::vector<Framed> result;
+std::vector<FramedPath> framed_paths(const Drawing& drawing, std::string_view layer) {
+  std::vector<FramedPath> result;
   for (const DrawingPath& path : drawing.paths) {
     if (path.layer == layer && !path.points.empty()) result.push_back({&path, bounding_box(path.points)});
   }
@@ -423,28 +423,28 @@ bool box_within(const Box2d& inner, const Box2d& outer) {
 }
 
 /// Each contour of layer `inner` must lie within one of layer `outer`, if the drawing has such a layer.
-struct Inside {
+struct RequiredNesting {
   std::string_view inner;
   std::string_view outer;
 };
-constexpr auto k_inside = std::to_array<Inside>({{"CUT_INNER", "CUT_OUTER"},
-                                                 {"ENGRAVE", "CUT_OUTER"},
-                                                 {"CUT_OUTER", "SHEET"},
-                                                 {"BORE", "P1_FLOOR"},
-                                                 {"BORE", "P2_FLOOR"},
-                                                 {"P1_FLOOR", "P1_PITCH"},
-                                                 {"P2_FLOOR", "P2_PITCH"}});
+constexpr auto k_inside = std::to_array<RequiredNesting>({{"CUT_INNER", "CUT_OUTER"},
+                                                          {"ENGRAVE", "CUT_OUTER"},
+                                                          {"CUT_OUTER", "SHEET"},
+                                                          {"BORE", "P1_FLOOR"},
+                                                          {"BORE", "P2_FLOOR"},
+                                                          {"P1_FLOOR", "P1_PITCH"},
+                                                          {"P2_FLOOR", "P2_PITCH"}});
 
 Check check_inside(const Drawing& drawing) {
   // Bound on comparisons of points and edges: more than any drawing that can be cut requires.
   std::size_t budget = 300'000'000;
   std::size_t outside = 0;
   std::string where;
-  for (const Inside& pair : k_inside) {
-    const std::vector<Framed> outers = framed(drawing, pair.outer);
+  for (const RequiredNesting& pair : k_inside) {
+    const std::vector<FramedPath> outers = framed_paths(drawing, pair.outer);
     if (outers.empty()) continue;
-    for (const Framed& inner : framed(drawing, pair.inner)) {
-      const bool is_inside = std::any_of(outers.begin(), outers.end(), [&](const Framed& outer) {
+    for (const FramedPath& inner : framed_paths(drawing, pair.inner)) {
+      const bool is_inside = std::any_of(outers.begin(), outers.end(), [&](const FramedPath& outer) {
         budget -= std::min(budget, std::size_t{1});
         if (budget == 0 || !box_within(inner.box, outer.box)) return false;
         if (pair.outer == "SHEET") return true;  // a rectangle: its box is sufficient

@@ -11,7 +11,7 @@ namespace fusee::formats {
 namespace {
 
 /// The first edge that an excessive offset has inverted; the number of edges if there is none.
-std::size_t turned_edge(const Polygon& before, const Polygon& after) {
+std::size_t inverted_edge(const Polygon& before, const Polygon& after) {
   for (std::size_t i = 0; i < before.size(); ++i) {
     const std::size_t j = (i + 1) % before.size();
     if (!((after[j] - after[i]).dot(before[j] - before[i]) > 0)) return i;
@@ -44,9 +44,9 @@ bool beyond(const Vec2& low, const Vec2& high, const Vec2& point, double margin)
 }
 
 bool near_an_edge(const Polygon& polygon, const Vec2& point, double margin) {
-  const double surely = margin * (1.0 + 1e-9);  // edges whose box is further away need no exact distance
-  const double left = point.x() - surely, right = point.x() + surely, below = point.y() - surely,
-               above = point.y() + surely;
+  const double reach = margin * (1.0 + 1e-9);  // edges whose box is further away need no exact distance
+  const double left = point.x() - reach, right = point.x() + reach, below = point.y() - reach,
+               above = point.y() + reach;
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
     const Vec2 &a = polygon[j], &b = polygon[i];
     const bool is_far = (a.x() > right && b.x() > right) || (a.x() < left && b.x() < left) ||
@@ -66,7 +66,7 @@ solid::BodyLayout layout_to_cut(Mechanism mechanism, const profile::SynthesisRes
 }
 
 // Knots and hub are those of the printed pulley. Recomputed automatic sizes (without the chamfer at the bed)
-// could be larger pockets or a larger bore than fit there.
+// could be larger pockets or a larger bore than fit into the cut part.
 solid::BodyLayout layout_to_cut(const Product& product) {
   solid::BodyLayout layout =
       product.cut_layout ? *product.cut_layout : layout_to_cut(product.joint.mechanism, product.synthesis);
@@ -106,7 +106,7 @@ Polygon cut_round(const Polygon& outline, double distance) {
   Polygon kept = outline;
   for (;;) {
     Polygon path = offset_edges(kept, distance);
-    const std::size_t turned = turned_edge(kept, path);
+    const std::size_t turned = inverted_edge(kept, path);
     if (turned == kept.size() || kept.size() <= 3) return path;
     const std::size_t next = (turned + 1) % kept.size();
     kept[turned] = 0.5 * (kept[turned] + kept[next]);
@@ -116,7 +116,7 @@ Polygon cut_round(const Polygon& outline, double distance) {
 
 std::optional<Contour> cut_hole(const Contour& hole, double kerf) {
   Polygon path = offset_edges(hole.points, -0.5 * kerf);
-  if (turned_edge(hole.points, path) < path.size() || !is_simple(path)) return std::nullopt;
+  if (inverted_edge(hole.points, path) < path.size() || !is_simple(path)) return std::nullopt;
   if (hole.circle)
     return Contour{std::move(path), solid::RoundHole{hole.circle->centre, hole.circle->diameter - kerf}, 0};
   if (hole.arc_points > 0) put_on_arc(path, hole.arc_points, hole.points.front().norm() - 0.5 * kerf);

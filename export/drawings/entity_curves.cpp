@@ -96,10 +96,10 @@ void check_spline(const DxfEntity& entity, const std::string& file, const BSplin
                     " control points and " + std::to_string(spline.knots.size()) +
                     " knots, which do not fit or are not in order");
   }
-  const bool weighted =
+  const bool has_valid_weights =
       weights.empty() || (weights.size() == poles &&
                           std::all_of(weights.begin(), weights.end(), [](double w) { return w > 1e-9 && w < 1e9; }));
-  if (!weighted) {
+  if (!has_valid_weights) {
     fail_in_dxf(file, entity.line, "the weights of this SPLINE are not one positive number a control point");
   }
 }

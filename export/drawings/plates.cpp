@@ -331,23 +331,23 @@ void note_small_features(Plates& plates, const Stock& stock) {
 
 // ---- Sheets ---------------------------------------------------------------------------------------------------------
 
-/// The workshop's sheet, or the size that the largest plate requires, in whole mm. The cut is the same, and another
-/// workshop may have a larger machine.
+/// The sheet of [cut], or the size that the largest plate requires, in whole mm. A larger sheet changes no cut, and
+/// another machine may take it.
 void choose_sheet(Plates& plates, const Cut& cut, const std::vector<Vec2>& sizes, double gap) {
-  const Vec2 workshop(cut.sheet_width, cut.sheet_height);
-  plates.sheet = workshop;
+  const Vec2 declared(cut.sheet_width, cut.sheet_height);
+  plates.sheet = declared;
   std::string larger;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const Vec2 needed = (sizes[i] + Vec2::Constant(2 * gap)).array().ceil().matrix();
-    if ((needed.array() <= workshop.array()).all()) continue;
+    if ((needed.array() <= declared.array()).all()) continue;
     plates.sheet = plates.sheet.cwiseMax(needed);
-    larger += fmt::format("{}{} takes {} x {} mm", larger.empty() ? "" : ", ",
+    larger += fmt::format("{}{} requires {} x {} mm", larger.empty() ? "" : ", ",
                           plates.layers[plates.placed[i].layer].name, rounded(needed.x()), rounded(needed.y()));
   }
   if (larger.empty()) return;
   plates.notes.push_back(fmt::format(
-      "a sheet of {} x {} mm (cut.sheet_width_mm, cut.sheet_height_mm) is too small, drawn is one of {} x {} mm: {}",
-      rounded(workshop.x()), rounded(workshop.y()), rounded(plates.sheet.x()), rounded(plates.sheet.y()), larger));
+      "a sheet of {} x {} mm (cut.sheet_width_mm, cut.sheet_height_mm) is too small: drawn on {} x {} mm, because {}",
+      rounded(declared.x()), rounded(declared.y()), rounded(plates.sheet.x()), rounded(plates.sheet.y()), larger));
 }
 
 void lay_on_sheets(Plates& plates, const Cut& cut) {

@@ -41,7 +41,7 @@ struct Plates {
   std::vector<Vec2>
       dowels;  ///< centres on different radii, not in line with the axis, so that plates fit in one orientation only
   double dowel_diameter = 0;
-  Vec2 sheet = Vec2::Zero();       ///< the workshop's sheet, or a larger one if a plate requires it
+  Vec2 sheet = Vec2::Zero();       ///< the sheet of [cut], or a larger one if a plate requires it
   int sheets = 1;                  ///< side by side from x = 0, k_sheet_gap between them
   std::vector<std::string> notes;  ///< the role of the plates, and omitted features
 };

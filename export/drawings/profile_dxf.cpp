@@ -1,6 +1,6 @@
 /// \file
 /// profile.dxf: the curves of the pulley at true size about the axis, with marks of its home position. Curves of
-/// several turns are polylines in space.
+/// multi-turn pulleys are polylines in space.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -71,8 +71,8 @@ void add_axis_and_home(DxfDocument& drawing, double bore_radius, double radius) 
 
 /// `angle` in [0, 2π), by whole turns.
 double positive(double angle) {
-  const double rest = std::fmod(angle, k_two_pi);
-  return rest < 0 ? rest + k_two_pi : rest;
+  const double remainder = std::fmod(angle, k_two_pi);
+  return remainder < 0 ? remainder + k_two_pi : remainder;
 }
 
 /// The point of the outline whose outward normal points in direction `psi`.

@@ -102,7 +102,7 @@ std::optional<Vec2> label_corner(const KitPlate& plate) {
   return std::nullopt;
 }
 
-struct Placed {
+struct ShiftedPlate {
   const KitPlate* plate;
   Vec2 shift;
 };
@@ -127,7 +127,7 @@ class KitSheets {
     }
   }
 
-  const std::vector<Placed>& placed() const { return placed_; }
+  const std::vector<ShiftedPlate>& placed() const { return placed_; }
   void draw(DxfDocument& drawing) const {
     for (int i = 0; i < count_; ++i) {
       const Vec2 corner(i * (sheet_.x() + k_sheet_gap), 0);
@@ -138,7 +138,7 @@ class KitSheets {
  private:
   Vec2 sheet_;
   int count_ = 1;
-  std::vector<Placed> placed_;
+  std::vector<ShiftedPlate> placed_;
 };
 
 Polygon moved(Polygon points, const Vec2& shift) {

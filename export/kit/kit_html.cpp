@@ -110,8 +110,7 @@ std::vector<KitStep> steps_of(const KitProduct& product) {
       "Tendon 1 over pin B to the post's lower end, up through it, along the link, one turn and a half round the "
       "slide's screw and under its washer.",
       "The tensioner's screw through the wall at the link's end into the nut in the slide: turn it until, at home, "
-      "tendon 1 "
-      "carries " +
+      "tendon 1 carries " +
           readable_rounded(product.pulley.joint.mechanism.tendon.pretension, 3) + " N."};
   steps.push_back(tendons);
 
@@ -274,7 +273,7 @@ std::vector<std::string> template_words(const KitProduct& product) {
   return words;
 }
 
-/// For helical tendons.
+/// Heights of helical tendons.
 std::string heights_section(const KitProduct& product) {
   const kit::TendonHeights& heights = *product.plan.heights;
   const bool drum = product.pulley.joint.mechanism.joint.drum_radius > 0;

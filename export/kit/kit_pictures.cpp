@@ -282,7 +282,7 @@ Figure kit_plan_view(const KitProduct& product) {
 
 namespace {
 
-/// The pitch curve of a side. For several turns, only the turn that its tendon leaves at home.
+/// The pitch curve of a side. Of a multi-turn pulley only the turn that its tendon leaves at home.
 profile::Outline at_home(const Product& product, transmission::Side side) {
   if (!product.helix) return side == transmission::Side::left ? product.synthesis.p1 : product.synthesis.p2;
   const helix::HelixSide& helix = product.helix->synthesis.sides.at(side == transmission::Side::left ? 0 : 1);
@@ -331,11 +331,11 @@ Figure kit_template_view(const KitProduct& product) {
   for (const char* name : {"base_template", "drum", "link_template"}) {
     for (const kit::KitPart& part : product.plan.parts) {
       if (part.name != name) continue;
-      const bool link = part.places.front().on_link, drum = part.name == "drum";
+      const bool is_link = part.places.front().on_link, is_drum = part.name == "drum";
       for (const kit::SlabLoop& loop : part.body.slabs.front().loops)
         drawn.emplace_back(loop.hole ? "main"
-                           : drum    ? "kit-new-top"
-                           : link    ? "main"
+                           : is_drum ? "kit-new-top"
+                           : is_link ? "main"
                                      : "kit-top",
                            kit::outline_of(loop.hull));
     }

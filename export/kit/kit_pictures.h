@@ -14,10 +14,10 @@ namespace fusee::formats {
 struct KitStep {
   std::string title;
   std::vector<std::string> parts;  ///< names of the parts added
-  bool motor = false;              ///< true: the step adds the motor; likewise below
-  bool rods = false;
-  bool pulley = false;
-  bool tendons = false;
+  bool motor = false;              ///< true: the step adds the motor
+  bool rods = false;               ///< the step adds the rods
+  bool pulley = false;             ///< the step adds the pulley
+  bool tendons = false;            ///< the step adds the tendons
   std::vector<std::string> words;  ///< instructions
 };
 

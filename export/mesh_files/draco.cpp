@@ -115,9 +115,9 @@ std::uint64_t announced_by_edgebreaker(draco::DecoderBuffer buffer) {
 
 /// A Draco decoder that checks the announced numbers before allocation.
 template <class Decoder, std::uint64_t (*announced)(draco::DecoderBuffer)>
-class Bounded : public Decoder {
+class BoundedDecoder : public Decoder {
  public:
-  explicit Bounded(std::uint64_t size) : size_(size) {}
+  explicit BoundedDecoder(std::uint64_t size) : size_(size) {}
 
  protected:
   bool DecodeConnectivity() override {
@@ -137,8 +137,8 @@ class Bounded : public Decoder {
  private:
   std::uint64_t size_;
 };
-using SequentialDecoder = Bounded<draco::MeshSequentialDecoder, announced_by_sequential>;
-using EdgebreakerDecoder = Bounded<draco::MeshEdgebreakerDecoder, announced_by_edgebreaker>;
+using SequentialDecoder = BoundedDecoder<draco::MeshSequentialDecoder, announced_by_sequential>;
+using EdgebreakerDecoder = BoundedDecoder<draco::MeshEdgebreakerDecoder, announced_by_edgebreaker>;
 
 draco::DecoderBuffer buffer_of(const Source& source) {
   draco::DecoderBuffer buffer;

@@ -17,16 +17,16 @@ namespace {
 
 using Reader = solid::TriangleMesh (*)(const Source&);
 
-struct Ending {
+struct FormatReader {
   std::string_view ending;
   Reader reader;
 };
-constexpr std::array<Ending, 6> k_endings = {{{".stl", read_stl},
-                                              {".obj", read_obj},
-                                              {".3mf", read_threemf},
-                                              {".off", read_off},
-                                              {".ply", read_ply},
-                                              {".drc", read_drc}}};
+constexpr std::array<FormatReader, 6> k_endings = {{{".stl", read_stl},
+                                                    {".obj", read_obj},
+                                                    {".3mf", read_threemf},
+                                                    {".off", read_off},
+                                                    {".ply", read_ply},
+                                                    {".drc", read_drc}}};
 
 /// Null if the content is ambiguous.
 Reader reader_by_content(const Source& source) {
@@ -44,7 +44,7 @@ Reader reader_by_content(const Source& source) {
 Reader reader_by_name(const std::string& file_name) {
   const std::string name = lower(file_name);
   const auto found =
-      std::find_if(k_endings.begin(), k_endings.end(), [&](const Ending& e) { return name.ends_with(e.ending); });
+      std::find_if(k_endings.begin(), k_endings.end(), [&](const FormatReader& e) { return name.ends_with(e.ending); });
   return found == k_endings.end() ? nullptr : found->reader;
 }
 

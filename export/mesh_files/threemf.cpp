@@ -137,7 +137,7 @@ constexpr auto k_known_extensions =
                                      "http://schemas.microsoft.com/3dmanufacturing/production/2015/06",
                                      "http://schemas.3mf.io/3dmanufacturing/trianglesets/2021/07"});
 
-/// Without blanks at its ends, which XML Schema permits for numbers.
+/// The text without blanks at its ends, which XML Schema permits around numbers.
 std::string_view collapsed(std::string_view text) {
   constexpr std::string_view k_blanks = " \t\r\n";
   const std::size_t first = text.find_first_not_of(k_blanks);

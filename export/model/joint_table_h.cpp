@@ -58,15 +58,15 @@ class Header {
     text += array(p_ + "_slope_table", table_.slope);
     if (!table_.holding.empty()) text += array(p_ + "_holding_table", table_.holding);
     text += lookup();
-    for (std::size_t way = 0; way < names.size(); ++way) text += both_ways_round(names[way], table_.ways[way]);
+    for (std::size_t way = 0; way < names.size(); ++way) text += conversions(names[way], table_.ways[way]);
     if (names.size() > 1) text += middle();
     return text + torques() + (table_.unit.ticks ? unwrap() : "") + "#endif\n";
   }
 
  private:
-  bool ticks() const { return table_.unit.ticks; }
-  std::string motor_type() const { return ticks() ? "int32_t" : "float"; }
-  std::string motor_word() const { return ticks() ? "count" : "alpha_deg"; }
+  bool has_ticks() const { return table_.unit.ticks; }
+  std::string motor_type() const { return has_ticks() ? "int32_t" : "float"; }
+  std::string motor_word() const { return has_ticks() ? "count" : "alpha_deg"; }
   std::vector<std::string> way_names() const {
     return table_.ways.size() > 1 ? std::vector<std::string>{"_up", "_down"} : std::vector<std::string>{""};
   }
@@ -90,7 +90,7 @@ class Header {
     lines.push_back("  " + at_most_deg(errors.returned) +
                     " deg at most in the theta that results at the motor angle read");
     lines.push_back("  from theta (" + at_most_deg(errors.motor) + " deg at most at the motor).");
-    if (ticks()) {
+    if (has_ticks()) {
       const double half = k_pi / std::abs(table_.unit.per_turn);
       double steepest = 0;
       for (const float slope : table_.slope) steepest = std::max(steepest, double(slope));
@@ -142,7 +142,7 @@ class Header {
   /// The place of the motor's angle in a table.
   std::string motor_place(const model::OneWayTable& way) const {
     std::string value = motor_word();
-    if (ticks()) {
+    if (has_ticks()) {
       // Clamped just beyond the ends before the subtraction, so that no count overflows.
       const long long low = whole(std::floor(table_.unit.zero + double(way.first))) - 1,
                       high = whole(std::ceil(table_.unit.zero + double(way.last))) + 1;
@@ -153,17 +153,17 @@ class Header {
   }
 
   std::string motor_value(const std::string& value) const {
-    if (!ticks()) return "  return " + value + ";\n";
+    if (!has_ticks()) return "  return " + value + ";\n";
     return "  const float count = " + value + ";\n  return " + zero() +
            " + (int32_t)(count < 0.0f ? count - 0.5f : count + 0.5f);\n";
   }
 
-  std::string both_ways_round(const std::string& way, const model::OneWayTable& table) const {
-    const std::string theta = p_ + "_theta" + way, motor = p_ + (ticks() ? "_count" : "_alpha") + way;
+  std::string conversions(const std::string& way, const model::OneWayTable& table) const {
+    const std::string theta = p_ + "_theta" + way, motor = p_ + (has_ticks() ? "_count" : "_alpha") + way;
     return "/* The joint's angle, deg. */\nstatic inline float " + theta + "_deg(" + motor_type() + " " + motor_word() +
            ") {\n  return " + p_ + "_between(" + theta + "_table, " + motor_place(table) +
            ");\n}\n\n/* The motor angle for a joint angle. */\nstatic inline " + motor_type() + " " + motor +
-           (ticks() ? "" : "_deg") + "(float theta_deg) {\n" +
+           (has_ticks() ? "" : "_deg") + "(float theta_deg) {\n" +
            motor_value(p_ + "_between(" + p_ + "_motor" + way + "_table, (theta_deg - (" +
                        c_float(table_.theta_first_deg) + ")) * " +
                        per_step(table_.theta_first_deg, table_.theta_last_deg) + ")") +
@@ -171,17 +171,17 @@ class Header {
   }
 
   std::string middle() const {
-    const std::string motor = p_ + (ticks() ? "_count" : "_alpha");
-    const std::string half = ticks() ? "" : "0.5f * ", after = ticks() ? " / 2" : "";
-    std::string sum = motor + "_up" + (ticks() ? "" : "_deg") + "(theta_deg) + " + motor + "_down" +
-                      (ticks() ? "" : "_deg") + "(theta_deg)";
+    const std::string motor = p_ + (has_ticks() ? "_count" : "_alpha");
+    const std::string half = has_ticks() ? "" : "0.5f * ", after = has_ticks() ? " / 2" : "";
+    std::string sum = motor + "_up" + (has_ticks() ? "" : "_deg") + "(theta_deg) + " + motor + "_down" +
+                      (has_ticks() ? "" : "_deg") + "(theta_deg)";
     // The mean without the sum of two counts, which may overflow.
-    if (ticks()) sum = motor + "_up(theta_deg) + (" + motor + "_down(theta_deg) - " + motor + "_up(theta_deg))";
+    if (has_ticks()) sum = motor + "_up(theta_deg) + (" + motor + "_down(theta_deg) - " + motor + "_up(theta_deg))";
     return "/* The mean of both directions. */\nstatic inline float " + p_ + "_theta_deg(" + motor_type() + " " +
            motor_word() + ") {\n  return 0.5f * (" + p_ + "_theta_up_deg(" + motor_word() + ") + " + p_ +
            "_theta_down_deg(" + motor_word() + "));\n}\n\nstatic inline " + motor_type() + " " + motor +
-           (ticks() ? "" : "_deg") + "(float theta_deg) {\n  return " +
-           (ticks() ? sum + after : half + "(" + sum + ")") + ";\n}\n\n";
+           (has_ticks() ? "" : "_deg") + "(float theta_deg) {\n  return " +
+           (has_ticks() ? sum + after : half + "(" + sum + ")") + ";\n}\n\n";
   }
 
   std::string torques() const {

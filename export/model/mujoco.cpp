@@ -148,8 +148,8 @@ struct TendonText {
   std::string world, link, way;
 
   void through(const std::string& name) { way += "      <site site=\"" + name + "\"/>\n"; }
-  void round(const std::string& geom, const std::string& beside) {
-    way += "      <geom geom=\"" + geom + "\" sidesite=\"" + beside + "\"/>\n";
+  void round(const std::string& geom, const std::string& side_site) {
+    way += "      <geom geom=\"" + geom + "\" sidesite=\"" + side_site + "\"/>\n";
   }
 };
 

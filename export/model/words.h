@@ -24,8 +24,8 @@ std::vector<std::string> of_curve(const model::JointCurve& curve, const ModelPro
 std::string xml_comment(const std::vector<std::string>& lines);
 std::string xml_attribute(const std::string& text);
 
-/// The link and the pulley for a simulator. SI units. `words`: each value that is assumed because
-/// the file does not have it.
+/// The link and the pulley for a simulator. SI units. `words`: each value that is assumed because the file does not
+/// have it.
 struct SimulatedBody {
   double mass = 0;           ///< of the link, kg
   double lever = 0;          ///< from O along OC to the centre of that mass, m

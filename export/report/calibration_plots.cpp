@@ -15,8 +15,8 @@ namespace fusee::formats {
 namespace {
 
 constexpr int k_places = 48;                // bins of the range of α
-constexpr std::size_t k_most_points = 240;  // in a plot, for each direction
-constexpr std::size_t k_most_runs = 40;     // that have plots of their own
+constexpr std::size_t k_most_points = 240;  // points of a plot, for each direction
+constexpr std::size_t k_most_runs = 40;     // runs with plots of their own
 constexpr std::size_t k_few_runs = 6;       // up to this number, plots are wide
 
 using Residuals = std::vector<std::vector<double>>;
@@ -47,7 +47,7 @@ void for_each_sample(
 }
 
 /// Number of leading runs that have a residual for every sample.
-std::size_t judged_runs(const CalibrationProduct& product) {
+std::size_t runs_with_residuals(const CalibrationProduct& product) {
   const calibration::Calibration& calibration = product.calibration;
   std::size_t count = 0;
   while (count < product.measurement.runs.size() && count < calibration.residuals_before.size() &&
@@ -143,7 +143,7 @@ std::string single(const Plot& plot) { return "<div class=\"single\">" + inline_
 /// Range of all residuals, zero included: the same axis for every plot of the page.
 Extent residual_extent(const CalibrationProduct& product) {
   Extent extent{0, 0};
-  for (std::size_t r = 0; r < judged_runs(product); ++r) {
+  for (std::size_t r = 0; r < runs_with_residuals(product); ++r) {
     for (const Residuals* residuals : {&product.calibration.residuals_before, &product.calibration.residuals_after}) {
       for (const int direction : {1, -1}) {
         for_each_sample(product.measurement.runs[r], direction,
@@ -161,20 +161,20 @@ constexpr double k_row_height = 11;
 constexpr double k_run_gap = 3;
 
 /// The mean residuals of all runs, before or after: two rows per run.
-struct Map {
+struct ResidualMap {
   std::vector<std::array<Profile, 2>> rows;  ///< [run][0: α grows, 1: falls]
 };
 
-Map map_of(const CalibrationProduct& product, const Residuals& residuals, const Extent& alpha) {
-  Map map;
-  for (std::size_t r = 0; r < judged_runs(product); ++r) {
+ResidualMap map_of(const CalibrationProduct& product, const Residuals& residuals, const Extent& alpha) {
+  ResidualMap map;
+  for (std::size_t r = 0; r < runs_with_residuals(product); ++r) {
     const measurement::Run& run = product.measurement.runs[r];
     map.rows.push_back({profile_of(run, residuals[r], 1, alpha), profile_of(run, residuals[r], -1, alpha)});
   }
   return map;
 }
 
-double largest(const Map& map) {
+double largest(const ResidualMap& map) {
   double most = 0;
   for (const auto& run : map.rows) {
     for (const Profile& profile : run) {
@@ -232,7 +232,7 @@ struct MapLayout {
   double above = 0;  ///< height of a label above its rows
 };
 
-Figure laid_out(const CalibrationProduct& product, const Map& map, const std::string& title, double most,
+Figure draw_map(const CalibrationProduct& product, const ResidualMap& map, const std::string& title, double most,
                 const Extent& alpha, const MapLayout& layout) {
   constexpr double top = 30;
   const auto [width, left, above] = layout;
@@ -275,24 +275,24 @@ Figure laid_out(const CalibrationProduct& product, const Map& map, const std::st
   return figure;
 }
 
-Figure map_figure(const CalibrationProduct& product, const Map& map, const std::string& title, double most,
+Figure map_figure(const CalibrationProduct& product, const ResidualMap& map, const std::string& title, double most,
                   const Extent& alpha) {
-  Figure figure = laid_out(product, map, title, most, alpha, {});
-  figure.narrow.push_back(laid_out(product, map, title, most, alpha, {280, 22, 17}));
+  Figure figure = draw_map(product, map, title, most, alpha, {});
+  figure.narrow.push_back(draw_map(product, map, title, most, alpha, {280, 22, 17}));
   return figure;
 }
 
 // ---- load and speed -------------------------------------------------------------------------------------------------
 
-/// One dot for each run and direction.
-struct Level {
+/// A dot of the plot: the mean of a run in one direction.
+struct MeanResidual {
   double at = 0;
   double residual = 0;  ///< deg
   int direction = 1;
 };
 
-std::optional<Level> level_of(const measurement::Run& run, const std::vector<double>& residuals, int direction,
-                              bool by_load) {
+std::optional<MeanResidual> level_of(const measurement::Run& run, const std::vector<double>& residuals, int direction,
+                                     bool by_load) {
   double at = 0, sum = 0, count = 0;
   for_each_sample(run, direction, [&](std::size_t i) {
     if (!std::isfinite(residuals[i])) return;
@@ -301,12 +301,12 @@ std::optional<Level> level_of(const measurement::Run& run, const std::vector<dou
     count += 1;
   });
   if (count == 0 || !std::isfinite(at)) return std::nullopt;
-  return Level{at / count, sum / count, direction};
+  return MeanResidual{at / count, sum / count, direction};
 }
 
-std::vector<Level> levels_of(const CalibrationProduct& product, const Residuals& residuals, bool by_load) {
-  std::vector<Level> levels;
-  for (std::size_t r = 0; r < judged_runs(product); ++r) {
+std::vector<MeanResidual> levels_of(const CalibrationProduct& product, const Residuals& residuals, bool by_load) {
+  std::vector<MeanResidual> levels;
+  for (std::size_t r = 0; r < runs_with_residuals(product); ++r) {
     const measurement::Run& run = product.measurement.runs[r];
     if (by_load ? !run.has_load : !run.has_time) continue;
     for (const int direction : {1, -1}) {
@@ -316,21 +316,22 @@ std::vector<Level> levels_of(const CalibrationProduct& product, const Residuals&
   return levels;
 }
 
-Plot level_plot(const std::vector<Level>& levels, const std::string& title, const PlotAxis& x, const Extent& residual) {
+Plot level_plot(const std::vector<MeanResidual>& levels, const std::string& title, const PlotAxis& x,
+                const Extent& residual) {
   Plot plot{title, x, {"mean residual", "°", residual.low, residual.high, 1e-3}, {}, {}, {}};
   plot.series = {{"α growing", Ink::p1, {}}, {"α falling", Ink::p2, {}}};
-  for (const Level& level : levels)
+  for (const MeanResidual& level : levels)
     plot.marks.push_back({{level.at, level.residual}, "", level.direction > 0 ? Ink::p1 : Ink::p2});
   plot.height = 240;
   return plot;
 }
 
 std::string level_pair(const CalibrationProduct& product, bool by_load) {
-  const std::vector<Level> before = levels_of(product, product.calibration.residuals_before, by_load);
-  const std::vector<Level> after = levels_of(product, product.calibration.residuals_after, by_load);
+  const std::vector<MeanResidual> before = levels_of(product, product.calibration.residuals_before, by_load);
+  const std::vector<MeanResidual> after = levels_of(product, product.calibration.residuals_after, by_load);
   Extent at, residual{0, 0};
   for (const auto* levels : {&before, &after}) {
-    for (const Level& level : *levels) {
+    for (const MeanResidual& level : *levels) {
       at.include(level.at);
       residual.include(level.residual);
     }
@@ -389,9 +390,9 @@ std::string run_words(const measurement::Run& run, const std::string& load_unit)
 
 std::string residual_map_html(const CalibrationProduct& product) {
   const Extent alpha = alpha_extent(product.measurement);
-  if (!alpha.any() || judged_runs(product) == 0) return "";
-  const Map before = map_of(product, product.calibration.residuals_before, alpha);
-  const Map after = map_of(product, product.calibration.residuals_after, alpha);
+  if (!alpha.any() || runs_with_residuals(product) == 0) return "";
+  const ResidualMap before = map_of(product, product.calibration.residuals_before, alpha);
+  const ResidualMap after = map_of(product, product.calibration.residuals_after, alpha);
   const double most = std::max({largest(before), largest(after), 1e-3});
   return "<p class=\"lead\">Every run at a glance: mean of measured less model at each place of α, with α growing (↑) "
          "and falling (↓). Differences between loads indicate stretch or friction, between ↑ and ↓ lost motion, "
@@ -411,7 +412,7 @@ std::string residual_levels_html(const CalibrationProduct& product) {
 
 std::string residual_runs_html(const CalibrationProduct& product) {
   const Extent extent = residual_extent(product), alpha = alpha_extent(product.measurement);
-  const std::size_t judged = judged_runs(product), shown = std::min(judged, k_most_runs);
+  const std::size_t judged = runs_with_residuals(product), shown = std::min(judged, k_most_runs);
   if (shown == 0 || !alpha.any()) return "";
   const bool wide = shown <= k_few_runs;
   std::string html;
@@ -433,7 +434,7 @@ std::string residual_runs_html(const CalibrationProduct& product) {
 
 std::string residual_html(const CalibrationProduct& product) {
   const Extent alpha = alpha_extent(product.measurement);
-  const std::size_t judged = judged_runs(product);
+  const std::size_t judged = runs_with_residuals(product);
   if (judged == 0 || !alpha.any()) return "";
   const double floor = degrees(product.calibration.noise.rms);
   Plot plot{"Residual of all runs",

@@ -134,8 +134,8 @@ std::string infeasible_words(const correction::Correction& correction) {
 std::string assembly_angle_words(const correction::Correction& correction) {
   return "tie its tendons with the unloaded joint at home and the motor at " +
          rounded(degrees(correction.assembly_angle), 4) +
-         " deg: under its mean load the joint then follows its law; tied at 0 it is off by as much, which "
-         "compensation.csv has";
+         " deg: under its mean load the joint then follows its law. Assembled at 0, it is off by as much, which "
+         "compensation.csv corrects";
 }
 
 std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(
@@ -166,7 +166,7 @@ std::string seen_words(const std::vector<double>& seen, const std::string& unit)
 }
 
 /// The ranges of angle, load and speed in which the data were measured.
-std::string where_seen(const CalibrationProduct& product) {
+std::string measured_range_words(const CalibrationProduct& product) {
   const calibration::EmpiricalCurve& curve = product.calibration.curve;
   std::vector<double> loads, speeds;
   for (const measurement::Run& run : product.measurement.runs) {
@@ -194,7 +194,7 @@ std::string empirical_curve_words(const CalibrationProduct& product) {
   return "an empirical curve in compensation.csv corrects the error that depends on place and direction alone: by " +
          rounded(degrees(curve.gain), 3) + "° rms on held-out data (" + rounded(degrees(curve.held_out_effects), 3) +
          "° → " + rounded(degrees(curve.held_out_rms), 3) +
-         "°). It states no cause, and holds for this joint as it was measured (" + where_seen(product) +
+         "°). It states no cause, and holds for this joint as it was measured (" + measured_range_words(product) +
          "). If the joint's sensor causes the error, the table makes the joint wrong by as much. If the pulley does, "
          "measure again after another pulley is mounted";
 }

@@ -92,8 +92,8 @@ std::string percentage_sign_filled(std::string_view text, const std::string& siz
   return words;
 }
 
-/// The most significant number: the largest ratio of change to interval width. A number without an interval follows from
-/// others.
+/// The most significant number: the largest ratio of change to interval width. A number without an interval follows
+/// from others.
 const calibration::ChangedParameter* leading(const calibration::StateChange& change) {
   const auto certainty = [](const calibration::ChangedParameter& p) {
     return p.high > p.low ? std::abs(p.change()) / (p.high - p.low) : 0.0;

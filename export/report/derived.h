@@ -9,9 +9,9 @@
 
 namespace fusee::formats {
 
-/// The design values, key by key of the file.
+/// The mechanism that the pulley is made for, and its fields that differ from the declared ones.
 struct DerivedNumbers {
-  DeclaredMechanism made;            ///< the file with the numbers of the identified joint
+  DeclaredMechanism made;            ///< the declared mechanism with the numbers of the identified joint
   std::vector<const Field*> fields;  ///< fields with a value other than the declared one, in the order of the file
 };
 

@@ -196,15 +196,15 @@ std::string sheaths(const Mechanism& mechanism, const View& view) {
 
 std::string point_names(const Mechanism& mechanism, const View& view, double theta) {
   const double gap = mechanism.guide_pitch_radius() * view.scale + 12;
-  const Vec2 beside = 15 * Vec2(std::sin(theta), -std::cos(theta)) + Vec2(0, 4);
+  const Vec2 name_offset = 15 * Vec2(std::sin(theta), -std::cos(theta)) + Vec2(0, 4);
   const Vec2 c = view(attachment(mechanism, transmission::Side::left, theta)),
              other = view(attachment(mechanism, transmission::Side::right, theta));
   const bool plain = mechanism.joint.is_plain(), apart = !plain && (other - c).norm() > 1;
-  return svg_words("halo middle name-c", c + beside,
+  return svg_words("halo middle name-c", c + name_offset,
                    plain   ? "C"
                    : apart ? "A1"
                            : "A1, A2") +
-         (apart ? svg_words("halo middle name-c2", other + beside, "A2") : "") +
+         (apart ? svg_words("halo middle name-c2", other + name_offset, "A2") : "") +
          svg_words("halo", view({0, 0}) + Vec2(9, 5), "O") +
          svg_words("halo middle", view(pin_centre(mechanism, transmission::Side::left)) + Vec2(gap, 5), "B") +
          svg_words("halo middle", view(pin_centre(mechanism, transmission::Side::right)) + Vec2(-gap, 5), "D") +
@@ -553,7 +553,7 @@ std::optional<Figure> polar_figure(const profile::SynthesisResult& synthesis, tr
     magnified.push_back((radius_towards(outline, place.angle) + factor * place.r) * unit(place.angle));
 
   const std::string name(transmission::pulley_name(side));
-  Figure figure{k_profile_width, k_profile_height, "The polar drawing of " + name + " beside its profile", {}, {}};
+  Figure figure{k_profile_width, k_profile_height, "The polar drawing of " + name + " name_offset its profile", {}, {}};
   View view;
   for (const std::vector<Vec2>* points : {&drawn, &magnified}) {
     for (const Vec2& point : *points) view.include(point);

@@ -73,9 +73,8 @@ std::string groove_edges_text(const char* name, const helical_solid::Winding& wi
 
 /// `made`: the fan that the part was cut from, which has the projections of its groove edges.
 std::string spiral_arrays(const helical_solid::Fan& fan, const helical_solid::Fan& made, double half) {
-  return "// The groove floors from end to end: x, y, the direction in which the floor looks, degrees, and the height "
-         "of "
-         "the tendon's\n// centre line there. A turn has as many rows as the fan has columns.\n" +
+  return "// The groove floors from end to end: x, y, direction of the outward normal, degrees, and the height "
+         "of the tendon's\n// centre line there. A turn has as many rows as the fan has columns.\n" +
          fmt::format("columns = {};\n", fan.columns()) +
          fmt::format("first_column1 = {};  // of P1's first row\nfirst_column2 = {};  // of P2's\n",
                      fan.p1.first_column, fan.p2.first_column) +
@@ -93,8 +92,8 @@ std::string helical_parameters(const Product& product) {
   const solid::BodyLayout& layout = product.pulley.layout;
   return fmt::format(
              R"(// {} - a compound pulley for two tendons that are wound several times, in mm.
-// Made by fusee. Bottom to top: flange, helical groove P1, middle flange, helical groove P2, flange, hub. The axis is z,
-// the joint lies towards +y. Change the numbers here or in the Customizer; the groove floors (P1, P2 below) make the
+// Made by fusee. Bottom to top: flange, helical groove P1, middle flange, helical groove P2, flange, hub. The axis is
+// z, the joint lies towards +y. Change the numbers here or in the Customizer; the groove floors (P1, P2 below) make the
 // joint follow its law and stay as they are.
 
 /* [Bore] */

@@ -61,16 +61,16 @@ std::optional<MeshCode> encode_mesh(const solid::TriangleMesh& mesh) {
   if (!(code.step > 0) || !std::isfinite(code.step)) return std::nullopt;
 
   std::string bytes;
-  std::vector<std::uint32_t> met(mesh.vertices.size(), k_unvisited);
+  std::vector<std::uint32_t> order_of(mesh.vertices.size(), k_unvisited);
   std::uint32_t newest = 0;
   std::array<int, 3> before{0, 0, 0};
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t index : triangle) {
-      if (met[index] != k_unvisited) {
-        put_varint(bytes, newest - met[index]);
+      if (order_of[index] != k_unvisited) {
+        put_varint(bytes, newest - order_of[index]);
         continue;
       }
-      met[index] = newest++;
+      order_of[index] = newest++;
       put_varint(bytes, 0);
       for (int axis = 0; axis < 3; ++axis) {
         const int level = static_cast<int>(std::lround((mesh.vertices[index][axis] - code.low[axis]) / code.step));

@@ -50,7 +50,7 @@ std::string side_json(const Product& product, std::size_t i) {
   };
   return "{\"rows\":" + drawn_rows(side.spiral, place) +
          ",\"z\":" + numbers_text(stroke.size(), 4, [&](std::size_t k) { return place.height(side.stroke[k].z); }) +
-         ",\"climb\":" + numbers_text(stroke.size(), 6, rise) +
+         ",\"slope\":" + numbers_text(stroke.size(), 6, rise) +
          ",\"fleet\":" + numbers_text(stroke.size(), 4, [&](std::size_t k) { return degrees(side.stroke[k].fleet); }) +
          "}";
 }
@@ -87,7 +87,7 @@ std::string moving_helix(const Product& product) {
          inline_svg(figure) + "<dl class=\"numbers\" hidden=\"hidden\">" +
          shown_number("Joint angle θ, declared", "theta") + shown_number("Heights of the take-offs", "heights") +
          shown_number("Turns on P1, on P2, spare ones included", "turns") + shown_number("Fleet angles", "fleets") +
-         "</dl><script type=\"application/json\" id=\"climb\">" + data_json(product) + "</script></div>";
+         "</dl><script type=\"application/json\" id=\"helix\">" + data_json(product) + "</script></div>";
 }
 
 }  // namespace fusee::formats

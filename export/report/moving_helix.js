@@ -3,7 +3,7 @@
 (() => {
   const box = document.querySelector(".moving.helix");
   if (!box) return;
-  const data = JSON.parse(document.getElementById("climb").textContent), radian = Math.PI / 180;
+  const data = JSON.parse(document.getElementById("helix").textContent), radian = Math.PI / 180;
   const slider = box.querySelector("#alpha"), play = box.querySelector(".play"), scene = box.querySelector(".helix-scene");
   const reach = Math.max(...data.sides.flatMap(side => side.rows.map(row => Math.hypot(row[0], row[1]))));
   const beyond = 0.15 * data.pin, width = reach + data.pin + beyond;
@@ -61,12 +61,12 @@
       };
       const z = between(side.z, place), { i, row } = row_at(side.rows, z), tied = which === 0;
       const wound = tied ? [row, ...side.rows.slice(i + 1)] : [...side.rows.slice(0, i + 1), row];
-      const at = seen(row).slice(0, 2), line = drawn[which], u = (at[0] - left) / scale, climb = between(side.climb, place);
+      const at = seen(row).slice(0, 2), line = drawn[which], u = (at[0] - left) / scale, slope = between(side.slope, place);
       line.back.setAttribute("d", runs(side.rows, false));
       line.groove.setAttribute("d", runs(side.rows, true));
       line.hidden.setAttribute("d", runs(wound, false));
       line.wound.setAttribute("d", runs(wound, true));
-      line.free.setAttribute("d", path([at, px(data.pin + beyond, z + climb * (data.pin + beyond - u))]));
+      line.free.setAttribute("d", path([at, px(data.pin + beyond, z + slope * (data.pin + beyond - u))]));
       line.off.setAttribute("cx", at[0]); line.off.setAttribute("cy", at[1]); line.off.setAttribute("r", 4);
       turns.push(Math.abs((tied ? side.rows[side.rows.length - 1] : side.rows[0])[3] - row[3]) / (2 * Math.PI));
       heights.push(z);

@@ -48,14 +48,16 @@ std::string json_outline(const profile::Outline& outline) {
   return text + "]}";
 }
 
-bool is_held(const joint::EquilibriumPoint& point) { return point.status != joint::EquilibriumStatus::no_equilibrium; }
+bool has_equilibrium(const joint::EquilibriumPoint& point) {
+  return point.status != joint::EquilibriumStatus::no_equilibrium;
+}
 
 /// The joint under its load, in one direction of the stroke.
 std::string json_way(const std::vector<analysis::StrokePoint>& loaded,
                      joint::EquilibriumPoint analysis::StrokePoint::*way) {
   const auto numbers = [&](const std::string& key, int decimals, auto value) {
     return json_numbers(key, loaded, decimals, [&](const analysis::StrokePoint& point) {
-      return is_held(point.*way) ? value(point.*way) : std::nan("");
+      return has_equilibrium(point.*way) ? value(point.*way) : std::nan("");
     });
   };
   const auto tension = [&](const std::string& key, joint::TendonState joint::EquilibriumPoint::*tendon,
@@ -106,8 +108,8 @@ std::string json_effect(const correction::RehearsedEffect& effect) {
   return text + "]}";
 }
 
-/// The end of a tendon. `lies`: joint angle up to which it lies on the drum (−1000: never). `normal`: normal of the line
-/// from drum to pin, which is constant up to that angle.
+/// The end of a tendon. `lies`: joint angle up to which it lies on the drum (−1000: never). `normal`: normal of the
+/// line from drum to pin, which is constant up to that angle.
 std::string json_end(const Mechanism& mechanism, transmission::Side side) {
   const transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.guide_pitch_radius());
   double lies = -1e3, normal = 0;

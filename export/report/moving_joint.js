@@ -133,15 +133,15 @@
   const magnified = [50, 20, 10, 5, 2].find(times => times * furthest < 12) || 1;
   for (const scene of data.effects.length ? scenes : []) {
     scene.really = svg("path", scene.link.parentNode, { class: "really" });
-    scene.says = svg("text", scene.link.parentNode.parentNode, { class: "small halo middle" });
+    scene.note = svg("text", scene.link.parentNode.parentNode, { class: "small halo middle" });
   }
   const draw_off = (theta, loaded) => {
     for (const scene of scenes.filter(one => one.really)) {
       const t = (theta + magnified * (loaded - theta)) * radian, c = [data.R * Math.sin(t), data.R * Math.cos(t)]; //=plain
       const t = (theta + magnified * (loaded - theta)) * radian, c = turned(data.ends[0].at, -t); //=drum
       scene.really.setAttribute("d", Number.isFinite(t) ? path_of([scene.px([0, 0]), scene.px(c)]) : "");
-      scene.says.textContent = magnified > 1 ? `dashed: ${magnified} times as far off` : "dashed: where it is";
-      move(scene.says, scene.px([0, -0.16 * data.R]), ["x", "y"]);
+      scene.note.textContent = magnified > 1 ? `dashed: ${magnified} times as far off` : "dashed: where it is";
+      move(scene.note, scene.px([0, -0.16 * data.R]), ["x", "y"]);
     }
   };
   const show_sizes = () => {

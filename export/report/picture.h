@@ -7,9 +7,10 @@
 
 namespace fusee::formats {
 
-/// On white, two dots for each pixel of the SVG. Throws InputError if the libraries are not installed, or fail.
+/// A PNG on white, with two dots for each pixel of the SVG. Throws InputError if the libraries are not installed, or
+/// fail.
 std::string png_of(const std::string& svg, double width, double height);
-/// One page of the SVG's size, at 96 pixels an inch. Throws like png_of().
+/// A PDF with one page of the SVG's size, at 96 pixels an inch. Throws like png_of().
 std::string pdf_of(const std::string& svg, double width, double height);
 
 }  // namespace fusee::formats

@@ -133,7 +133,7 @@ std::string key_numbers(const PlanProduct& product) {
   for (const plan::PlannedCause& cause : plan.causes) alone += cause.smallest_alone.has_value();
   KeyNumbers numbers;
   numbers.add("Minutes", fixed(plan.minutes, 1), "of " + rounded(product.minutes, 4));
-  numbers.add("Causes that can be identified alone", std::to_string(alone), "of " + std::to_string(plan.causes.size()));
+  numbers.add("Causes identified individually", std::to_string(alone), "of " + std::to_string(plan.causes.size()));
   numbers.add("Noise of the joint's sensor", size_words(product.noise), "assumed");
   numbers.add("Motor", readable(degrees(plan.from), 1) + "° … " + readable(degrees(plan.to), 1) + "°");
   return html_section("numbers", "In short", numbers.html());

@@ -228,7 +228,7 @@ module pocket(t) {
     [edge[k][0], edge[k][1], closed + (on_bed(t[0]) ? rise(r + outline[k][1]) : 0)]]]);
 }
 
-// Seen from the pulley's own face, which lies at 0 and looks down.
+// Seen from the pulley's own face, which lies at 0 and faces down.
 module from_face(groove) {
   translate([0, 0, groove == 1 ? 0 : z_top]) mirror([0, 0, groove == 1 ? 0 : 1]) children();
 }
@@ -324,7 +324,7 @@ scale(print_scale) {
 }
 //= several turns
 // ---- the turns: rows of the groove's section, one behind the other, over and under one another every `columns` rows ----
-// A row is [x, y, direction in which the floor looks, height]; both grooves fall as that direction grows. Rows continue
+// A row is [x, y, direction of the normal, height]; both grooves fall as that direction grows. Rows continue
 // beyond the end of a groove, filled to its edge: the tendon dives there.
 section = concat(
   [for (k = [len(lower_wall) - 1 : -1 : 0]) [lower_wall[k][0], -lower_wall[k][1]]],
@@ -332,8 +332,8 @@ section = concat(
 m = len(section);
 last1 = len(P1) - 1;
 last2 = len(P2) - 1;
-function looks(row) = [cos(row[2]), sin(row[2])];
-function out_of(row, out) = [row[0], row[1]] + out * looks(row);
+function normal_of(row) = [cos(row[2]), sin(row[2])];
+function out_of(row, out) = [row[0], row[1]] + out * normal_of(row);
 function lifted(p, z) = [p[0], p[1], z];
 // The groove edges of filled rows project over the channel's entry, and decline with the ring's blend.
 function fill_share(j, last, front, back) =
@@ -429,7 +429,7 @@ function tube(centre, ahead, r) = let (
 
 module run_out(t) {
   row = t[0];
-  normal = lifted(looks(row), 0);
+  normal = lifted(normal_of(row), 0);
   along = t[1] * [-normal[1], normal[0], 0];
   towards = (t[2] * [0, 0, 1] - normal) / sqrt(2);
   start = lifted(out_of(row, tendon / 2), row[3]);

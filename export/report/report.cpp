@@ -238,12 +238,12 @@ std::string key_numbers(const Product& product) {
 
 std::string vector_words(const Vec3& v) { return shortest(v.x()) + " " + shortest(v.y()) + " " + shortest(v.z()); }
 
-/// Middle and half height of a groove along the axis.
+/// Middle and half height of a groove along the axis. A helical groove extends from its first turn to its last one,
+/// including the ribs between them.
 struct GrooveBand {
   double middle = 0, half = 0;
 };
 
-/// For a helical groove, from its first turn to its last one, including the ribs between them.
 GrooveBand groove_band(const Product& product, transmission::Side which) {
   const bool left = which == transmission::Side::left;
   const solid::BodyLayout& layout = product.pulley.layout;
@@ -360,8 +360,8 @@ std::string torques_section(const Product& product) {
   const std::vector<Plot> plots = torque_plots(product);
   if (plots.empty()) return "";
   return "<section id=\"torques\"><h2>Torques</h2><p class=\"lead\">The target torque of the motor, and the torque "
-         "that it "
-         "requires: without friction, from the angles of the pulley as wound; and with stretch and friction, for α "
+         "that it requires: without friction, from the angles of the pulley as wound; and with stretch and "
+         "friction, for α "
          "increasing and decreasing.</p><div class=\"plots\">" +
          all_in_divs(plots) + "</div></section>";
 }
@@ -386,7 +386,7 @@ std::string tendon_row(const TendonLength& tendon, const Mechanism& mechanism) {
          "°</td></tr>";
 }
 
-/// Cut lengths for the test rig where they are others.
+/// Cut lengths for the test rig, where they differ.
 std::string rig_words(const Product& product) {
   if (!product.rig) return "";
   std::string words;
@@ -452,13 +452,13 @@ std::string knot_table(const Product& product) {
 /// Instructions for mounting the pulley on its shaft or horn.
 std::string mounting(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
-  const std::string home = " with P1 below and " + home_words(product) + ": the way that C lies from O at home.";
+  const std::string home = " with P1 below and " + home_words(product) + ": the direction from O to C at home.";
   if (mechanism.body.bore != Bore::horn) return "Put the pulley on its shaft" + home;
   const Horn& horn = horn_of(mechanism);
   if (horn.spline_teeth > 0) {
     return "Turn the servo to where its home shall be. Push the pulley onto its toothed shaft" + home +
-           " It goes on every " + readable(360.0 / horn.spline_teeth, 1) +
-           "°: the controller’s zero takes up the rest. The screw comes from above.";
+           " It fits every " + readable(360.0 / horn.spline_teeth, 1) +
+           "°: correct the remainder with the controller’s zero. The screw comes from above.";
   }
   return "Put the horn on the servo at its home, the first screw " + readable(degrees(horn.first_bolt), 1) +
          "° from +x towards +y, and its own screw in the middle. Screw the pulley onto it (" +

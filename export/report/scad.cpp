@@ -97,9 +97,9 @@ std::string parameters(const Product& product) {
   const solid::BodyLayout& layout = product.pulley.layout;
   std::string text = fmt::format(
       R"(// {} - a compound pulley for two tendons, in mm.
-// Made by fusee. Bottom to top: flange, groove P1, middle flange, groove P2, flange, hub. The axis is z, the joint lies towards +y.
-// Change the numbers here or in the Customizer; the groove floors (P1, P2 below) make the joint follow its law and stay as they are.
-// The engraved letters and marks of the printed part are omitted.
+// Made by fusee. Bottom to top: flange, groove P1, middle flange, groove P2, flange, hub. The axis is z, the joint lies
+// towards +y. Change the numbers here or in the Customizer; the groove floors (P1, P2 below) make the joint follow its
+// law and stay as they are. The engraved letters and marks of the printed part are omitted.
 
 /* [View] */
 // the part as it is in use, or the parts to print, in print orientation
@@ -244,8 +244,8 @@ std::string floor_arrays(const Product& product, const solid::FlangeRims& rims) 
   const profile::SynthesisResult& synthesis = product.synthesis;
   const double d = product.joint.mechanism.tendon.diameter;
   const std::vector<std::size_t> kept = kept_points(synthesis.p1, synthesis.p2, rims);
-  return "// The groove floors: x, y, and the direction in which the floor looks there, degrees. Point i of both looks "
-         "the same way.\n" +
+  return "// The groove floors: x, y, and direction of the outward normal, degrees. Point i of both has the same "
+         "normal.\n" +
          floor_array("P1", synthesis.p1, d, kept) + floor_array("P2", synthesis.p2, d, kept);
 }
 

@@ -21,7 +21,7 @@ struct Figure {
   std::vector<Figure> narrow = {};
 };
 
-/// For use inside an HTML page that includes figure.css and page.css, which shows the layout that fits its column.
+/// An SVG for an HTML page with figure.css and page.css, which select the layout that fits the column.
 std::string inline_svg(const Figure& figure);
 /// The figure in a div.
 std::string in_div(const Figure& figure);

@@ -12,7 +12,7 @@ namespace {
 // Length at one end: a figure-eight stopper knot takes about a dozen diameters (assumed), and a tail pulls it tight.
 constexpr double k_knot_ratio = 12.0;
 constexpr double k_tail = 50.0;
-constexpr double k_cut_grain = 5.0;
+constexpr double k_cut_step = 5.0;
 
 TendonLength length_to(const Product& product, const solid::Anchor& anchor) {
   const Mechanism& mechanism = product.joint.mechanism;
@@ -74,7 +74,7 @@ TendonLength length_on_helix(const Product& product, const helical_solid::Helica
 }  // namespace
 
 double tendon_end(const Tendon& tendon) { return k_knot_ratio * tendon.diameter + k_tail; }
-double cut_length(double needed) { return k_cut_grain * std::ceil(needed / k_cut_grain); }
+double cut_length(double needed) { return k_cut_step * std::ceil(needed / k_cut_step); }
 
 std::vector<TendonLength> tendon_lengths(const Product& product) {
   std::vector<TendonLength> lengths;

@@ -101,11 +101,11 @@ std::string with_references(std::string_view statement, const Rename& renamed) {
 
 struct Instance {
   std::size_t number = 0;
-  std::string what;  ///< TYPE(…)
+  std::string definition;  ///< TYPE(…)
 };
 
 bool is_value(const Instance& instance) {
-  const std::string_view type = std::string_view(instance.what).substr(0, instance.what.find('('));
+  const std::string_view type = std::string_view(instance.definition).substr(0, instance.definition.find('('));
   return std::find(k_values.begin(), k_values.end(), type) != k_values.end();
 }
 
@@ -118,7 +118,7 @@ void merge_values(std::vector<Instance>& instances) {
     kept.reserve(instances.size());
     for (const Instance& instance : instances) {
       if (is_value(instance)) {
-        const auto [found, is_new] = first.try_emplace(instance.what, instance.number);
+        const auto [found, is_new] = first.try_emplace(instance.definition, instance.number);
         if (!is_new) {
           same[instance.number] = found->second;
           continue;
@@ -134,7 +134,7 @@ void merge_values(std::vector<Instance>& instances) {
     std::size_t k = 0;
     for (const Instance& instance : instances) {
       if (k < kept.size() && kept[k].number == instance.number)
-        kept[k++].what = with_references(instance.what, renamed);
+        kept[k++].definition = with_references(instance.definition, renamed);
     }
     instances = std::move(kept);
   }
@@ -158,11 +158,13 @@ std::string compact_step(std::string_view text) {
     }
   }
   merge_values(instances);
-  std::unordered_map<std::size_t, std::size_t> anew;
-  for (const Instance& instance : instances) anew.emplace(instance.number, anew.size() + 1);
+  std::unordered_map<std::size_t, std::size_t> new_number;
+  for (const Instance& instance : instances) new_number.emplace(instance.number, new_number.size() + 1);
   for (const Instance& instance : instances) {
-    result += "#" + std::to_string(anew.at(instance.number)) + "=" +
-              with_references(instance.what, [&anew](std::size_t number) { return anew.at(number); }) + ";\n";
+    result +=
+        "#" + std::to_string(new_number.at(instance.number)) + "=" +
+        with_references(instance.definition, [&new_number](std::size_t number) { return new_number.at(number); }) +
+        ";\n";
   }
   for (const std::string& statement : after) result += statement + ";\n";
   return result;

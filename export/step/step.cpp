@@ -21,19 +21,19 @@ namespace fs = std::filesystem;
 /// Largest error of the floor, mm.
 constexpr double k_floor_limit = 1e-4;
 
-struct Loaded {
+struct MakerLoad {
   const StepMaker* maker = nullptr;
   std::string why_not;
 };
 
-Loaded load() {
+MakerLoad load() {
   if (!FUSEE_HAS_STEP) return {nullptr, "its module fusee-step, which needs OpenCASCADE, was left out"};
   const LoadedModule module = load_module("fusee-step", k_step_maker);
   return {static_cast<const StepMaker*>(module.found), module.why_not};
 }
 
-const Loaded& loaded() {
-  static const Loaded once = load();
+const MakerLoad& loaded() {
+  static const MakerLoad once = load();
   return once;
 }
 
@@ -57,13 +57,13 @@ double floor_error(const profile::Outline& outline, double tendon_diameter, doub
 /// Places on the floors of helical grooves under the tendons: half a tendon inside every row of the spirals.
 std::vector<Vec3> floor_places(const HelixProduct& helix, double tendon_diameter, double scale) {
   std::vector<Vec3> places;
-  const helical_solid::SpiralPlace* const lies[] = {&helix.pulley.p1, &helix.pulley.p2};
+  const helical_solid::SpiralPlace* const spirals[] = {&helix.pulley.p1, &helix.pulley.p2};
   for (std::size_t k = 0; k < 2; ++k) {
     const helix::Spiral& spiral = helix.synthesis.sides[k].spiral;
     for (std::size_t i = spiral.first_used; i <= spiral.last_used; ++i) {
       const helix::SpiralRow& row = spiral.rows[i];
       const Vec2 floor = Vec2(row.x, row.y) - 0.5 * tendon_diameter * unit(row.turn);
-      places.push_back(scale * Vec3(floor.x(), floor.y(), lies[k]->height(row.z)));
+      places.push_back(scale * Vec3(floor.x(), floor.y(), spirals[k]->height(row.z)));
     }
   }
   return places;
@@ -102,7 +102,7 @@ StepInspection inspect_step(const fs::path& path, const Product& product, double
     question.planes = {scale * layout.z_p1, scale * layout.z_p2};
   }
   const StepReading found = maker().read(path.string(), question);
-  const double expected = product.pulley.expected_volume + std::pow(scale, 3) * round_holes_leave(product.pulley);
+  const double expected = product.pulley.expected_volume + std::pow(scale, 3) * round_hole_excess(product.pulley);
   inspection.checks.push_back(exactly("solids", found.solids, 1, "1"));
   inspection.checks.push_back(exactly("unpaired_edges", found.unpaired_edges, 0, "1"));
   inspection.checks.push_back(exactly("invalid_shapes", found.is_valid ? 0 : 1, 0, "1"));

@@ -37,7 +37,7 @@ struct Base {
 };
 
 /// A ring of the body as a parallel of a base curve; base null: a circle about the axis, of the radius `distance`.
-struct Parallel {
+struct ParallelRing {
   Base* base = nullptr;
   double distance = 0;
   double z = 0;
@@ -153,7 +153,7 @@ class StepBuilder {
     return base.fits;
   }
 
-  Parallel parallel_of(const solid::Ring& ring) {
+  ParallelRing parallel_of(const solid::Ring& ring) {
     const auto& reference = product_.synthesis.p1.points;
     const auto is_parallel = [&](const std::vector<Vec2>* base, double distance) {
       for (std::size_t i = 0; i < ring.points.size(); ++i) {
@@ -183,7 +183,7 @@ class StepBuilder {
       if (!seat || stack.rings[k].z != plane - walls.below_width()) continue;
       // The flange's own ring may have the height of the groove edge.
       if (k + rings > stack.rings.size() || stack.rings[k + rings - 1].z != plane + walls.above_width()) continue;
-      const Parallel low = parallel_of(stack.rings[k]), high = parallel_of(stack.rings[k + rings - 1]);
+      const ParallelRing low = parallel_of(stack.rings[k]), high = parallel_of(stack.rings[k + rings - 1]);
       if (low.base != high.base || std::abs(low.distance - high.distance) > k_same) continue;
       add(low);
       add_seat(low, plane, *seat);
@@ -193,18 +193,18 @@ class StepBuilder {
     return 0;
   }
 
-  void add_seat(const Parallel& groove_edge, double plane, const Seat& seat) {
+  void add_seat(const ParallelRing& groove_edge, double plane, const Seat& seat) {
     const double floor = groove_edge.distance - layout_.groove_depth;
     const auto on_arc = [&](double angle, double radius) {
-      return Parallel{groove_edge.base, floor + seat.radius - radius * std::cos(angle),
-                      plane + radius * std::sin(angle)};
+      return ParallelRing{groove_edge.base, floor + seat.radius - radius * std::cos(angle),
+                          plane + radius * std::sin(angle)};
     };
     const auto add_arc = [&](double from, double to) {
       if (from == -seat.below) add(on_arc(from, seat.radius));
       const double half = 0.5 * (to - from);
       add(on_arc(to, seat.radius));
       StepBand& band = part_.bands.back();
-      const Parallel corner = on_arc(0.5 * (from + to), seat.radius / std::cos(half));
+      const ParallelRing corner = on_arc(0.5 * (from + to), seat.radius / std::cos(half));
       band.seat_radius = layout_.scale * seat.radius;
       band.seat_middle = layout_.scale * (floor + seat.radius);
       band.seat_z = layout_.scale * plane;
@@ -216,7 +216,7 @@ class StepBuilder {
     for (std::size_t i = 0; i + 1 < angles.size(); ++i) add_arc(angles[i], angles[i + 1]);
   }
 
-  std::vector<StepSpline> pieces_of(const Parallel& row) {
+  std::vector<StepSpline> pieces_of(const ParallelRing& row) {
     std::vector<StepSpline> pieces;
     for (const NormalSpline& fitted : fits_of(*row.base)) {
       pieces.push_back(fitted.parallel(layout_.scale * row.distance));
@@ -235,7 +235,7 @@ class StepBuilder {
     return pieces;
   }
 
-  void add(const Parallel& row) {
+  void add(const ParallelRing& row) {
     StepRow next{layout_.scale * row.z, 0};
     if (row.base)
       next.pieces = pieces_of(row);
@@ -260,7 +260,7 @@ class StepBuilder {
   Base p1_, p2_, middle_;
   std::vector<double> psi_;
   double reach_ = 0;
-  Parallel last_;
+  ParallelRing last_;
   StepPart part_;
 };
 

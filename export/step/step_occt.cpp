@@ -575,8 +575,8 @@ TopoDS_Solid only_solid(const TopoDS_Shape& shape) {
   return TopoDS::Solid(solids(1));
 }
 
-/// Replaces curves of many poles by equal ones with fewer poles, except isoparametric ones. The kernel makes them where a
-/// cut meets a face with an uneven parameter, because it steps by microns there.
+/// Replaces curves of many poles by equal ones with fewer poles, except isoparametric ones. The kernel makes them where
+/// a cut meets a face with an uneven parameter, because it steps by microns there.
 void shorten_curves(const TopoDS_Shape& shape) {
   constexpr int k_many_poles = 30, k_most_pieces = 20;
   constexpr double k_near = 1e-6;
@@ -783,8 +783,8 @@ Polygon floor_at(const TopoDS_Shape& shape, double z, bool smooth) {
   return largest;
 }
 
-/// The floor with smooth curves. The kernel finds none between the halves of elbow_idlers; for a part of that size chords
-/// are accurate enough.
+/// The floor with smooth curves. The kernel finds none between the halves of elbow_idlers; for a part of that size
+/// chords are accurate enough.
 Polygon floor_at(const TopoDS_Shape& shape, double z) {
   Polygon floor = floor_at(shape, z, true);
   return floor.empty() ? floor_at(shape, z, false) : floor;
@@ -816,9 +816,9 @@ solid::TriangleMesh mesh_of(const TopoDS_Shape& shape) {
 }
 
 /// Nodes of the faces' meshes in a lattice of cells: start points for nearest-point searches.
-class Nearest {
+class SurfaceSamples {
  public:
-  explicit Nearest(const TopoDS_Shape& shape) {
+  explicit SurfaceSamples(const TopoDS_Shape& shape) {
     for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
       const TopoDS_Face face = TopoDS::Face(faces.Current());
       TopLoc_Location place;
@@ -836,7 +836,7 @@ class Nearest {
   /// Distance from the surfaces that have a node nearby; infinite if there is none.
   double distance(const gp_Pnt& point) const {
     double best = std::numeric_limits<double>::infinity();
-    for (const auto& [surface, start] : beside(point)) best = std::min(best, foot_distance(point, *start.second));
+    for (const auto& [surface, start] : near(point)) best = std::min(best, foot_distance(point, *start.second));
     return best;
   }
 
@@ -849,7 +849,7 @@ class Nearest {
     constexpr double k_near = 0.25;
     gp_Pnt best = point;
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& [surface, start] : beside(point)) {
+    for (const auto& [surface, start] : near(point)) {
       const auto found = lowest_on(*surfaces_[surface], point, *start.second);
       if (!found || found->first.Distance(point) > k_near) continue;
       const double radius = radius_of(found->first) - (found->second ? k_level : 0.0);
@@ -875,7 +875,7 @@ class Nearest {
   }
 
   /// The nearest node of every surface with nodes nearby.
-  std::map<std::size_t, std::pair<double, const Node*>> beside(const gp_Pnt& point) const {
+  std::map<std::size_t, std::pair<double, const Node*>> near(const gp_Pnt& point) const {
     std::map<std::size_t, std::pair<double, const Node*>> of_surface;
     const Cell middle = cell_of(point);
     for (int i = -1; i <= 1; ++i) {
@@ -1010,7 +1010,7 @@ StepReading read(const std::string& path, const StepQuestion& question) {
     for (const double z : question.planes) reading.sections.push_back(floor_at(shape, z));
     reading.open_faces = open_faces(shape, question.grounds != nullptr);
     if (question.grounds) {
-      const Nearest nearest(shape);
+      const SurfaceSamples nearest(shape);
       for (const Vec3& place : question.places) reading.distances.push_back(nearest.distance(point_at(place)));
       for (const Vec3& place : question.grounds(mesh_of(shape))) {
         const gp_Pnt found = nearest.ground(point_at(place));

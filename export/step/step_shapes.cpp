@@ -114,7 +114,7 @@ void add_set_screw(std::vector<StepTool>& tools, const solid::BodyLayout& layout
 // ---- tie-offs -------------------------------------------------------------------------------------------------------
 
 /// Heights above the groove's plane in print orientation, as z in the part.
-struct Upwards {
+struct HeightAxis {
   double plane = 0;
   double up = 1;
   double at(double height) const { return plane + up * height; }
@@ -181,7 +181,7 @@ Vec2 outer_of(const solid::Anchor& anchor) {
 
 /// The channel's ceiling rises from the inner wall outwards: a cone about the bend's centre, and a plane.
 void add_channel(std::vector<StepTool>& tools, const solid::Anchor& anchor, const solid::BodyLayout& layout,
-                 const Upwards& z) {
+                 const HeightAxis& z) {
   const solid::ChannelBend& bend = *anchor.bend;
   const double width = layout.channel_width, half = bend.half_height;
   const double slope = layout.channel_ceiling / width;
@@ -232,7 +232,7 @@ StepContour pocket_contour(const solid::Anchor& anchor, const solid::BodyLayout&
 }
 
 void add_pocket(std::vector<StepTool>& tools, const solid::Anchor& anchor, const solid::BodyLayout& layout,
-                const Upwards& z) {
+                const HeightAxis& z) {
   const bool left = anchor.side == transmission::Side::left, turned = left && layout.parts == Parts::two;
   const double closed = anchor.bend->half_height + solid::k_deeper;
   if (turned || !left) {
@@ -255,21 +255,21 @@ void add_pocket(std::vector<StepTool>& tools, const solid::Anchor& anchor, const
 }
 
 /// Depths below a face, as z in the part.
-struct FromFace {
+struct DepthAxis {
   double face = 0;
   double in = 1;
   double at(double depth) const { return face + in * depth; }
 };
 
-FromFace from_face(transmission::Side side, const solid::BodyLayout& layout) {
-  return side == transmission::Side::left ? FromFace{0, 1} : FromFace{layout.z_top, -1};
+DepthAxis from_face(transmission::Side side, const solid::BodyLayout& layout) {
+  return side == transmission::Side::left ? DepthAxis{0, 1} : DepthAxis{layout.z_top, -1};
 }
 
 void add_face_hole(std::vector<StepTool>& tools, const solid::Anchor& anchor, const solid::BodyLayout& layout) {
   constexpr double k_past_plane = 0.03, k_share = 0.9;
   const solid::FaceSeat& seat = *anchor.seat;
   const bool left = anchor.side == transmission::Side::left;
-  const FromFace face = from_face(anchor.side, layout);
+  const DepthAxis face = from_face(anchor.side, layout);
   const double outside = solid::k_overshoot + (left ? 0.0 : layout.z_hub - layout.z_top);
   const double to_groove = left ? layout.z_p1 : layout.z_top - layout.z_p2;
   const Polygon& slot = anchor.channel;
@@ -296,7 +296,7 @@ void add_face_hole(std::vector<StepTool>& tools, const solid::Anchor& anchor, co
 
 void add_tail(std::vector<StepTool>& tools, const solid::Anchor& anchor, const solid::BodyLayout& layout) {
   const solid::TailSlot& slot = *anchor.tail;
-  const FromFace face = from_face(anchor.side, layout);
+  const DepthAxis face = from_face(anchor.side, layout);
   const Vec2 along = (slot.to - slot.from).normalized(), across = turned_left(along);
   StepPrism prism;
   prism.origin = {slot.from.x(), slot.from.y(), face.face};
@@ -315,7 +315,7 @@ void add_tail(std::vector<StepTool>& tools, const solid::Anchor& anchor, const s
         cylinder(slot.to, 0.5 * slot.pilot_diameter, face.at(-solid::k_overshoot), face.at(slot.pilot_depth)));
 }
 
-StepTool sign(const solid::Mark& mark, double low, double high) {
+StepTool mark_tool(const solid::Mark& mark, double low, double high) {
   StepTool tool = prism_between(contour_of(mark.loops.front()), low, high);
   for (std::size_t k = 1; k < mark.loops.size(); ++k)
     std::get<StepPrism>(tool.common.front()).inner.push_back(contour_of(mark.loops[k]));
@@ -337,7 +337,7 @@ std::vector<StepTool> step_cuts(const Mechanism& mechanism, const solid::Pulley&
   add_set_screw(tools, layout);
   for (const solid::Anchor& anchor : pulley.anchors) {
     const bool left = anchor.side == transmission::Side::left;
-    const Upwards z{left ? layout.z_p1 : layout.z_p2, left && layout.parts == Parts::two ? -1.0 : 1.0};
+    const HeightAxis z{left ? layout.z_p1 : layout.z_p2, left && layout.parts == Parts::two ? -1.0 : 1.0};
     if (anchor.seat) add_face_hole(tools, anchor, layout);
     if (anchor.bend) {
       add_channel(tools, anchor, layout, z);
@@ -347,9 +347,9 @@ std::vector<StepTool> step_cuts(const Mechanism& mechanism, const solid::Pulley&
   }
   const double depth = layout.mark_depth;
   for (const solid::Mark& mark : pulley.marks) {
-    if (!mark.on_top) tools.push_back(sign(mark, -solid::k_overshoot, depth));
+    if (!mark.on_top) tools.push_back(mark_tool(mark, -solid::k_overshoot, depth));
     if (mark.on_top && mechanism.body.marks == Marks::engraved)
-      tools.push_back(sign(mark, layout.z_top - depth, layout.z_top + solid::k_overshoot));
+      tools.push_back(mark_tool(mark, layout.z_top - depth, layout.z_top + solid::k_overshoot));
   }
   return tools;
 }
@@ -361,12 +361,12 @@ std::vector<StepTool> step_raised(const Mechanism& mechanism, const solid::Pulle
   for (const solid::Mark& mark : pulley.marks) {
     if (mark.on_top)
       raised.push_back(
-          sign(mark, layout.z_top - 0.5 * layout.flange_thickness, layout.z_top + mechanism.body.mark_depth));
+          mark_tool(mark, layout.z_top - 0.5 * layout.flange_thickness, layout.z_top + mechanism.body.mark_depth));
   }
   return raised;
 }
 
-double round_holes_leave(const solid::Pulley& pulley) {
+double round_hole_excess(const solid::Pulley& pulley) {
   const solid::BodyLayout& layout = pulley.layout;
   const solid::BoreLayout& bore = layout.bore;
   double volume = 0;

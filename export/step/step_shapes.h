@@ -14,6 +14,6 @@ std::vector<StepTool> step_cuts(const Mechanism& mechanism, const solid::Pulley&
 std::vector<StepTool> step_raised(const Mechanism& mechanism, const solid::Pulley& pulley);
 
 /// Volume between the round holes and the mesh's facets, which are outside them. mm³
-double round_holes_leave(const solid::Pulley& pulley);
+double round_hole_excess(const solid::Pulley& pulley);
 
 }  // namespace fusee::formats

@@ -171,8 +171,8 @@ UnderLoad under_load(const Mechanism& mechanism, int steps = AnalysisOptions{}.s
 /// An error, without a place, for a load that no joint angle carries. Null if there is one everywhere.
 std::optional<Diagnostic> no_equilibrium(const UnderLoad& load);
 
-/// The conditions of the mechanism's motor that fail, for searches. If its travel is too small, that one alone, without
-/// an equilibrium. The law must exist over the range.
+/// The conditions of the mechanism's motor that fail, for searches. If its travel is too small, only this condition is
+/// returned, and no equilibrium is computed. The law must exist over the range.
 std::vector<profile::Condition> motor_obstacles(const Mechanism& mechanism);
 /// A warning, or an error if the motor is enforced, for each failed condition, at the key of its limit. The hint
 /// contains the advice and the models that would suffice.

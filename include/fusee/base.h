@@ -222,7 +222,7 @@ struct RunContext {
   void throw_if_stopped() const {
     if (stop.stop_requested()) throw Stopped();
   }
-  /// For trial builds and for other threads, which report no progress.
+  /// A context for trial builds and other threads, which report no progress.
   RunContext without_progress() const { return {{}, stop, files}; }
 };
 
@@ -291,7 +291,7 @@ class OutputFolder {
   void publish(std::vector<Diagnostic>& notes);
 
  private:
-  /// For temporary().
+  /// Used by temporary().
   explicit OutputFolder(const RunContext& context);
 
   /// Removes staged files and the folders made for them from the disk. Paths stay valid, because other threads may

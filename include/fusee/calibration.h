@@ -159,7 +159,7 @@ struct Detectable {
 enum class CalibrationVerdict { not_testable, not_repeatable, unexplained, confounded, explained, no_effect };
 
 /// Held-out runs, and the joint that was identified from all other runs.
-struct LeftOut {
+struct HeldOutFit {
   std::vector<std::string> runs;  ///< names
   Imperfections identified;
 };
@@ -171,7 +171,7 @@ struct Calibration {
   std::vector<FoundEffect> effects;
   Imperfections identified;  ///< sum of all effects; all zero without any
   /// Estimates that validate a correction: each run is left out in one of them, or only the runs kept for validation.
-  std::vector<LeftOut> left_out;
+  std::vector<HeldOutFit> left_out;
   /// Effects that fit the runs and are not reported, because held-out rows are predicted worse with them.
   std::vector<std::string> dropped;
   std::string noise_varies;  ///< dependence of the noise on load and speed, in a sentence; "" if there is none

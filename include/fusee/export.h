@@ -271,7 +271,7 @@ std::string calibration_manifest_json(const CalibrationProduct& product, const s
 
 // First lines of page and terminal.
 
-/// At most 60 words, without identifiers.
+/// The first lines of a calibration's page: at most 60 words, without identifiers.
 struct Headline {
   std::string problem;  ///< the error of the joint and its size
   std::string cause;    ///< one cause, or up to three candidates; "" if there is none

@@ -1,5 +1,5 @@
 /// \file
-/// Pulleys of several turns as one checked solid, and strings wound on them in space.
+/// Multi-turn pulleys as one checked solid, and strings wound on them in space.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 /// \file
-/// Pulleys of several turns: both pitch curves as spirals.
+/// Multi-turn pulleys: both pitch curves as spirals.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +43,7 @@ struct Spiral {
 };
 
 // ---- Synthesis ------------------------------------------------------------------------------------------------------
-// Mechanism → both pitch curves of several turns, each a spiral whose height is linear in its length, or the
+// Mechanism → both multi-turn pitch curves, each a spiral whose height is linear in its length, or the
 // conditions that fail.
 
 /// The axial geometry of one tendon at one place of the stroke.

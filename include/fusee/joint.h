@@ -265,8 +265,8 @@ struct IdentifiedJoint {
   /// Further manufacturing errors, which draw_for_making() compensates.
   OutlineError outline;
 };
-/// Accuracy of the compensating law of a compliant joint. whole: for the part to make. brief: 0.1°, about twenty times as
-/// fast, for searches over hundreds of mechanisms.
+/// Accuracy of the compensating law of a compliant joint. whole: for the part to make. brief: 0.1°, about twenty times
+/// as fast, for searches over hundreds of mechanisms.
 enum class LawSearch { whole, brief };
 /// Returns the declared mechanism when nothing relevant was identified.
 IdentifiedJoint identified_joint(const DeclaredMechanism& declared, LawSearch search = LawSearch::whole);
@@ -301,7 +301,7 @@ struct RoundChoice {
   double max_error = 0;  ///< maximum error of θ, rad
   bool suffices = false;
 };
-/// For law = "compensate" only.
+/// The best round P1. Requires law = "compensate".
 RoundChoice round_choice(const DeclaredMechanism& declared);
 
 // ---- Simulation -----------------------------------------------------------------------------------------------------

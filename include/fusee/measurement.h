@@ -24,14 +24,14 @@ namespace fusee::measurement {
 ///
 /// Recordings of ROS 2: MCAP files, SQLite files of ros2 bag, or a bag's folder, known by their content. Their numbers
 /// are columns with the names that PlotJuggler gives them, "/joint_states/motor/position", in rad, N and N·m; "time" is
-/// "header_stamp" or "log_time". Motor and joint may be chosen by their names. Numbers with times of their own, in a bag
-/// or in a table of PlotJuggler, are interpolated in time.
+/// "header_stamp" or "log_time". Motor and joint may be chosen by their names. Numbers with times of their own, in a
+/// bag or in a table of PlotJuggler, are interpolated in time.
 struct MeasurementOptions {
   /// role → column name: {"load", "tau_out_Nm"}. Of a ROS name the end suffices: "motor"
   std::map<std::string, std::string> columns;
   bool needs_theta = true;                   ///< false: theta may be missing, as in read_driving()
   std::map<std::string, std::string> units;  ///< role → unit: {"time", "ms"}
-  /// alpha, theta → counts a turn; negative if counts fall while the angle grows
+  /// alpha, theta → counts per turn; negative if counts fall while the angle grows
   std::map<std::string, double> ticks_per_turn;
   std::map<std::string, double> zero_ticks;  ///< alpha, theta → counts at home
   double alpha_span = 0;                     ///< motor range of the declared joint, rad; 0: unknown. See expecting()
@@ -94,7 +94,7 @@ struct Measurement {
   double alpha_quantum = 0;  ///< sensor step, rad; 0 if it is too fine to be detected
   double theta_quantum = 0;
   std::string load_unit;                  ///< of the loads: "N", "Nm", "Nmm"; "" without loads
-  std::vector<std::string> notes;         ///< rows dropped or repaired and suspected faults, with file and line
+  std::vector<std::string> notes;         ///< rows dropped or repaired and likely faults, with file and line
   std::vector<std::string> sources;       ///< of bags: topics and clock of the rows. No part of results
   std::vector<std::string> not_testable;  ///< reasons why the data cannot be evaluated; empty if they can
 };

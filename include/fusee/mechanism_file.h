@@ -50,8 +50,8 @@ struct Field {
   std::vector<std::string_view> choices;  ///< allowed values of a choice
   std::string_view meaning;               ///< explanation in one line
 
-  /// Value in the key's unit (mm for lengths, whatever the file's `units`), for number, range and point only. `end`: 0 or
-  /// 1 for range and point.
+  /// Value in the key's unit (mm for lengths, whatever the file's `units`), for number, range and point only. `end`: 0
+  /// or 1 for range and point.
   std::function<double(const DeclaredMechanism&, int end)> get;
   std::function<void(DeclaredMechanism&, int end, double value)> set;
   /// Text of a choice, text or boolean ("true"/"false").

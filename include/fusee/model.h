@@ -149,8 +149,8 @@ struct WrappedTendon {
   std::optional<Vec2> sheath_exit = std::nullopt;  ///< exit of its sheath, beside the pulley
 };
 
-/// The law as tendons that are wrapped above the pins. A polynomial of α gives the length that the pulley winds in of one
-/// of them.
+/// The law as tendons that are wrapped above the pins. A polynomial of α gives the length that the pulley winds in of
+/// one of them.
 struct TendonModel {
   std::array<WrappedTendon, 2> tendons;
   std::array<std::string, 2> omission;  ///< reason why a simulator cannot represent a tendon; "": it can

@@ -109,13 +109,13 @@ struct Problem {
   std::vector<MovingKey> moving;  ///< variables in their order, then tied keys
   std::vector<LinearConstraint> constraints;
   bool feasible = false;
-  HelicalCheck several_turns;  ///< empty: pulleys have one turn
+  HelicalCheck multi_turn;  ///< empty: pulleys have one turn
   std::optional<ObjectiveCap> cap;
 };
 
 /// Variables, ties and constraints refer to declared numbers; objectives refer to the joint after `identified_joint`.
 /// Throws InputError if there is nothing to optimize, or if a variable has no effect.
-Problem make_problem(const MechanismFile& file, JointConverter identified_joint = {}, HelicalCheck several_turns = {});
+Problem make_problem(const MechanismFile& file, JointConverter identified_joint = {}, HelicalCheck multi_turn = {});
 
 /// True if the footprint of its designs is defined: the paper's joint, directly at its pulley.
 bool has_footprint(const Problem& problem);

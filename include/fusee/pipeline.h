@@ -234,7 +234,7 @@ enum class KitEnding { done, no_pulley, no_kit, check_failed };
 struct KitResult {
   KitEnding ending = KitEnding::done;
   formats::KitProduct product;
-  profile::Advice advice;           ///< if parts would collide: changes that make room
+  profile::Advice advice;           ///< if parts would collide: changes that avoid it
   std::vector<OutputFile> outputs;  ///< manifest.json last; empty without a pulley or a rig
   bool published = false;
 };

@@ -112,8 +112,8 @@ struct Advice {
 /// number). All numbers move outwards together in growing steps, up to five times their magnitude, until a few are
 /// feasible. If none is, they are searched in smaller steps up to the bounds of the field table. Bisection then finds
 /// the border, rounded to three digits on the safe side. If no single number suffices, the most helpful ones are
-/// changed in pairs. `more_keys` are easier to change and move three times as far. `known`:
-/// number of changes that are known already and need not be found.
+/// changed in pairs. `more_keys` are easier to change and move three times as far. `known`: number of changes that are
+/// known already and need not be found.
 Advice find_advice(const Mechanism& mechanism, const FeasibilityOracle& judge,
                    const std::vector<std::string>& more_keys = {}, std::size_t known = 0);
 
@@ -191,7 +191,7 @@ struct SynthesisResult {
 SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& options = {});
 
 /// True when the only failed conditions are those of one turn.
-bool need_several_turns(const SynthesisResult& synthesis);
+bool needs_multi_turn(const SynthesisResult& synthesis);
 /// Reason why a pulley is limited to one turn; null when it may have several.
 std::optional<std::string> kept_to_one_turn(const Mechanism& mechanism);
 

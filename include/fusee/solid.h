@@ -27,7 +27,7 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// By the divergence theorem; positive when the faces look outward. Indices must be in range. mm³.
+/// Volume by the divergence theorem, mm³; positive when the faces look outward. Indices must be in range.
 double enclosed_volume(const TriangleMesh& mesh);
 /// Corners of a box parallel to the axes.
 struct Bounds {

@@ -48,14 +48,16 @@ std::vector<AnalysisRow> rows_of(const Mechanism& mechanism,
   return rows;
 }
 
-bool held(const joint::EquilibriumPoint& point) { return point.status != joint::EquilibriumStatus::no_equilibrium; }
+bool has_equilibrium(const joint::EquilibriumPoint& point) {
+  return point.status != joint::EquilibriumStatus::no_equilibrium;
+}
 
 void enlarge(Extreme& extreme, double value, double alpha) {
   if (value > extreme.value) extreme = {value, alpha};
 }
 
 void update_tensions(LargestTensions& largest, const joint::EquilibriumPoint& point, bool rising) {
-  if (!held(point)) return;
+  if (!has_equilibrium(point)) return;
   enlarge(largest.at_joint, std::max(point.t1.end, point.t2.end), point.alpha);
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     const joint::TendonState& tendon = side == transmission::Side::left ? point.t1 : point.t2;
@@ -82,7 +84,8 @@ std::vector<AlphaRange> ranges_where(const std::vector<AnalysisRow>& rows, Predi
 bool is_slack(const joint::TendonState& tendon) { return tendon.upper <= k_min_tension; }
 
 bool is_slack_in(const AnalysisRow& row, joint::TendonState joint::EquilibriumPoint::*tendon) {
-  return (held(row.rising) && is_slack(row.rising.*tendon)) || (held(row.falling) && is_slack(row.falling.*tendon));
+  return (has_equilibrium(row.rising) && is_slack(row.rising.*tendon)) ||
+         (has_equilibrium(row.falling) && is_slack(row.falling.*tendon));
 }
 
 void summarise(UnderLoad& result) {
@@ -91,7 +94,7 @@ void summarise(UnderLoad& result) {
     const double alpha = row.declared.alpha;
     update_tensions(tensions, row.rising, true);
     update_tensions(tensions, row.falling, false);
-    const bool both_held = held(row.rising) && held(row.falling);
+    const bool both_held = has_equilibrium(row.rising) && has_equilibrium(row.falling);
     if (!both_held) {
       if (!result.lost_at) result.lost_at = alpha;
       continue;
@@ -109,7 +112,7 @@ void summarise(UnderLoad& result) {
   result.slack1 = ranges_where(result.rows, [](const AnalysisRow& row) { return is_slack_in(row, &Point::t1); });
   result.slack2 = ranges_where(result.rows, [](const AnalysisRow& row) { return is_slack_in(row, &Point::t2); });
   result.untensioned = ranges_where(result.rows, [](const AnalysisRow& row) {
-    return held(row.rising) && is_slack(row.rising.t1) && is_slack(row.rising.t2);
+    return has_equilibrium(row.rising) && is_slack(row.rising.t1) && is_slack(row.rising.t2);
   });
 }
 
@@ -123,7 +126,7 @@ std::vector<DrumHold> drum_holds(const Mechanism& mechanism, const std::vector<A
       const double theta = transmission::mirror_sign(side) * row.declared.theta;
       hold.wrap = std::max(hold.wrap, transmission::upper_span(place, theta).on_drum);
       for (const joint::EquilibriumPoint* point : {&row.rising, &row.falling})
-        if (held(*point))
+        if (has_equilibrium(*point))
           enlarge(hold.at_end, (side == transmission::Side::left ? point->t1 : point->t2).end, row.declared.alpha);
     }
     hold.ratio = std::exp(mechanism.joint.drum_mu * hold.wrap);
@@ -137,7 +140,7 @@ bool stays_taut(Mechanism mechanism, double pretension, const std::vector<double
   const std::vector<StrokePoint> stroke = settled_stroke(mechanism, alphas);
   return std::all_of(stroke.begin(), stroke.end(), [](const StrokePoint& point) {
     const auto taut = [](const joint::EquilibriumPoint& at) {
-      return held(at) && !is_slack(at.t1) && !is_slack(at.t2);
+      return has_equilibrium(at) && !is_slack(at.t1) && !is_slack(at.t2);
     };
     return taut(point.rising) && taut(point.falling);
   });

@@ -13,7 +13,7 @@ namespace {
 /// Stall torque per required torque that is advised for a motor that cannot hold its stall torque. An STS3215 held half
 /// of it for an hour (TheRobotStudio/SO-ARM100, issue 134).
 constexpr double k_advised_margin = 2.0;
-/// α of a range may exceed a limit that equals it by rounding.
+/// Rounding may put a range above a limit that equals it.
 constexpr double k_rounding = 1e-9;
 
 /// Torque and ratio at one place and in one direction of the stroke.

@@ -50,7 +50,7 @@ double by_length(const transmission::PinPlace& pin, const joint::LowerPath&, tra
 double by_drum(const transmission::PinPlace& pin, const joint::LowerPath&, transmission::Side, double theta, double) {
   return transmission::upper_span(pin, theta).on_drum;
 }
-/// In the mechanism's own axes; in the left tendon's image the x axis is reversed.
+/// The displacement is in the mechanism's axes; in the left tendon's image the x axis is reversed.
 template <transmission::Side moved, bool is_across>
 double by_end(const transmission::PinPlace& pin, const joint::LowerPath&, transmission::Side side, double theta,
               double) {

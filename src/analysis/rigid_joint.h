@@ -1,6 +1,6 @@
 /// \file
-/// A joint with pulleys that were made for another mechanism, and with inextensible tendons: joint angle, excess length,
-/// and the derivatives of both.
+/// A joint with pulleys that were made for another mechanism, and with inextensible tendons: joint angle, excess
+/// length, and the derivatives of both.
 #pragma once
 
 #include <string_view>

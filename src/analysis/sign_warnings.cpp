@@ -37,7 +37,7 @@ Unevenness unevenness(const Mechanism& mechanism) {
   return worst;
 }
 
-/// Ratio of radii above which the sign is suspect. With the pins below the joint, moment arms fall faster towards the
+/// Ratio of radii above which the sign is implausible. With the pins below the joint, moment arms fall faster towards the
 /// ends of the range, so that radii vary more. Profiles with the sign reversed: 2.8 to 10.5 times, as they are 1.1 to
 /// 2.3 times. Random joints (tests/laws) as they are: at most 5.2 times, one in fifty above 3.5.
 constexpr double k_uneven = 4.0;
@@ -56,7 +56,7 @@ std::string fold_text(const Unevenness& uneven) { return rounded(uneven.times(),
 
 }  // namespace
 
-// Only a positive OE is suspect: distances are usually entered as positive numbers, while a minus sign is not entered
+// Only a positive OE is tested: distances are usually entered as positive numbers, while a minus sign is not entered
 // by mistake.
 std::vector<InputWarning> sign_warnings(const DeclaredMechanism& mechanism) {
   const double OE = mechanism.guides.OE;

@@ -163,7 +163,7 @@ std::vector<InputWarning> odd_lengths(const DeclaredMechanism& mechanism) {
 /// below half of these ratios; in cm, most exceed at least one.
 struct BoughtPart {
   const char* key;
-  const char* beside;
+  const char* reference;
   double most;
   const char* words;
 };
@@ -176,8 +176,8 @@ constexpr BoughtPart k_bought[] = {
 
 const BoughtPart* too_large_part(const DeclaredMechanism& mechanism) {
   for (const BoughtPart& part : k_bought) {
-    if (!has_length(mechanism, part.beside)) continue;
-    if (declared_number(mechanism, part.key) > part.most * declared_number(mechanism, part.beside)) return &part;
+    if (!has_length(mechanism, part.reference)) continue;
+    if (declared_number(mechanism, part.key) > part.most * declared_number(mechanism, part.reference)) return &part;
   }
   return nullptr;
 }
@@ -193,15 +193,15 @@ DeclaredMechanism all_lengths_times(DeclaredMechanism mechanism, double factor) 
 std::vector<InputWarning> all_lengths_warning(const DeclaredMechanism& mechanism) {
   const BoughtPart* part = too_large_part(mechanism);
   if (part == nullptr) return {};
-  const double size = declared_number(mechanism, part->key), length = declared_number(mechanism, part->beside);
+  const double size = declared_number(mechanism, part->key), length = declared_number(mechanism, part->reference);
   std::vector<double> factors{10.0, k_mm_per_inch};
   std::erase_if(factors,
                 [&](double factor) { return too_large_part(all_lengths_times(mechanism, factor)) != nullptr; });
   if (factors.empty()) factors = {1000.0};
   const bool in_inches = std::count(factors.begin(), factors.end(), k_mm_per_inch) > 0;
-  return {{part->beside,
-           setting_text(part->beside, length) + " mm is small for " + part->words + " of " + rounded(size) + " mm (" +
-               part->key + ")",
+  return {{part->reference,
+           setting_text(part->reference, length) + " mm is small for " + part->words + " of " + rounded(size) +
+               " mm (" + part->key + ")",
            proportionate_text("are the lengths of [joint], [guides] and [pulley]", k_length, mechanism.joint.R, factors,
                               " and so on") +
                (in_inches ? " (units = \"inch\" for a file in inches)" : "") + "; or is " + part->key + " too large?"}};

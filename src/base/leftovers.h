@@ -2,7 +2,7 @@
 /// Internal: the files that fusee wrote in a folder, and recovery from killed runs.
 ///
 /// A killed run leaves its staging folder (staging.h). The next run that publishes into the same folder restores the
-/// files set aside there and removes the rest. The staging folder is not trusted: it must belong to this user, have
+/// files set aside there and removes all others. The staging folder is not trusted: it must belong to this user, have
 /// mode 0700 and be unlocked. No link is followed. Entries are moved by their plain names, only into the output folder,
 /// and never over existing entries. Nothing outside the staging folder is deleted.
 #pragma once

@@ -12,7 +12,7 @@ struct LoadedModule {
   std::string why_not;  ///< reason when nothing was found: "its module fusee-step is not installed beside it"
 };
 
-/// Loads a module for the rest of the process, because libraries keep what they register. `name` is the file's stem;
+/// Loads a module until the process ends, because libraries keep what they register. `name` is the file's stem;
 /// `symbol` contains the interface version.
 LoadedModule load_module(const std::string& name, const char* symbol);
 

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 void fail_output(const std::string& what, const fs::path& path, int code) {
   std::string hint;
-  if (code == ENOSPC || code == EDQUOT) hint = "the disk is full: make room, or choose another folder with -o";
+  if (code == ENOSPC || code == EDQUOT) hint = "the disk is full: free some space, or choose another folder with -o";
   if (code == EFBIG) hint = "the file exceeds a size limit: ulimit -f, or that of the file system";
   if (code == EACCES || code == EPERM || code == EROFS) hint = "choose a folder that you may write to with -o";
   throw OutputError(what + " " + path.string() + ": " + std::error_code(code, std::generic_category()).message(), hint);
@@ -54,7 +54,7 @@ void write_whole(const fs::path& path, std::string_view bytes) {
 
 void flush_all(const std::vector<fs::path>& paths) {
   const auto flush = [](const fs::path& path) {
-    const ThreadPool::Waiting for_disk(ThreadPool::shared());
+    const ThreadPool::WaitingScope for_disk(ThreadPool::shared());
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     // Some file systems do not support fsync of folders, which is no failure.
     if (!file.ok() || (::fsync(file.number()) != 0 && errno != EINVAL && errno != ENOTSUP))

@@ -37,8 +37,8 @@ std::string cleaned(std::string_view text);
 std::string cleaned_line(std::string_view text);
 /// Text with the characters that cleaned() replaces escaped as in JSON strings; characters beyond U+FFFF become U+FFFD.
 std::string unicode_escaped(std::string_view text);
-/// Text wrapped to `width` characters, by default those of a terminal, each line with its line feed. The first line begins
-/// with `first`, the others with `indent`. A word longer than a line stands alone.
+/// Text wrapped to `width` characters, by default those of a terminal, each line with its line feed. The first line
+/// begins with `first`, the others with `indent`. A word longer than a line stands alone.
 std::string wrapped(std::string_view words, std::string_view first, std::string_view indent, std::size_t width = 78);
 /// JSON/JavaScript-safe and HTML-safe text.
 std::string escape_html(std::string_view text);

@@ -91,7 +91,7 @@ void Job::run() {
 void Job::wait_for_end() {
   std::unique_lock<std::mutex> lock(guard_);
   if (state_ == State::ended) return;
-  const ThreadPool::Waiting waiting(pool_);
+  const ThreadPool::WaitingScope waiting(pool_);
   at_end_.wait(lock, [this] { return state_ == State::ended; });
 }
 

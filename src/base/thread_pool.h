@@ -129,18 +129,18 @@ class ThreadPool {
   /// calling thread has slot 0.
   using LoopJob = std::function<void(std::size_t index, std::size_t slot)>;
 
-  /// Calls `job` for 0 … count − 1 in parallel and returns when all have ended. `most_threads` limits the threads; 0: no
-  /// limit beyond that of the pool. After an exception no further job begins, and the exception of the lowest index is
-  /// rethrown. After a request to stop no further job begins, and Stopped is thrown if jobs remain.
+  /// Calls `job` for 0 … count − 1 in parallel and returns when all have ended. `most_threads` limits the threads; 0:
+  /// no limit beyond that of the pool. After an exception no further job begins, and the exception of the lowest index
+  /// is rethrown. After a request to stop no further job begins, and Stopped is thrown if jobs remain.
   void each(std::size_t count, const LoopJob& job, unsigned most_threads = 0, const std::stop_token& stop = {});
 
   /// While an object lives, its thread waits for the disk or for another thread, and does not count as working.
-  class Waiting {
+  class WaitingScope {
    public:
-    explicit Waiting(ThreadPool& pool) : pool_(pool) { pool_.count_working(-1); }
-    ~Waiting() { pool_.count_working(1); }
-    Waiting(const Waiting&) = delete;
-    Waiting& operator=(const Waiting&) = delete;
+    explicit WaitingScope(ThreadPool& pool) : pool_(pool) { pool_.count_working(-1); }
+    ~WaitingScope() { pool_.count_working(1); }
+    WaitingScope(const WaitingScope&) = delete;
+    WaitingScope& operator=(const WaitingScope&) = delete;
 
    private:
     ThreadPool& pool_;

@@ -62,7 +62,7 @@ class Auditor {
   TangentSums sums(const SyntheticDataset& data, const Set& set) const;
   double score_of(const Posterior& posterior, const Set& set) const;
   Set search(const SyntheticDataset& data, Set set) const;
-  bool is_group_member(const SyntheticDataset& data, const Set& found, std::size_t named) const;
+  bool is_group_member(const SyntheticDataset& data, const Set& found, std::size_t reported) const;
 
   const Evidence& evidence_;
   const Selection& selection_;
@@ -176,7 +176,7 @@ Auditor::SyntheticDataset Auditor::synthesize(std::size_t found, std::size_t num
     // Equally likely rivals are members of the group already.
     const bool in_group = std::any_of(selection_.rivals.begin(), selection_.rivals.end(), [&](const Rival& rival) {
       return rival.accepted == selection_.best.effects[found] && rival.rival == chords_[i].effect &&
-             as_good(evidence_, rival.fit, selection_.best);
+             is_as_good(evidence_, rival.fit, selection_.best);
     });
     if (chords_[i].count > 0 && !in_group && !contains(selection_.best.effects, *chords_[i].effect))
       others.push_back(i);
@@ -239,13 +239,13 @@ Auditor::Set Auditor::search(const SyntheticDataset& data, Set set) const {
   Posterior here = evidence_model_.best(sums(data, set), data.start, k_rounds + 2);
   for (int step = 0; step < k_most_added; ++step) {
     std::vector<std::pair<double, std::size_t>> candidates;
-    const ScaledDiscrepancy beside = evidence_model_.sized(here.amplitudes, deflection_ratio_);
+    const ScaledDiscrepancy scaled_discrepancy = evidence_model_.sized(here.amplitudes, deflection_ratio_);
     for (std::size_t i = 0; i < chords_.size(); ++i) {
       if (chords_[i].count == 0 || chords_[i].effect == data.excluded || std::count(set.begin(), set.end(), i))
         continue;
       Set wider = set;
       wider.push_back(i);
-      candidates.emplace_back(-score_of(evidence_model_.at(sums(data, wider), beside), wider), i);
+      candidates.emplace_back(-score_of(evidence_model_.at(sums(data, wider), scaled_discrepancy), wider), i);
     }
     std::sort(candidates.begin(), candidates.end());
     candidates.resize(std::min(candidates.size(), k_tries));
@@ -270,28 +270,28 @@ Auditor::Set Auditor::search(const SyntheticDataset& data, Set set) const {
 }
 
 /// True if the true cause would be a member of the group of the reported effect.
-bool Auditor::is_group_member(const SyntheticDataset& data, const Set& found, std::size_t named) const {
+bool Auditor::is_group_member(const SyntheticDataset& data, const Set& found, std::size_t reported) const {
   if (data.true_cause == nullptr || data.true_cause == data.excluded) return false;
-  Set instead;
+  Set swapped;
   for (const std::size_t i : found) {
     if (chords_[i].effect == data.true_cause) return true;
-    if (i != named) instead.push_back(i);
+    if (i != reported) swapped.push_back(i);
   }
   for (std::size_t i = 0; i < chords_.size(); ++i) {
-    if (chords_[i].effect == data.true_cause) instead.push_back(i);
+    if (chords_[i].effect == data.true_cause) swapped.push_back(i);
   }
   const auto reached = [&](const Set& set) {
     return score_of(evidence_model_.best(sums(data, set), data.start, k_rounds + 2), set);
   };
-  return reached(instead) >
+  return reached(swapped) >
          reached(found) - k_thresholds.temperature * std::log(1.0 / k_thresholds.complete_group_absence);
 }
 
 AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {
-  const fusee::Effect* named = selection_.best.effects[found];
+  const fusee::Effect* reported = selection_.best.effects[found];
   Set others;
   for (std::size_t i = 0; i < chords_.size(); ++i) {
-    if (chords_[i].effect != named && contains(selection_.best.effects, *chords_[i].effect)) others.push_back(i);
+    if (chords_[i].effect != reported && contains(selection_.best.effects, *chords_[i].effect)) others.push_back(i);
   }
   const auto data_sets = static_cast<std::size_t>(k_thresholds.data_sets);
   std::vector<char> is_false_positive(data_sets, 0);
@@ -300,7 +300,7 @@ AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {
     const SyntheticDataset data = synthesize(found, i);
     const Set set = search(data, others);
     for (const std::size_t chord : set) {
-      if (chords_[chord].effect == named) is_false_positive[i] = !is_group_member(data, set, chord);
+      if (chords_[chord].effect == reported) is_false_positive[i] = !is_group_member(data, set, chord);
     }
     true_cause[i] = data.true_cause;
   });
@@ -314,12 +314,12 @@ AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {
   }
   std::stable_sort(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   int unattributed = audited.counts.false_positives;
-  for (const auto& [joints, effect] : causes) {
+  for (const auto& [false_positives, effect] : causes) {
     if (unattributed <= k_thresholds.most_false_positives * audited.counts.data_sets ||
         audited.true_causes.size() == k_thresholds.most_true_causes)
       break;
     audited.true_causes.push_back(effect);
-    unattributed -= joints;
+    unattributed -= false_positives;
   }
   return audited;
 }

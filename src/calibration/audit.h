@@ -11,7 +11,7 @@ namespace fusee::calibration {
 /// False positives of an effect on synthetic data sets without it.
 struct AuditResult {
   Audit counts;
-  /// True causes of the false positives, most frequent first: as many as leave an acceptable rate without them.
+  /// True causes of the false positives, most frequent first, until the rate without them is acceptable.
   EffectSet true_causes;
 };
 

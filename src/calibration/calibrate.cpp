@@ -76,8 +76,8 @@ bool is_named(const measurement::Run& run, const std::vector<std::string>& names
 }
 
 /// The runs to fit, or those kept for validation.
-measurement::Measurement part(const measurement::Measurement& measurement, const std::vector<std::string>& hold_out,
-                              bool held) {
+measurement::Measurement select_runs(const measurement::Measurement& measurement,
+                                     const std::vector<std::string>& hold_out, bool held) {
   measurement::Measurement chosen = measurement;
   std::erase_if(chosen.runs, [&](const measurement::Run& run) { return is_named(run, hold_out) != held; });
   return chosen;
@@ -182,12 +182,12 @@ void describe_changes(const Evidence& evidence, const Selection& selection, Cali
 
 /// Held-out rows for the validation of a correction: the runs kept for validation, or whole runs left out in turn. A
 /// single run is validated with the numbers of all its strokes.
-std::vector<LeftOut> left_out(const Evidence& evidence, const Estimate& estimate, const std::vector<std::string>& kept,
-                              const Imperfections& identified) {
+std::vector<HeldOutFit> left_out(const Evidence& evidence, const Estimate& estimate,
+                                 const std::vector<std::string>& kept, const Imperfections& identified) {
   if (!kept.empty()) return {{kept, identified}};
   if (evidence.measurement.runs.size() < 2) return {{{evidence.measurement.runs.front().name}, identified}};
   const std::vector<Imperfections> numbers = estimates_without(evidence, estimate, evidence.run_folds);
-  std::vector<LeftOut> all;
+  std::vector<HeldOutFit> all;
   for (std::size_t i = 0; i < numbers.size(); ++i)
     all.push_back({evidence.run_names(evidence.run_folds[i]), numbers[i]});
   return all;
@@ -205,14 +205,14 @@ void take_audit(const std::vector<AuditResult>& audited, Calibration& calibratio
   }
 }
 
-Calibration by_catalogue(const DeclaredMechanism& declared, const measurement::Measurement& measurement,
-                         const CalibrationOptions& options) {
+Calibration calibrate_by_catalogue(const DeclaredMechanism& declared, const measurement::Measurement& measurement,
+                                   const CalibrationOptions& options) {
   if (const auto reasons = why_not_testable(declared, measurement); !reasons.empty())
     return not_testable(declared, measurement, reasons);
-  const measurement::Measurement learnt_from = part(measurement, options.hold_out, false);
+  const measurement::Measurement fitted_runs = select_runs(measurement, options.hold_out, false);
   const measurement::NoiseFloor noise =
-      measurement::noise_floor(about_declared(declared, learnt_from, options.earlier));
-  Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9), options.earlier);
+      measurement::noise_floor(about_declared(declared, fitted_runs, options.earlier));
+  Evidence evidence = gather(declared, fitted_runs, std::max(noise.rms, 1e-9), options.earlier);
   evidence.floor_freedom = noise.degrees_of_freedom;
   if (evidence.blocks.size() < 2)
     return not_testable(declared, measurement,
@@ -228,7 +228,7 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const measurement::M
          "of one joint."});
   Calibration calibration;
   calibration.noise = noise;
-  const measurement::Measurement kept = part(measurement, options.hold_out, true);
+  const measurement::Measurement kept = select_runs(measurement, options.hold_out, true);
   const ValidatedAnswer answer =
       options.earlier ? changes_beside(evidence, selection) : validate_answer(evidence, pool, kept, selection);
   const Fit& numbers = answer.reported.estimate.fit;
@@ -244,7 +244,7 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const measurement::M
   calibration.detectable = detectable_sizes(evidence, pool, selection);
   calibration.identified = without_idle_numbers(numbers, numbers.at);
   calibration.left_out = left_out(evidence, answer.reported.estimate, options.hold_out, calibration.identified);
-  for (LeftOut& left : calibration.left_out) left.identified = without_idle_numbers(numbers, left.identified);
+  for (HeldOutFit& left : calibration.left_out) left.identified = without_idle_numbers(numbers, left.identified);
   describe_errors(evidence, measurement, answer, calibration);
   name_held_out(evidence, calibration);
   validate(declared, kept, answer, calibration);
@@ -252,7 +252,7 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const measurement::M
   conclude(evidence, selection, answer, calibration);
   if (!options.earlier) {
     calibration.next = next_measurements(evidence, selection, calibration);
-    ask_for_both_sides(learnt_from, calibration.next);
+    ask_for_both_sides(fitted_runs, calibration.next);
   }
   summarize(evidence, selection, calibration);
   if (options.earlier) describe_changes(evidence, selection, calibration);
@@ -270,17 +270,17 @@ void reject_curve(const measurement::Measurement& measurement, const std::string
 
 Calibration calibrate(const DeclaredMechanism& declared, const measurement::Measurement& measurement,
                       const CalibrationOptions& options) {
-  if (!options.earlier) return by_catalogue(declared, measurement, options);
+  if (!options.earlier) return calibrate_by_catalogue(declared, measurement, options);
   const JointKind kind = kind_of(declared);
   const std::vector<fusee::Effect> changes = changes_from(options.earlier->joint, kind);
-  CalibrationOptions of_changes = options;
-  for (const fusee::Effect& effect : effects(kind)) of_changes.without.push_back(effect.name);
+  CalibrationOptions change_options = options;
+  for (const fusee::Effect& effect : effects(kind)) change_options.without.push_back(effect.name);
   for (const fusee::Effect& change : changes) {
-    of_changes.more_effects.push_back(&change);
-    std::erase(of_changes.without, change.name);
+    change_options.more_effects.push_back(&change);
+    std::erase(change_options.without, change.name);
   }
-  for (const std::string& name : options.without) of_changes.without.push_back(name);
-  return by_catalogue(declared, measurement, of_changes);
+  for (const std::string& name : options.without) change_options.without.push_back(name);
+  return calibrate_by_catalogue(declared, measurement, change_options);
 }
 
 }  // namespace fusee::calibration

@@ -17,9 +17,9 @@ constexpr int k_pieces = 60;
 /// Largest gap between rows as a share of the measured range: twice the discrepancy's short length scale.
 constexpr double k_widest_gap = 0.12;
 /// Standard errors that the gain must exceed.
-constexpr double k_sure = 3.0;
+constexpr double k_least_gain_in_errors = 3.0;
 /// Share of the gain that all rows together must show.
-constexpr double k_kept_between = 0.5;
+constexpr double k_least_gain_share = 0.5;
 
 /// Rows in use of one direction, by rising α: α and curve. Behind a reversal the curve may have several values at a
 /// place.
@@ -62,13 +62,13 @@ double value_at(const Way& way, double alpha) {
   return low.second + share * (above->second - low.second);
 }
 
-struct BothWays {
+struct UpAndDown {
   Way up, down;
 };
 
-BothWays ways_of(const Evidence& evidence, const Eigen::VectorXd& curve) {
+UpAndDown ways_of(const Evidence& evidence, const Eigen::VectorXd& curve) {
   const Eigen::VectorXd alpha = alphas(evidence.measurement);
-  BothWays ways;
+  UpAndDown ways;
   Eigen::Index row = 0;
   for (const Block& block : evidence.blocks) {
     const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
@@ -83,7 +83,7 @@ BothWays ways_of(const Evidence& evidence, const Eigen::VectorXd& curve) {
 }
 
 /// Range measured in both directions.
-measurement::ValueRange seen_both_ways(const BothWays& ways) {
+measurement::ValueRange seen_both_ways(const UpAndDown& ways) {
   measurement::ValueRange span;
   if (ways.up.size() < 2 || ways.down.size() < 2) return span;
   span.least = std::max(ways.up.front().first, ways.down.front().first);
@@ -91,7 +91,7 @@ measurement::ValueRange seen_both_ways(const BothWays& ways) {
   return span;
 }
 
-void draw(const BothWays& ways, const measurement::ValueRange& seen, EmpiricalCurve& curve) {
+void draw(const UpAndDown& ways, const measurement::ValueRange& seen, EmpiricalCurve& curve) {
   const measurement::Bins pieces{seen, k_pieces};
   const Way up = smoothed(ways.up, seen), down = smoothed(ways.down, seen);
   for (int i = 0; i <= k_pieces; ++i) {
@@ -109,7 +109,7 @@ struct Gain {
   double rows = 0;
 };
 
-/// Gain over a fold of several blocks; that of a single block is chance.
+/// Gain over a fold. A fold of one block has none, because it would be chance.
 Gain gain_in(const Evidence& evidence, const HeldOutWithDiscrepancy& held, const Fold& fold) {
   Gain gain;
   for (const std::size_t block : fold) {
@@ -148,7 +148,7 @@ double error_of(const Evidence& evidence, const Gain& gain, double curve_rms) {
 std::string why_not(const Evidence& evidence, const HeldOutWithDiscrepancy& by_factor, const Gain& gain,
                     double curve_rms) {
   if (gain.mean < std::pow(k_thresholds.least_residual * evidence.floor, 2) ||
-      gain.mean < k_sure * error_of(evidence, gain, curve_rms))
+      gain.mean < k_least_gain_in_errors * error_of(evidence, gain, curve_rms))
     return "on held-out data it corrects no more than chance would";
   if (harms_a_level(evidence, by_factor, gain))
     return "it worsens a held-out level of load or speed by more than it improves all";
@@ -229,7 +229,7 @@ EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const D
     return curve;
   }
   const Eigen::VectorXd at_rows = sum_of_families(discrepancy, unmodelled.posterior.coefficients, is_of_place);
-  const BothWays ways = ways_of(evidence, at_rows);
+  const UpAndDown ways = ways_of(evidence, at_rows);
   const measurement::ValueRange seen = seen_both_ways(ways),
                                 all = measurement::value_range(evidence.measurement, &measurement::Sample::alpha);
   if (!seen.any() || std::max(widest_gap(ways.up), widest_gap(ways.down)) > k_widest_gap * all.size()) {
@@ -262,20 +262,20 @@ std::vector<double> curve_at_samples(const measurement::Run& run, const Empirica
 void validate_curve(const measurement::Measurement& measurement, const std::vector<std::vector<double>>& residuals,
                     const std::vector<std::string>& kept, EmpiricalCurve& curve) {
   if (!curve.used) return;
-  Squares fitted, validate_answer;
+  Squares fitted, validation;
   for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
     const measurement::Run& run = measurement.runs[r];
     const bool is_kept = std::find(kept.begin(), kept.end(), run.name) != kept.end();
-    add(run, residuals[r], curve, is_kept ? validate_answer : fitted);
+    add(run, residuals[r], curve, is_kept ? validation : fitted);
   }
   // A wave shorter than the spacing of the rows in use appears as a slow one in them.
-  if (fitted.gain() < k_kept_between * curve.gain * curve.gain)
-    return reject(curve, "it does not hold in the rows between those that it was made from: the error is finer");
+  if (fitted.gain() < k_least_gain_share * curve.gain * curve.gain)
+    return reject(curve, "it does not hold in rows between the fitted ones: the error varies faster");
   limit_gain(curve, std::min(curve.gain * curve.gain, fitted.gain()));
-  if (validate_answer.rows == 0) return;
-  curve.held_out_effects = std::sqrt(validate_answer.without / validate_answer.rows);
-  curve.held_out_rms = std::sqrt(validate_answer.with / validate_answer.rows);
-  curve.gain = std::sqrt(std::max(0.0, validate_answer.gain()));
+  if (validation.rows == 0) return;
+  curve.held_out_effects = std::sqrt(validation.without / validation.rows);
+  curve.held_out_rms = std::sqrt(validation.with / validation.rows);
+  curve.gain = std::sqrt(std::max(0.0, validation.gain()));
   if (!(curve.gain > 0)) reject(curve, "it makes the runs for validation worse");
 }
 

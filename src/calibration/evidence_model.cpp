@@ -150,8 +150,8 @@ EvidenceModel::Solved EvidenceModel::solved(const TangentSums& sums, const Scale
   return s;
 }
 
-ReducedTangent EvidenceModel::reduced(const TangentSums& sums, const ScaledDiscrepancy& beside) const {
-  Solved s = solved(sums, beside);
+ReducedTangent EvidenceModel::reduced(const TangentSums& sums, const ScaledDiscrepancy& scaled_discrepancy) const {
+  Solved s = solved(sums, scaled_discrepancy);
   return {std::move(s.JJ),       std::move(s.Jr),  s.rr, s.constant, sums.x, sums.prior, sums.caliper_information,
           sums.caliper_gradient, sums.caliper_chi2};
 }
@@ -250,8 +250,8 @@ Amplitudes EvidenceModel::reestimate(const TangentSums& sums, const Posterior& n
   return better;
 }
 
-Posterior EvidenceModel::at(const TangentSums& sums, const ScaledDiscrepancy& beside) const {
-  return posterior_at(sums, beside, solved(sums, beside));
+Posterior EvidenceModel::at(const TangentSums& sums, const ScaledDiscrepancy& scaled_discrepancy) const {
+  return posterior_at(sums, scaled_discrepancy, solved(sums, scaled_discrepancy));
 }
 
 Posterior EvidenceModel::best(const TangentSums& sums, Amplitudes from, int rounds) const {
@@ -279,10 +279,10 @@ double EvidenceModel::discrepancy_penalty(const Posterior& posterior) const {
   return k_thresholds.neg_log_prior_odds * std::min(1.0, std::max(0.0, mean_square) / square(floor_));
 }
 
-double EvidenceModel::log_density_at(const Tangent& tangent, const ScaledDiscrepancy& beside) const {
+double EvidenceModel::log_density_at(const Tangent& tangent, const ScaledDiscrepancy& scaled_discrepancy) const {
   Tangent here = tangent;
   here.J.resize(tangent.J.rows(), 0);
-  const Solved s = solved(sums_of(here), beside);
+  const Solved s = solved(sums_of(here), scaled_discrepancy);
   double density = s.constant - 0.5 * (s.rr + tangent.caliper_chi2);
   for (Eigen::Index k = 0; k < tangent.x.size(); ++k) density += log_prior(tangent.x[k], tangent.prior[k]);
   return density;

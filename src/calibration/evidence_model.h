@@ -108,14 +108,16 @@ class EvidenceModel {
   /// `deflection_ratio`: as TangentSums.
   ScaledDiscrepancy sized(const Amplitudes& amplitudes, double deflection_ratio) const;
 
-  ReducedTangent reduced(const TangentSums& sums, const ScaledDiscrepancy& beside) const;
+  ReducedTangent reduced(const TangentSums& sums, const ScaledDiscrepancy& scaled_discrepancy) const;
   /// Posterior with given amplitudes.
-  Posterior at(const TangentSums& sums, const ScaledDiscrepancy& beside) const;
+  Posterior at(const TangentSums& sums, const ScaledDiscrepancy& scaled_discrepancy) const;
   Posterior at(const TangentSums& sums, const Amplitudes& amplitudes) const {
     return at(sums, sized(amplitudes, sums.deflection_ratio));
   }
   Posterior at(const Tangent& tangent, const Amplitudes& amplitudes) const { return at(sums_of(tangent), amplitudes); }
-  Posterior at(const Tangent& tangent, const ScaledDiscrepancy& beside) const { return at(sums_of(tangent), beside); }
+  Posterior at(const Tangent& tangent, const ScaledDiscrepancy& scaled_discrepancy) const {
+    return at(sums_of(tangent), scaled_discrepancy);
+  }
   /// Posterior with the likeliest amplitudes, iterated from `from`; a family that begins at 0 stays 0.
   Posterior best(const TangentSums& sums, Amplitudes from, int rounds = k_rounds) const;
   Posterior best(const Tangent& tangent, Amplitudes from, int rounds = k_rounds) const {
@@ -124,14 +126,15 @@ class EvidenceModel {
   /// Negative log prior odds of the discrepancy against none, nats.
   double discrepancy_penalty(const Posterior& posterior) const;
   /// Log posterior density at x, up to a constant.
-  double log_density_at(const Tangent& tangent, const ScaledDiscrepancy& beside) const;
+  double log_density_at(const Tangent& tangent, const ScaledDiscrepancy& scaled_discrepancy) const;
 
  private:
   struct Solved;
   double log_prior_of(const Amplitudes& amplitudes) const;
-  Solved solved(const TangentSums& sums, const ScaledDiscrepancy& beside) const;
-  Posterior posterior_at(const TangentSums& sums, const ScaledDiscrepancy& beside, const Solved& solved) const;
-  Amplitudes reestimate(const TangentSums& sums, const Posterior& now, const ScaledDiscrepancy& beside,
+  Solved solved(const TangentSums& sums, const ScaledDiscrepancy& scaled_discrepancy) const;
+  Posterior posterior_at(const TangentSums& sums, const ScaledDiscrepancy& scaled_discrepancy,
+                         const Solved& solved) const;
+  Amplitudes reestimate(const TangentSums& sums, const Posterior& now, const ScaledDiscrepancy& scaled_discrepancy,
                         const Solved& solved) const;
 
   Discrepancy discrepancy_;

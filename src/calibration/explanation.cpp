@@ -110,7 +110,7 @@ void place_beside(const Evidence& evidence, const Selection& selection, const Fi
 
 }  // namespace
 
-std::vector<const Rival*> rivals_as_good(const Evidence& evidence, const Selection& selection) {
+std::vector<const Rival*> equally_likely_rivals(const Evidence& evidence, const Selection& selection) {
   const Fit& best = selection.best;
   std::vector<const Rival*> all;
   for (const Rival& rival : selection.rivals) {
@@ -118,7 +118,7 @@ std::vector<const Rival*> rivals_as_good(const Evidence& evidence, const Selecti
     if (accepted == best.effects.end()) continue;  // rival of a set that was replaced
     const Fit& others = selection.without[static_cast<std::size_t>(accepted - best.effects.begin())];
     const bool does_nothing = others.usable && score(rival.fit) < score(others);
-    if (!does_nothing && as_good(evidence, rival.fit, best)) all.push_back(&rival);
+    if (!does_nothing && is_as_good(evidence, rival.fit, best)) all.push_back(&rival);
   }
   return all;
 }
@@ -126,7 +126,7 @@ std::vector<const Rival*> rivals_as_good(const Evidence& evidence, const Selecti
 std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection, const Fit& numbers) {
   const Fit& best = selection.best;
   const Ranges ranges{intervals(selection), intervals_if_only(selection)};
-  const std::vector<const Rival*> rivals = rivals_as_good(evidence, selection);
+  const std::vector<const Rival*> rivals = equally_likely_rivals(evidence, selection);
   std::vector<FoundEffect> all;
   for (const fusee::Effect* effect : best.effects) {
     FoundEffect found;
@@ -159,7 +159,7 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
 
 std::vector<std::string> null_combinations(const Evidence& evidence, const Selection& selection) {
   std::vector<std::string> all;
-  for (const Rival* rival : rivals_as_good(evidence, selection)) {
+  for (const Rival* rival : equally_likely_rivals(evidence, selection)) {
     const double difference = rms_apart(evidence, rival->fit.residual, selection.best.residual);
     all.push_back(with_numbers(evidence, selection.best, *rival->accepted) + " or " +
                   with_numbers(evidence, rival->fit, *rival->rival) + ": " + rounded(degrees(difference), 2) +

@@ -300,12 +300,12 @@ Fit Fitter::descend(Fit fit, Eigen::Index from, int steps, const Amplitudes& amp
 }
 
 Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
-  Fit beside = prefer_pushed(descend_fully(effects, from, LooseRow::anywhere));
-  if (!beside.usable || beside.x.size() == 0 || !has_large_discrepancy(evidence(), beside)) return beside;
+  Fit direct = prefer_pushed(descend_fully(effects, from, LooseRow::anywhere));
+  if (!direct.usable || direct.x.size() == 0 || !has_large_discrepancy(evidence(), direct)) return direct;
   // The discrepancy may have taken the effects' share: fit without discrepancy first.
   Fit start = linearize_at(effects, from, LooseRow::anywhere);
-  if (!start.usable) return beside;
-  return likelier(std::move(beside), refine(fit_effects_first(start)));
+  if (!start.usable) return direct;
+  return likelier(std::move(direct), refine(fit_effects_first(start)));
 }
 
 namespace {
@@ -421,10 +421,10 @@ Fit Fitter::add_effect_without_discrepancy(const Fit& base, const fusee::Effect&
 Fit Fitter::add_effect(const Fit& base, const fusee::Effect& effect) const {
   const std::vector<Fit> starts = linearize_starts(base, effect);
   if (starts.empty()) return {};
-  const PredictedStart beside = select_start(starts, base.posterior.amplitudes);
+  const PredictedStart with_discrepancy = select_start(starts, base.posterior.amplitudes);
   const std::size_t alone = select_start(starts, amplitudes_without_discrepancy(base)).place;
-  Fit fit = fit_by_chords(base, starts[beside.place], beside.nats);
-  return alone == beside.place ? fit : likelier(std::move(fit), refine(fit_effects_first(starts[alone])));
+  Fit fit = fit_by_chords(base, starts[with_discrepancy.place], with_discrepancy.nats);
+  return alone == with_discrepancy.place ? fit : likelier(std::move(fit), refine(fit_effects_first(starts[alone])));
 }
 
 /// Fit with one effect more from `start`, by the slopes of the base. `predicted_evidence`: that of the start, with the
@@ -445,8 +445,8 @@ Fit Fitter::with_evidence(Fit fit) const {
   return fit;
 }
 
-/// Two states are predicted with the discrepancy, which other runs at the same load and speed determine. Without a whole
-/// level there would be no such run, so single runs are held out.
+/// Two states are predicted with the discrepancy, which other runs at the same load and speed determine. Without a
+/// whole level there would be no such run, so single runs are held out.
 void Fitter::hold_out_of(Fit& fit) const {
   if (evidence().earlier) {
     fit.by_run = hold_out_with_discrepancy(evidence(), fit, fit.posterior.amplitudes, evidence().run_folds).with_all;

@@ -27,7 +27,7 @@ bool can_do_without(const Eigen::MatrixXd& remaining, const Eigen::MatrixXd& all
 }
 
 /// Sums of each block and of caliper readings at the fit.
-struct Fitted {
+struct FitSums {
   std::vector<NormalEquations> sums;
   NormalEquations all;
   Eigen::VectorXd x;
@@ -40,7 +40,7 @@ using Mask = Eigen::VectorXd;
 class Folds {
  public:
   /// One prediction for each mask.
-  Folds(const Fitted& fitted, double floor, std::vector<Mask> masks)
+  Folds(const FitSums& fitted, double floor, std::vector<Mask> masks)
       : fitted_(fitted),
         ridge_(wide_prior(floor)),
         masks_(std::move(masks)),
@@ -99,15 +99,15 @@ class Folds {
     }
   }
 
-  const Fitted& fitted_;
+  const FitSums& fitted_;
   double ridge_;
   std::vector<Mask> masks_;
   std::vector<std::vector<double>> error_;  ///< errors by mask and block
   std::vector<int> times_;
 };
 
-Fitted effects_alone(const Fit& fit) {
-  Fitted fitted{fit.sums, fit.readings, fit.x, fit.x.size()};
+FitSums effects_alone(const Fit& fit) {
+  FitSums fitted{fit.sums, fit.readings, fit.x, fit.x.size()};
   for (const NormalEquations& sums : fit.sums) fitted.all += sums;
   return fitted;
 }
@@ -116,16 +116,16 @@ Fitted effects_alone(const Fit& fit) {
 
 /// Columns of the discrepancy in use, scaled so that the wide prior of their coefficients is the prior with the fitted
 /// amplitudes.
-struct Scaled {
+struct ScaledColumns {
   std::vector<Eigen::Index> columns;
   std::vector<double> size;
   std::vector<bool> of_place;  ///< true for factors of place and direction
 };
 
-Scaled scaled(const Evidence& evidence, const Amplitudes& amplitudes) {
+ScaledColumns scaled(const Evidence& evidence, const Amplitudes& amplitudes) {
   const EvidenceModel& evidence_model = *evidence.evidence_model;
   const double unit = std::sqrt(wide_prior(evidence.floor) * evidence_model.independent_share()) / amplitudes.noise;
-  Scaled used;
+  ScaledColumns used;
   const std::vector<Family>& families = evidence_model.discrepancy().families;
   for (std::size_t f = 0; f < families.size(); ++f) {
     const double amplitude = amplitudes.families[static_cast<Eigen::Index>(f)];
@@ -139,9 +139,9 @@ Scaled scaled(const Evidence& evidence, const Amplitudes& amplitudes) {
 }
 
 /// Normal equations of effects and discrepancy together.
-Fitted effects_beside(const Evidence& evidence, const Fit& fit, const Scaled& used) {
+FitSums effects_beside(const Evidence& evidence, const Fit& fit, const ScaledColumns& used) {
   const auto more = static_cast<Eigen::Index>(used.columns.size());
-  Fitted fitted;
+  FitSums fitted;
   fitted.named = fit.x.size();
   fitted.x = Eigen::VectorXd::Zero(fitted.named + more);
   fitted.x.head(fitted.named) = fit.x;
@@ -172,7 +172,7 @@ Fitted effects_beside(const Evidence& evidence, const Fit& fit, const Scaled& us
 }  // namespace
 
 HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fold>& folds) {
-  const Fitted fitted = effects_alone(fit);
+  const FitSums fitted = effects_alone(fit);
   Folds held(fitted, evidence.floor, {Mask::Ones(fit.x.size())});
   for (const Fold& fold : folds) held.leave_out(fold);
   return held.errors(0, fit.mean_square);
@@ -180,7 +180,7 @@ HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fol
 
 std::vector<Eigen::VectorXd> numbers_without(const Evidence& evidence, const Fit& fit, const Amplitudes* beside,
                                              const std::vector<Fold>& folds) {
-  const Fitted fitted =
+  const FitSums fitted =
       beside != nullptr ? effects_beside(evidence, fit, scaled(evidence, *beside)) : effects_alone(fit);
   const Folds held(fitted, evidence.floor, {});
   std::vector<Eigen::VectorXd> numbers;
@@ -190,8 +190,8 @@ std::vector<Eigen::VectorXd> numbers_without(const Evidence& evidence, const Fit
 
 HeldOutWithDiscrepancy hold_out_with_discrepancy(const Evidence& evidence, const Fit& fit, const Amplitudes& amplitudes,
                                                  const std::vector<Fold>& folds) {
-  const Scaled used = scaled(evidence, amplitudes);
-  const Fitted fitted = effects_beside(evidence, fit, used);
+  const ScaledColumns used = scaled(evidence, amplitudes);
+  const FitSums fitted = effects_beside(evidence, fit, used);
   Mask effects = Mask::Zero(fitted.x.size());
   effects.head(fitted.named).setOnes();
   Mask with_place = effects;

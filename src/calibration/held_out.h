@@ -17,8 +17,8 @@ struct HeldOut {
   double mean_square = 0;  ///< mean square over rows
 };
 
-/// Held-out error by one linear step from the fit of all data to the fit without each fold. If a number is not determined
-/// without a fold, the blocks of that fold are left out one by one.
+/// Held-out error by one linear step from the fit of all data to the fit without each fold. If a number is not
+/// determined without a fold, the blocks of that fold are left out one by one.
 HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fold>& folds);
 
 /// Parameters of `fit` refitted without each of the folds, by the same step. `beside`: amplitudes of the discrepancy,

@@ -9,9 +9,9 @@
 #include "calibration/thresholds.h"
 #include "joint/forward.h"
 
-// Wrong loads are no shape beside a fit: a tendon becomes slack under 20 N and not under 15 N, and its compliance is
-// then fitted anew. So the set without the effect is refitted to the same readings with all loads scaled, over a ladder
-// of factors first, then more closely about the best.
+// A load scale changes no fixed shape of a fit: a tendon may be slack under 20 N and not under 15 N, and its compliance
+// is then another one. Hence the set without the effect is refitted to the same readings with all loads scaled: first
+// by a ladder of factors, then in smaller steps about the best one.
 
 namespace fusee::calibration {
 namespace {
@@ -54,8 +54,8 @@ double share_of(const Evidence& evidence, const Fit& best, const fusee::Effect& 
   const std::vector<Eigen::Index> own = places_of(best, effect);
   if (own.empty() || !(slope.squaredNorm() > 0)) return 0;
   const Eigen::MatrixXd J = tangent.J(Eigen::all, own);
-  const Eigen::VectorXd left = slope - J * solved(J.transpose() * J, Eigen::VectorXd(J.transpose() * slope));
-  return 1.0 - left.squaredNorm() / slope.squaredNorm();
+  const Eigen::VectorXd residual = slope - J * solved(J.transpose() * J, Eigen::VectorXd(J.transpose() * slope));
+  return 1.0 - residual.squaredNorm() / slope.squaredNorm();
 }
 
 double score_under(const Evidence& evidence, const Fit& without, double times) {

@@ -21,7 +21,7 @@ struct ModelResidual {
   Eigen::VectorXd loose;     ///< play at each row, rad
 };
 
-/// For one thread. Evidence and simulation must outlive it.
+/// Used by one thread. Evidence and simulation must outlive it.
 class Model {
  public:
   Model(const Evidence& evidence, joint::Forward& forward) : evidence_(evidence), forward_(forward) {}

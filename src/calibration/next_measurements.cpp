@@ -176,11 +176,11 @@ class Proposals {
     before.load = 0;
     before.change = plan::BenchChange::none;
     before.speed = as_before(evidence_.measurement).speed;
-    const auto found = shown(found_, run), instead = shown(*other.at, run);
+    const auto found = shown(found_, run), alternative = shown(*other.at, run);
     auto expected = shown(found_, before);
-    const auto instead_before = shown(*other.at, before);
+    const auto alternative_before = shown(*other.at, before);
     for (std::size_t k = 0; k < expected.front().size(); ++k)
-      expected.front()[k] = instead.front()[k] + expected.front()[k] - instead_before.front()[k];
+      expected.front()[k] = alternative.front()[k] + expected.front()[k] - alternative_before.front()[k];
     return plan::rms_apart(found, expected);
   }
 
@@ -344,7 +344,7 @@ std::vector<plan::NextMeasurement> next_measurements(const Evidence& evidence, c
   if (!others.empty()) next = Proposals(evidence, selection, others).best();
   // No simulated measurement distinguishes them: the effects' own proposals.
   if (next.empty()) {
-    for (const Rival* rival : rivals_as_good(evidence, selection)) ask(rival->rival->separating_run, next);
+    for (const Rival* rival : equally_likely_rivals(evidence, selection)) ask(rival->rival->separating_run, next);
   }
   for (const FoundEffect& effect : calibration.effects) {
     if (effect.group.back() == k_unmodelled) ask(effect.unmodelled.separating_run, next);

@@ -24,9 +24,9 @@ struct CredibleGroup {
   double absence_probability = 0;
 };
 
-/// Group of the effect `named` of the set `best`: effects in its place are added until the absence probability is at
-/// most `most_absence`, or the remaining sets have nothing in its place. `least_gain`: share of the absence probability
-/// that each further member must remove.
+/// Group of the effect `named` of the set `best`: alternatives, which other sets have in its place, are added until
+/// the absence probability is at most `most_absence`, or until no alternative is left. `least_gain`: share of the
+/// absence probability that each further member must remove.
 CredibleGroup credible_group(const std::vector<WeightedSet>& sets, const EffectSet& best, const fusee::Effect& named,
                              double most_absence, double least_gain = 0);
 

@@ -622,8 +622,8 @@ std::vector<CandidatePair> Selector::pairs_beside(const Fit& base,
 }
 
 /// Exchanges none, one or two members for one or two other effects, since either exchange alone may lower the score.
-/// True if a better set was found. Without this step and the four that followed it, the reported groups contain 19 of 21
-/// effects instead of all (18 joints from seed 950001).
+/// True if a better set was found. Without this step and the four that followed it, the reported groups contain 19 of
+/// 21 effects instead of all (18 joints from seed 950001).
 bool Selector::exchange_members() {
   const double before = score(selection_.best);
   const std::vector<Fit> bases = reduce_best();
@@ -661,8 +661,8 @@ bool Selector::exchange_members() {
   return score(*ranked().front()) > before + k_thresholds.least_improvement;
 }
 
-/// True if one of the effect's numbers is at a bound. The data then require more of the effect than any joint has, so the
-/// cause is another one. Searched numbers may end at a bound, and a bound at zero does not count.
+/// True if one of the effect's numbers is at a bound. The data then require more of the effect than any joint has, so
+/// the cause is another one. Searched numbers may end at a bound, and a bound at zero does not count.
 bool is_at_bound(const Fit& fit, const fusee::Effect& effect) {
   return std::any_of(effect.parameters.begin(), effect.parameters.end(), [&](const EffectParameter& parameter) {
     return !parameter.searched && value_of(fit.at, parameter) != 0 && !is_idle(parameter, fit.at) &&

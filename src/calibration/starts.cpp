@@ -24,7 +24,7 @@ std::vector<double> times_of_rows(const Evidence& evidence) {
   return used;
 }
 
-/// Times between rows, evenly among them.
+/// Times halfway between rows, spread evenly over the rows.
 std::vector<double> times_to_try(std::vector<double> rows) {
   std::sort(rows.begin(), rows.end());
   const std::size_t count = std::min(rows.size(), k_tried_times + 1);
@@ -50,14 +50,14 @@ std::vector<double> by_evidence(const Evidence& evidence, const Fit& base, const
   add_numbers(Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity()), tangent);
   const TangentSums sums = evidence.evidence_model->sums_of(tangent);
   const Amplitudes& amplitudes = base.posterior.amplitudes;
-  const ReducedTangent beside =
+  const ReducedTangent reduced =
       evidence.evidence_model->reduced(sums, evidence.evidence_model->sized(amplitudes, sums.deflection_ratio));
   std::vector<Eigen::Index> columns(static_cast<std::size_t>(own) + 1);
   std::iota(columns.begin(), columns.end(), 0);
   std::vector<std::pair<double, double>> likely;
   for (Eigen::Index k = 0; k < count; ++k) {
     columns.back() = own + k;
-    likely.emplace_back(-log_evidence_of(beside, columns), times[static_cast<std::size_t>(k)]);
+    likely.emplace_back(-log_evidence_of(reduced, columns), times[static_cast<std::size_t>(k)]);
   }
   std::sort(likely.begin(), likely.end());
   std::vector<double> ordered;

@@ -16,7 +16,7 @@ double mean_of(const std::vector<double>& values) {
 
 }  // namespace
 
-bool as_good(const Evidence&, const Fit& rival, const Fit& best) {
+bool is_as_good(const Evidence&, const Fit& rival, const Fit& best) {
   return rival.log_evidence > best.log_evidence - k_thresholds.as_good;
 }
 
@@ -50,7 +50,7 @@ namespace {
 using Alike = std::tuple<std::size_t, int, std::size_t>;  ///< run, direction, Block::alike
 
 /// Mean or tilt of each stroke, and the residual about it.
-struct Within {
+struct StrokeResiduals {
   std::map<Alike, std::vector<double>> numbers;
   double squares = 0;
   double products = 0;  ///< sum of products of neighbours
@@ -83,7 +83,7 @@ struct VarianceOfNumbers {
 };
 
 /// Variance of numbers about the mean of their kind; 0 if no stroke repeats.
-VarianceOfNumbers variance_of_numbers(const Within& sums) {
+VarianceOfNumbers variance_of_numbers(const StrokeResiduals& sums) {
   double between = 0;
   double freedom = 0;
   for (const auto& [key, numbers] : sums.numbers) {
@@ -95,7 +95,7 @@ VarianceOfNumbers variance_of_numbers(const Within& sums) {
 }
 
 /// rms of the numbers about their kind's mean, beyond noise.
-double beyond_noise(const Within& sums) {
+double beyond_noise(const StrokeResiduals& sums) {
   const VarianceOfNumbers numbers = variance_of_numbers(sums);
   const double of_noise = sums.of_noise();
   const bool is_beyond = numbers.variance > of_noise * rarest_ratio(numbers.freedom, sums.freedom);
@@ -119,7 +119,7 @@ StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
   const Eigen::VectorXd alpha = alphas(evidence.measurement);
   // rms of α about its mean, for the first stroke of each kind: no two strokes are sampled alike.
   std::map<Alike, double> widths;
-  Within means, tilts;
+  StrokeResiduals means, tilts;
   for (const Block& block : evidence.blocks) {
     const std::vector<Eigen::Index> rows(block.rows.begin(), block.rows.end());
     const Alike of = {block.run, evidence.measurement.runs[block.run].strokes[block.stroke].direction, block.alike};

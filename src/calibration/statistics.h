@@ -7,7 +7,7 @@
 namespace fusee::calibration {
 
 /// True if the evidence of two sets is equal within k_thresholds.as_good.
-bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best);
+bool is_as_good(const Evidence& evidence, const Fit& rival, const Fit& best);
 
 /// Root mean square; 0 without values.
 double rms_of(const Eigen::VectorXd& values);

@@ -131,9 +131,9 @@ struct Thresholds {
   /// Residual of the corrected file, in noise floors, up to which it explains the data alone. A pulley made for the
   /// other sign of OE leaves 1.8 where a tendon goes slack.
   double input_error_alone = 2.0;
-  /// Otherwise the corrected file, with nothing fitted, must leave this many times less than all identified effects.
-  /// Rig data: errors leave 3 to 7 times less (signs of a nearly symmetric joint) to 700 times less; no right file is
-  /// reported.
+  /// Above input_error_alone, the corrected file, with nothing fitted, must leave a residual this many times smaller
+  /// than all identified effects do. Rig data: errors leave 3 to 7 times less (signs of a nearly symmetric joint) to
+  /// 700 times less; no right file is reported.
   double input_error_gain = 3.0;
   /// Ratio from which an input error is reported although another cause stays unexplained beside it. Rig data
   /// f_not_in_any_catalogue with the sign of OE turned: 26.

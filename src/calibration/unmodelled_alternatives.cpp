@@ -19,8 +19,8 @@
 // The discrepancy is smooth: a kink, a step, a bump or a short wave requires many of its columns. An absent effect with
 // a bend near that place would be likelier. Shapes of few parameters complete the discrepancy here, each with the prior
 // of an effect with a searched number. The data are explained with and without the effect, and both models may add
-// shapes. The remaining difference in score is the evidence for the effect itself. Wrong loads are no shape: each effect
-// is tested against them by refits (load_scale.h).
+// shapes. The remaining difference in score is the evidence for the effect itself. Wrong loads are no shape: each
+// effect is tested against them by refits (load_scale.h).
 
 namespace fusee::calibration {
 namespace {
@@ -281,12 +281,12 @@ class ShapeSearch {
     ShapeSelection best;
     double most = -std::numeric_limits<double>::infinity();
     for (const Amplitudes& start : {base.posterior.amplitudes, open}) {
-      ShapeSelection selection_;
+      ShapeSelection chosen;
       Amplitudes from = start;
       double reached = evidence_model_.best(sums_of_base.own, start, k_reading_rounds).log_evidence;
-      while (selection_.shapes.size() < k_most_taken && add_one(sums_of_base, selection_.shapes, from, reached)) {
+      while (chosen.shapes.size() < k_most_taken && add_one(sums_of_base, chosen.shapes, from, reached)) {
       }
-      if (reached > most) most = reached, best = std::move(selection_);
+      if (reached > most) most = reached, best = std::move(chosen);
     }
     best.score = most - loose - others;
     return best;
@@ -463,14 +463,14 @@ std::vector<UnmodelledAlternative> find_unmodelled_alternatives(const Evidence& 
       rivals[i].log_odds = 0;  // The effect cannot be distinguished from an unmodelled cause.
       continue;
     }
-    const ShapeSelection& instead = selections[i + 1];
-    rivals[i].log_odds = selections.front().score - std::max(instead.score, loads[i].score);
-    if (loads[i].score > instead.score) {
+    const ShapeSelection& alternative = selections[i + 1];
+    rivals[i].log_odds = selections.front().score - std::max(alternative.score, loads[i].score);
+    if (loads[i].score > alternative.score) {
       rivals[i].words = "loads of " + rounded(loads[i].times, 2) + " times what was logged";
       rivals[i].separating_run = "hang a known weight where the load acts and compare it with what is logged";
       continue;
     }
-    for (const std::size_t shapes : instead.shapes) {
+    for (const std::size_t shapes : alternative.shapes) {
       if (std::count(selections.front().shapes.begin(), selections.front().shapes.end(), shapes)) continue;
       rivals[i].words = search.shape(shapes).words;
       rivals[i].separating_run = separating_run(search.shape(shapes).dependence);

@@ -26,8 +26,8 @@
 //
 // Effects that only completed the replaced effect are not required beside an unmodelled one (241096: a drum's radius,
 // 21 nats). They are removed one by one as long as the score rises. To save fits, which took a quarter of a
-// calibration's time, each kind is tested only if the effect contributes to it: to geometry by the part that is equal at
-// a place, to friction by the part that is odd in direction.
+// calibration's time, each kind is tested only if the effect contributes to it: to geometry by the part that is equal
+// at a place, to friction by the part that is odd in direction.
 
 namespace fusee::calibration {
 namespace {

@@ -138,7 +138,7 @@ std::string finding(const Calibration& calibration, const StrokeScatter& scatter
       return (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + names) + "; " +
              (any_beside(calibration.effects) ? "with these alone " : "") +
              in_degrees(std::hypot(calibration.unexplained_rms, floor)) + " rms remain, of which noise is " +
-             in_degrees(floor) + ": the rest is unexplained, " + calibration.unexplained_where + "." +
+             in_degrees(floor) + ": the residual is unexplained, " + calibration.unexplained_where + "." +
              (calibration.discrepancy.empty() ? "" : " It depends on " + calibration.discrepancy.front().factor + ".") +
              (calibration.dropped.empty() ? ""
                                           : " Not reported, since rows that were not fitted are predicted worse with "

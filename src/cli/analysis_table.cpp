@@ -71,7 +71,9 @@ const std::vector<FullNumber>& full_numbers() {
   return all;
 }
 
-bool held(const joint::EquilibriumPoint& point) { return point.status != joint::EquilibriumStatus::no_equilibrium; }
+bool has_equilibrium(const joint::EquilibriumPoint& point) {
+  return point.status != joint::EquilibriumStatus::no_equilibrium;
+}
 
 std::string_view name(joint::EquilibriumStatus status) {
   switch (status) {
@@ -119,10 +121,10 @@ void for_each_column(const analysis::AnalysisRow& row, OnNumber number, OnWord w
     word(direction.prefix + "status", name(point.status));
     for (const FullNumber& column : full_numbers()) {
       number(direction.prefix + std::string(column.name),
-             held(point) ? std::optional(column.value(point, row)) : std::nullopt);
+             has_equilibrium(point) ? std::optional(column.value(point, row)) : std::nullopt);
     }
-    word(direction.prefix + "pin1", held(point) ? name(point.t1.contact) : "");
-    word(direction.prefix + "pin2", held(point) ? name(point.t2.contact) : "");
+    word(direction.prefix + "pin1", has_equilibrium(point) ? name(point.t1.contact) : "");
+    word(direction.prefix + "pin2", has_equilibrium(point) ? name(point.t2.contact) : "");
   }
 }
 
@@ -133,7 +135,9 @@ std::string cell(double value) {
   return std::abs(value) < 1e-9 ? "0" : rounded(value, 4);
 }
 
-std::string full_cell(const joint::EquilibriumPoint& point, double value) { return held(point) ? cell(value) : "-"; }
+std::string full_cell(const joint::EquilibriumPoint& point, double value) {
+  return has_equilibrium(point) ? cell(value) : "-";
+}
 
 std::vector<analysis::AnalysisRow> thinned(const std::vector<analysis::AnalysisRow>& rows, bool all) {
   if (all || rows.size() <= k_short_table) return rows;
@@ -181,7 +185,7 @@ Cells force_cells(const analysis::AnalysisRow& row) {
 Cells elastic_cells(const analysis::AnalysisRow& row) {
   const joint::EquilibriumPoint& full = row.rising;
   const bool by_first = row.paper.T1 > 0;
-  const bool both = held(full) && held(row.falling);
+  const bool both = has_equilibrium(full) && has_equilibrium(row.falling);
   return {fixed(degrees(row.declared.alpha), 1),
           cell(row.paper.elongation),
           full_cell(full, by_first ? full.t1.stretch : full.t2.stretch),

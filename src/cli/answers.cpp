@@ -323,7 +323,7 @@ Answer<AngleRange> read_range(std::string_view typed) {
   if (!(range.low < range.high))
     return Refusal{fmt::format("the lower end comes first: {} {}?", rounded(range.high), rounded(range.low))};
   if (range.low > 0 || range.high < 0)
-    return Refusal{"home, at 0, must lie within the range: measure the angles from a home that does"};
+    return Refusal{"home, at 0, must lie within the range: measure the angles from a home inside it"};
   if (range.low < field.least || range.high > field.most)
     return Refusal{fmt::format("a joint turns within {} to {} deg", rounded(field.least), rounded(field.most))};
   return range;

@@ -214,8 +214,8 @@ std::vector<Setting> Arguments::settings() const {
 
 namespace {
 
-/// ".pulley.r1_mm=15" for each setting. Characters that a shell or a file system may not take become "_", and a long name
-/// is cut off; then a hash keeps different settings apart.
+/// ".pulley.r1_mm=15" for each setting. Characters that a shell or a file system may not take become "_", and a long
+/// name is cut off; then a hash keeps different settings apart.
 std::string settings_in_name(const std::vector<Setting>& settings) {
   constexpr std::size_t k_longest = 80;
   constexpr std::string_view k_safe = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-+=";

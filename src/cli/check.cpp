@@ -7,7 +7,7 @@
 namespace fusee::cli {
 namespace {
 
-std::string what_it_is(const pipeline::Part& part) {
+std::string description_of(const pipeline::Part& part) {
   if (const auto* mesh = std::get_if<solid::TriangleMesh>(&part)) {
     return "a mesh of " + std::to_string(mesh->triangles.size()) + " triangles and " +
            std::to_string(mesh->vertices.size()) + " vertices";
@@ -81,7 +81,7 @@ Reply run_check(const Arguments& arguments, Console&, const RunContext& context)
   const pipeline::PartSize size = pipeline::size_of(part, checks);
   Reply reply;
   const bool ok = all_ok(checks);
-  reply.text = file + ": " + what_it_is(part) + "\n" + size_text(size) + "\n\n" + checks_table(checks) + "\n" +
+  reply.text = file + ": " + description_of(part) + "\n" + size_text(size) + "\n\n" + checks_table(checks) + "\n" +
                (ok ? "valid" : "not valid") + "\n";
   reply.fields["file"] = file;
   reply.fields["kind"] = std::holds_alternative<formats::Drawing>(part) ? "drawing" : "mesh";

@@ -80,7 +80,7 @@ std::optional<std::string> Console::ask(std::string_view question) {
   std::string line;
   char c = 0;
   while (line.size() < k_longest_answer) {
-    // one byte at a time: the rest of the input may belong to another program
+    // one byte at a time: further input may belong to another program
     const ssize_t got = ::read(STDIN_FILENO, &c, 1);
     if (got < 0 && errno == EINTR && !is_interrupted()) continue;
     if (got <= 0) {
@@ -94,7 +94,7 @@ std::optional<std::string> Console::ask(std::string_view question) {
   return line;
 }
 
-void Console::tell(std::string_view text) {
+void Console::write(std::string_view text) {
   end_progress();
   show(text);
 }

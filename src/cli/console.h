@@ -34,7 +34,7 @@ class Console {
   /// longer than any answer are cut.
   std::optional<std::string> ask(std::string_view question);
   /// Writes text of a conversation to stderr, also with --quiet.
-  void tell(std::string_view text);
+  void write(std::string_view text);
   /// Removes the progress line.
   void end_progress();
 

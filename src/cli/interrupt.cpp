@@ -8,7 +8,8 @@
 
 #include "cli/immediate_exit.h"
 
-// A signal handler may neither lock nor allocate, and removing files does both. So the handler wakes a thread that does.
+// A signal handler may neither lock nor allocate, and removing files does both. So the handler wakes a thread that
+// does.
 
 namespace fusee::cli {
 namespace {

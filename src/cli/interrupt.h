@@ -7,8 +7,8 @@
 
 namespace fusee::cli {
 
-/// Handles signals while it lives. A signal requests a stop, which makes every OutputFolder remove its staged files. Then
-/// the program exits with 130 at once, even if other threads run. A program has only one.
+/// Handles signals while it lives. A signal requests a stop, which makes every OutputFolder remove its staged files.
+/// Then the program exits with 130 at once, even if other threads run. A program has only one.
 class SignalWatch {
  public:
   SignalWatch();

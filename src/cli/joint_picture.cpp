@@ -66,7 +66,7 @@ class Sheet {
   std::vector<std::string> lines_;
 };
 
-/// The pitch curve of one side; a circle for a pulley of several turns, which has no outline.
+/// The pitch curve of one side; a circle for a multi-turn pulley, which has no outline.
 profile::Outline outline_of(const formats::Product& product, Side side) {
   if (!product.helix) return side == Side::left ? product.synthesis.p1 : product.synthesis.p2;
   const transmission::TransmissionPoint& home = *product.synthesis.home();

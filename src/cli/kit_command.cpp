@@ -124,8 +124,8 @@ Command kit_command() {
           "joint: base plate with pins and the motor's pattern, link with tensioner and\n"
           "scale, spacers, encoder mount, fit coupon. Writes meshes that print without\n"
           "supports, plates to cut, a shopping list, run files, and a page with assembly\n"
-          "steps. If parts would collide over the range, it reports which, and which\n"
-          "change of which number makes room.",
+          "steps. If parts would collide over the range, it reports which parts, and\n"
+          "which number to change.",
           {{"-o,--out", "DIR", "where the files go (default: out/<name of SPEC>_kit)"},
            {"--tolerance-mm", "MM", "tolerance of the pulley's curves (default 0.01)"},
            {"--dxf", "VERSION", "drawings as ac1015 (default) or r12", false, "ac1015 r12"}},

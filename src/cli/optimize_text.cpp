@@ -78,7 +78,7 @@ void add_value(const pipeline::OptimizeResult& result, Reply& reply) {
 
 // ---- the three methods ----------------------------------------------------------------------------------------------
 
-void say_none(const std::string& path, const pipeline::OptimizeResult& result, bool proven, Reply& reply) {
+void report_none(const std::string& path, const pipeline::OptimizeResult& result, bool proven, Reply& reply) {
   reply.exit = Exit::infeasible;
   Diagnostic error = about_file(
       Severity::error, path,
@@ -256,7 +256,7 @@ void add_nothing(const std::string& path, const pipeline::OptimizeResult& result
   if (certified) reply.fields["boxes"] = certified->boxes;
   reply.fields["evaluations"] = std::visit([](const auto& search) { return search.evaluations; }, result.search);
   if (result.stopped) return;
-  say_none(path, result, certified && certified->proven, reply);
+  report_none(path, result, certified && certified->proven, reply);
 }
 
 }  // namespace

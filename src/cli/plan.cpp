@@ -115,7 +115,7 @@ std::string summary(const formats::PlanProduct& product) {
   for (const plan::PlannedCause& cause : plan.causes) alone += cause.smallest_alone.has_value();
   std::string text = product.file.mechanism.name + ": " + fixed(plan.minutes, 1) + " of " + rounded(product.minutes) +
                      " minutes, " + std::to_string(alone) + " of " + std::to_string(plan.causes.size()) +
-                     " causes can be identified alone\n" + steps_text(plan) + "\n" + causes_text(plan);
+                     " causes can be identified individually\n" + steps_text(plan) + "\n" + causes_text(plan);
   text += listed("Not resolved", group_words(plan));
   text += listed("More minutes", formats::minute_words(plan.beyond));
   return text + listed("False-positive rate", formats::false_positive_words(plan));

@@ -195,7 +195,7 @@ std::optional<std::string> put(Console& console, std::size_t number, Answers& an
     const std::string_view answer = trimmed(*line);
     const Answer<std::string> taken = question.take(answers, answer.empty() ? proposal : answer);
     if (const std::string* understood = std::get_if<std::string>(&taken)) {
-      if (*understood != answer) console.tell("      → " + *understood + "\n");
+      if (*understood != answer) console.write("      → " + *understood + "\n");
       return *understood;
     }
     console.report({Severity::error, {}, std::get<Refusal>(taken).reason, {}});
@@ -421,7 +421,7 @@ AskedMechanism ask_for_mechanism(Console& console, const std::vector<Setting>& s
       const bool sets_units_alone = std::all_of(settings.begin(), settings.end(), sets_units);
       asked.text = sets_units_alone ? file_of(layout.file.mechanism, about(layout, answers))
                                     : write_mechanism(layout.file.mechanism);
-      console.tell("\n" + lengths_in(answers.units, joint_picture(layout.built.product)) + "\n");
+      console.write("\n" + lengths_in(answers.units, joint_picture(layout.built.product)) + "\n");
       return asked;
     }
     asked.others = layouts.others(answers);

@@ -51,7 +51,7 @@ void sign(Bundle& bundle) {
       std::string(::uname(&system) == 0 ? system.machine : "a machine") + ", glibc " + gnu_get_libc_version();
 }
 
-BundledOutcome outcome_of(Ending ending, std::vector<BundledOutput> outputs, const BundleNames& names) {
+BundledOutcome outcome_of(CommandOutcome ending, std::vector<BundledOutput> outputs, const BundleNames& names) {
   BundledOutcome outcome;
   outcome.exit = static_cast<int>(ending.reply.exit);
   outcome.outputs = std::move(outputs);
@@ -113,7 +113,7 @@ void Recording::in_the_way(const fs::path& path) {
   if (is_inner_path(name)) bundle_.in_the_way.push_back(name + (fs::is_directory(path) ? "/" : ""));
 }
 
-Diagnostic Recording::pack(const Ending& ending) {
+Diagnostic Recording::pack(const CommandOutcome& ending) {
   if (kept_ > k_largest_bundle || bundle_.files.size() > k_most_bundled_files)
     throw OutputError("no bundle was written: the input files are too large for one");
   const std::string own = names_.inner(file_);

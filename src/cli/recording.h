@@ -17,7 +17,7 @@ namespace fusee::cli {
 std::string take_bundle_option(std::vector<std::string>& words);
 
 /// The run's report, with names of the bundle for files.
-BundledOutcome outcome_of(Ending ending, std::vector<BundledOutput> outputs, const BundleNames& names);
+BundledOutcome outcome_of(CommandOutcome ending, std::vector<BundledOutput> outputs, const BundleNames& names);
 /// The file is named without its folder; the command line has that, if given.
 BundledOutput output_of(const std::filesystem::path& path, const std::filesystem::path& bytes_at);
 /// Adds version and build of this program.
@@ -35,7 +35,7 @@ class Recording : public FileAccess {
   bool is_bundled() const override { return true; }
 
   /// Writes the bundle and returns a message for the user. Throws OutputError.
-  Diagnostic pack(const Ending& ending);
+  Diagnostic pack(const CommandOutcome& ending);
 
  private:
   std::filesystem::path file_;

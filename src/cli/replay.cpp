@@ -30,9 +30,9 @@ constexpr std::size_t k_most_differences = 8;
 // ---- run ------------------------------------------------------------------------------------------------------------
 
 /// File access that reads from a bundle instead of the disk.
-class Replaying : public FileAccess, public FolderAccess {
+class BundleAccess : public FileAccess, public FolderAccess {
  public:
-  explicit Replaying(const Bundle& bundle) : bundle_(bundle), here_(working_folder()), names_(here_) {}
+  explicit BundleAccess(const Bundle& bundle) : bundle_(bundle), here_(working_folder()), names_(here_) {}
 
   void read(const ReadRequest& request, const TakeBlock& take) override {
     const std::string name = request.path.string();
@@ -64,7 +64,7 @@ class Replaying : public FileAccess, public FolderAccess {
     outputs_.push_back(output_of(name, bytes_at));
   }
   bool is_bundled() const override { return true; }
-  BundledOutcome outcome(const Ending& ending) const { return outcome_of(ending, outputs_, names_); }
+  BundledOutcome outcome(const CommandOutcome& ending) const { return outcome_of(ending, outputs_, names_); }
 
  private:
   /// Finds a file by its path, or by its name alone if a packed file refers to it relative to itself or by a path of
@@ -91,8 +91,8 @@ BundledOutcome replayed_in(const fs::path& folder, const Bundle& bundle, const s
   if (::chdir(folder.c_str()) != 0) fail_output("cannot work in", folder, errno);
   ::setenv("TMPDIR", folder.c_str(), 1);
   Console console;
-  Replaying access(bundle);
-  const Ending ending = ending_of(bundle.words, console, {.stop = stop, .files = &access});
+  BundleAccess access(bundle);
+  const CommandOutcome ending = run_command(bundle.words, console, {.stop = stop, .files = &access});
   return access.outcome(ending);
 }
 

@@ -164,8 +164,8 @@ const std::vector<Command>& commands() {
   return all;
 }
 
-Ending ending_of(const std::vector<std::string>& words, Console& console, RunContext context) {
-  Ending ending;
+CommandOutcome run_command(const std::vector<std::string>& words, Console& console, RunContext context) {
+  CommandOutcome ending;
   context.progress = [&console](std::string_view step, std::optional<double> share) {
     console.progress(share ? progress_bar(*share) + ", " + std::string(step) : step);
   };
@@ -188,13 +188,13 @@ class CommandFiles : public FileAccess {
   void will_publish(const std::filesystem::path&, const std::filesystem::path&) override { prevent_exit_by_signal(); }
 };
 
-Ending recorded_ending(const std::vector<std::string>& words, const std::string& bundle, Console& console,
-                       const std::stop_token& stop) {
-  Ending ending;
+CommandOutcome run_recorded(const std::vector<std::string>& words, const std::string& bundle, Console& console,
+                            const std::stop_token& stop) {
+  CommandOutcome ending;
   ending.json = has_switch(words, "--json");
   try {
     Recording recording(bundle, words, has_switch(words, "--force"));
-    ending = ending_of(words, console, {.stop = stop, .files = &recording});
+    ending = run_command(words, console, {.stop = stop, .files = &recording});
     ending.reply.diagnostics.push_back(recording.pack(ending));
     ending.reply.fields["bundle"] = bundle;
   } catch (const OutputError& error) {
@@ -216,10 +216,10 @@ int run(const std::vector<std::string>& given) {
   const auto ended = [&] {
     const SignalWatch watch;
     CommandFiles files;
-    return bundle.empty() ? ending_of(words, console, {.stop = watch.stop(), .files = &files})
-                          : recorded_ending(words, bundle, console, watch.stop());
+    return bundle.empty() ? run_command(words, console, {.stop = watch.stop(), .files = &files})
+                          : run_recorded(words, bundle, console, watch.stop());
   };
-  const Ending ending = ended();
+  const CommandOutcome ending = ended();
   const Reply& reply = ending.reply;
   for (const Diagnostic& diagnostic : reply.diagnostics) console.report(diagnostic);
   console.end_progress();

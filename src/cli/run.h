@@ -12,7 +12,7 @@
 namespace fusee::cli {
 
 /// Result of a command that ended, successful or not.
-struct Ending {
+struct CommandOutcome {
   std::string command;  ///< "" if no command was recognised
   Reply reply;
   bool json = false;
@@ -20,9 +20,9 @@ struct Ending {
   std::string result() const { return json ? document(reply, command) : reply.text; }
 };
 
-/// Runs a command. `words`: the arguments without the program's name. Never throws; prints only progress. `context`: its
-/// progress is shown on the console.
-Ending ending_of(const std::vector<std::string>& words, Console& console, RunContext context);
+/// Runs a command. `words`: the arguments without the program's name. Never throws; prints only progress. `context`:
+/// its progress is shown on the console.
+CommandOutcome run_command(const std::vector<std::string>& words, Console& console, RunContext context);
 
 /// Runs a command with --bundle, prints everything and returns the exit code.
 int run(const std::vector<std::string>& words);

@@ -5,7 +5,7 @@ function(write file)
   execute_process(COMMAND ${FUSEE} ${ARGN} OUTPUT_FILE ${SHARED}/${file} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# Compressed, as Debian requires. Without a time stamp: equal programs give equal bytes.
+# Pages are compressed, as Debian requires, without a time stamp: equal programs give equal bytes.
 function(write_page page)
   write(man/man1/${page} manual ${ARGN})
   execute_process(COMMAND gzip -9nf ${SHARED}/man/man1/${page} COMMAND_ERROR_IS_FATAL ANY)

@@ -45,8 +45,8 @@ double lost_motion(const Imperfections& found, const Mechanism& declared, double
   return play + std::abs(declared.transmission->ratio * turned);
 }
 
-/// Combines earlier and new imperfections. Earlier ones are part of the declared model as far as a mechanism has them;
-/// the rest is identified anew.
+/// Combines earlier and new imperfections. Earlier ones that a mechanism has are part of the declared model; others are
+/// identified anew.
 Imperfections composed(const DeclaredMechanism& declared, const Imperfections& found) {
   Imperfections total = merge_findings(declared.identified, found, kind_of(declared));
   total.joint.mean_load = declared.identified.joint.mean_load;
@@ -76,8 +76,8 @@ std::string why_infeasible(const DeclaredMechanism& corrected) {
   options.advice = false;
   const Mechanism mechanism = joint::identified_joint(corrected).mechanism;
   const profile::SynthesisResult made = profile::synthesise(mechanism, options);
-  // The build decides whether a pulley of several turns is feasible.
-  const bool may_be_multi_turn = profile::need_several_turns(made) && !profile::kept_to_one_turn(mechanism);
+  // The build decides whether a multi-turn pulley is feasible.
+  const bool may_be_multi_turn = profile::needs_multi_turn(made) && !profile::kept_to_one_turn(mechanism);
   return made.made() || may_be_multi_turn ? "" : made.brief();
 }
 
@@ -333,10 +333,10 @@ measurement::Measurement some_runs(measurement::Measurement measurement, const s
 
 /// Evaluates each run with the parameters and table from the other runs. With a single run the table is made from it.
 HeldOutSquares measured(const CorrectedJoint& joint, const measurement::Measurement& measurement,
-                        const transmission::TargetMotion& law, const std::vector<calibration::LeftOut>& left_out) {
+                        const transmission::TargetMotion& law, const std::vector<calibration::HeldOutFit>& left_out) {
   const measurement::Measurement thin = calibration::with_fewer_rows(measurement, k_rows_a_run);
   HeldOutSquares all;
-  for (const calibration::LeftOut& left : left_out) {
+  for (const calibration::HeldOutFit& left : left_out) {
     const measurement::Measurement held = some_runs(thin, left.runs, true), others = some_runs(thin, left.runs, false);
     const DirectionalCurves table = table_of(joint, others.runs.empty() ? held : others, law, left.identified);
     const joint::BenchLog log = measurement::bench_log(held);

@@ -68,7 +68,7 @@ std::string words_of(const calibration::Calibration& calibration, const Correcti
   if (correction.assembly_angle != 0) {
     words += "# Tie the tendons with the unloaded joint at home and the motor at " +
              rounded(degrees(correction.assembly_angle), 4) +
-             " deg: the joint then follows the law under its mean load.\n# If tied at 0 deg, use compensation.csv "
+             " deg: the joint then follows the law under its mean load.\n# If assembled at 0 deg, use compensation.csv "
              "for the motor angles.\n";
   }
   return words;

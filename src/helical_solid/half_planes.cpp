@@ -41,7 +41,7 @@ double radius_at(const OutlinePiece& piece, double z) {
   return piece.r0 + (piece.r1 - piece.r0) * (z - piece.z0) / (piece.z1 - piece.z0);
 }
 
-// Largest step of a floor between neighbouring half-planes (mm), beyond the arc between them: a floor that climbs at
+// Largest step of a floor between neighbouring half-planes (mm), beyond the arc between them: a floor that rises at
 // 45° makes a step of the arc's length.
 constexpr double k_next = 0.4;
 // A groove's end wall stands across the groove, and a half-plane may cut it at an angle. This angle at each end is

@@ -299,7 +299,7 @@ class Planner {
       if (is_given || (reach() <= room_for_bore() && !solid::flat_off_shaft(mechanism_.body, layout.bore.shaft))) {
         if (!is_given && diameter < k_bore_diameters.front())
           layout.notes.push_back(
-              fmt::format("no room for a bore of {} mm: made {} mm", k_bore_diameters.front(), diameter));
+              fmt::format("no space for a bore of {} mm: made {} mm", k_bore_diameters.front(), diameter));
         return;
       }
     }

@@ -125,7 +125,7 @@ void fill_front(Winding& winding, std::size_t columns, double length) {
 
 }  // namespace
 
-SpiralCurve::Between SpiralCurve::between(double turn) const {
+SpiralCurve::PlaceBetweenRows SpiralCurve::between(double turn) const {
   const std::vector<helix::SpiralRow>& rows = spiral_.rows;
   const auto after = std::upper_bound(rows.begin() + 1, rows.end() - 1, turn,
                                       [](double value, const helix::SpiralRow& row) { return value < row.turn; });
@@ -133,10 +133,10 @@ SpiralCurve::Between SpiralCurve::between(double turn) const {
   return {a, b, b.turn - a.turn, (turn - a.turn) / (b.turn - a.turn)};
 }
 
-double SpiralCurve::Between::rho() const { return a.rho + (b.rho - a.rho) * std::clamp(u, 0.0, 1.0); }
+double SpiralCurve::PlaceBetweenRows::rho() const { return a.rho + (b.rho - a.rho) * std::clamp(u, 0.0, 1.0); }
 
 WindingRow SpiralCurve::at(double turn) const {
-  const Between here = between(turn);
+  const PlaceBetweenRows here = between(turn);
   const auto& [a, b, step, u] = here;
   // Cubic Hermite interpolation with derivatives dX/dψ = ρ t, dz/dψ = ρ tan λ.
   const double from = (1 + 2 * u) * (1 - u) * (1 - u), to = u * u * (3 - 2 * u);

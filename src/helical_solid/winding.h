@@ -34,13 +34,13 @@ class SpiralCurve {
 
  private:
   /// A place between two neighbouring rows: the turn from `a` to `b`, and the fraction of it from `a` to the place.
-  struct Between {
+  struct PlaceBetweenRows {
     const helix::SpiralRow &a, &b;
     double step, u;
 
     double rho() const;
   };
-  Between between(double turn) const;
+  PlaceBetweenRows between(double turn) const;
 
   const helix::Spiral& spiral_;
   SpiralPlace place_;

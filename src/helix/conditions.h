@@ -1,5 +1,5 @@
 /// \file
-/// Internal: conditions of several turns, in addition to those of every pitch curve.
+/// Internal: conditions of multi-turn pulleys, in addition to those of every pitch curve.
 #pragma once
 
 #include <vector>

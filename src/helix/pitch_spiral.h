@@ -23,9 +23,9 @@ struct FreePath {
   double sloping = 0;  ///< the part that rises: all of it, or with collars the part below the guide
 };
 
-/// Beyond the working arc, either end continues for the spare turns and approaches a circle about the axis. At the angle
-/// u beyond the end its support function is p + p' sin u w(u), with w falling from 1 to 0. Keeps a reference to the
-/// take-offs.
+/// Beyond the working arc, either end continues for the spare turns and approaches a circle about the axis. At the
+/// angle u beyond the end its support function is p + p' sin u w(u), with w falling from 1 to 0. Keeps a reference to
+/// the take-offs.
 class PitchSpiral {
  public:
   /// `lengthening`: q of the side, null for a planar tendon.

@@ -24,8 +24,8 @@ constexpr int k_nodes = 48;
 constexpr int k_places_of_turn = 72;
 constexpr int k_places_of_coarse_turn = 18;
 /// Margin on the lead: between the sampled places a pair of turns may need slightly more.
-constexpr double k_spare_lead = 1.005;
-constexpr double k_settled = 1e-10;  // mm
+constexpr double k_lead_margin = 1.005;
+constexpr double k_converged = 1e-10;  // mm
 
 /// Finds the least height from turn to turn, and the lead that the tightest pair requires.
 void set_lead(HelixGeometry& geometry, const PitchSpiral& curve, transmission::Side side, const MinLead& least_lead,
@@ -43,22 +43,23 @@ void set_lead(HelixGeometry& geometry, const PitchSpiral& curve, transmission::S
     geometry.tightest_at = psi;
   }
   geometry.circumference = circumference;
-  geometry.needed_lead = k_spare_lead * least_slope * circumference;
+  geometry.needed_lead = k_lead_margin * least_slope * circumference;
   geometry.slope = (wanted > 0 ? wanted : geometry.needed_lead) / circumference;
 }
 
-struct Place {
+/// A free path, and the wound length at its take-off.
+struct WindingPlace {
   FreePath path;
   double sigma = 0;
 };
 
 /// Bisects the rise at home at which the largest positive and negative fleet angles are equal.
-double smallest_fleet(HelixGeometry geometry, transmission::Side side, const std::vector<Place>& places) {
+double smallest_fleet(HelixGeometry geometry, transmission::Side side, const std::vector<WindingPlace>& places) {
   double low = -1e4, high = 1e4;
   for (int i = 0; i < 100; ++i) {
     geometry.below = 0.5 * (low + high);
     double least = 1e9, most = -1e9;
-    for (const Place& place : places) {
+    for (const WindingPlace& place : places) {
       const double fleet = helix_point(geometry, side, place.path, place.sigma).fleet;
       least = std::min(least, fleet);
       most = std::max(most, fleet);
@@ -68,7 +69,7 @@ double smallest_fleet(HelixGeometry geometry, transmission::Side side, const std
   return 0.5 * (low + high);
 }
 
-double q_of(const HelixGeometry& geometry, transmission::Side side, const Place& place) {
+double q_of(const HelixGeometry& geometry, transmission::Side side, const WindingPlace& place) {
   const double up = rise(geometry, side, place.sigma);
   const double sloping = std::hypot(place.path.sloping, up);
   const double secant = std::sqrt(1.0 + geometry.slope * geometry.slope);
@@ -78,7 +79,7 @@ double q_of(const HelixGeometry& geometry, transmission::Side side, const Place&
 struct SideIteration {
   HelixGeometry geometry;
   std::vector<double> q;  ///< at the nodes
-  double settled = 0;     ///< largest difference from the previous round's q, relative to home, mm
+  double change = 0;      ///< largest difference from the previous round's q, relative to home, mm
 };
 
 SideIteration solve_side(const Mechanism& mechanism, const transmission::Transmission& transmission,
@@ -89,9 +90,9 @@ SideIteration solve_side(const Mechanism& mechanism, const transmission::Transmi
   SideIteration round;
   set_lead(round.geometry, curve, side, least_lead, mechanism.body.lead, accuracy);
   const auto place_of = [&](const profile::TakeOff& take_off) {
-    return Place{curve.free_path(take_off), curve.sigma(take_off)};
+    return WindingPlace{curve.free_path(take_off), curve.sigma(take_off)};
   };
-  std::vector<Place> places;
+  std::vector<WindingPlace> places;
   for (const profile::TakeOff& sample : curve.samples()) places.push_back(place_of(sample));
   round.geometry.below = smallest_fleet(round.geometry, side, places);
   const double home = q_of(round.geometry, side, place_of(take_offs.at(0.0)));
@@ -100,10 +101,10 @@ SideIteration solve_side(const Mechanism& mechanism, const transmission::Transmi
     round.q.push_back(q_of(round.geometry, side, place_of(take_off)) - home);
   }
   // Checked between the nodes too, which shows a series too short for the curve.
-  const double drawn_home = before != nullptr ? before->at(0.0).d0 : 0.0;
+  const double previous_home = before != nullptr ? before->at(0.0).d0 : 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const double drawn = before != nullptr ? before->at(curve.samples()[i].stroke.alpha).d0 - drawn_home : 0.0;
-    round.settled = std::max(round.settled, std::abs(q_of(round.geometry, side, places[i]) - home - drawn));
+    const double previous = before != nullptr ? before->at(curve.samples()[i].stroke.alpha).d0 - previous_home : 0.0;
+    round.change = std::max(round.change, std::abs(q_of(round.geometry, side, places[i]) - home - previous));
   }
   return round;
 }
@@ -132,11 +133,11 @@ Windings wind(const Mechanism& mechanism, const MinLead& least_lead, HelixAccura
                                           least_lead, nodes, accuracy);
     const SideIteration right = solve_side(mechanism, law, transmission::Side::right, before ? &before->q2 : nullptr,
                                            least_lead, nodes, accuracy);
-    const double closure = std::max(left.settled, right.settled);
+    const double closure = std::max(left.change, right.change);
     const bool no_better = i > 2 && closure > 0.5 * windings.closure;
     windings.geometry = {left.geometry, right.geometry};
     windings.closure = closure;
-    if (before != nullptr && (closure < k_settled || no_better)) break;
+    if (before != nullptr && (closure < k_converged || no_better)) break;
     constexpr double k_least_coefficient = 1e-12;
     windings.paths = std::make_shared<transmission::SlopedPaths>(transmission::SlopedPaths{
         transmission::ChebyshevSeries(law.alpha_min(), law.alpha_max(), left.q, k_least_coefficient),

@@ -22,7 +22,7 @@ struct HelixGeometry {
 
 struct Windings {
   std::unique_ptr<const transmission::Transmission> transmission;
-  std::shared_ptr<const transmission::SlopedPaths> paths;  ///< null where the planar curves cannot be
+  std::shared_ptr<const transmission::SlopedPaths> paths;  ///< null if the planar curves cannot be made
   std::array<HelixGeometry, 2> geometry;
   double closure = 0;  ///< by how much the tendons' lengths vary over the range, mm
 };

@@ -77,7 +77,7 @@ struct SheathShare {
 };
 
 /// The tendon between the bends of a sheath, from the joint to the pulley.
-struct InSheath {
+struct SheathHistory {
   std::array<double, ThreadedSpans::k_bends - 1> material{};
   std::array<double, ThreadedSpans::k_bends - 1> tension{};
   std::array<int, ThreadedSpans::k_bends> slides{};  ///< at the last step
@@ -89,7 +89,7 @@ struct TendonHistory {
   double rim_reference = 0;  ///< normal of the rim's reference point between upper and lower part, rad
   double upper_material = 0;
   double lower_material = 0;
-  InSheath sheath;
+  SheathHistory sheath;
   WoundProfile wound;
   /// The tendon on the joint's drum, in the frame of the link, if it rubs there; otherwise that part belongs to the
   /// upper span.
@@ -480,7 +480,7 @@ double head(double t, double EA) { return t + energy_per_material(t, EA); }
 double accept_sheath(TendonHistory& tendon, const ThreadedState& threaded, double swelling) {
   const double EA = threaded.spans.EA;
   const ThreadedBalance& now = threaded.slid;
-  InSheath& sheath = tendon.sheath;
+  SheathHistory& sheath = tendon.sheath;
   std::array<double, ThreadedSpans::k_bends + 1> before{};
   before.front() = tendon.upper;
   before.back() = tendon.lower;

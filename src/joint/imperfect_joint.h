@@ -33,7 +33,7 @@ struct Weight {
 /// The declared weight with the identified additional torque `error`.
 Weight with_error(const Weight& declared, const WeightError& error);
 
-/// Sets stiffness, friction, pretension, slack and weight in a model of that geometry.
+/// Sets stiffness, friction, pretension, slack and weight in a model with the geometry of `imperfections`.
 void set_imperfect_statics(JointModel& model, const Mechanism& declared, const Imperfections& imperfections);
 
 }  // namespace fusee::joint

@@ -2,10 +2,10 @@
 /// Balance of one tendon over its pin and through its sheath for given lengths: the tensions of its spans, where each
 /// bend of the sheath has its own friction.
 ///
-/// Friction in a sheath is distributed. When the motor reverses, the adjacent tendon slides first and the rest follows
-/// as its tension is reached; the joint rests until all of it slides. Concentrated friction would release half of the
-/// sheath at once: equal in the end, but with an error of up to 1/8 of the sheath's stretch on the way. With n places
-/// the error is 1/n² of that.
+/// Friction in a sheath is distributed. When the motor reverses, the adjacent tendon slides first, and further places
+/// follow as their tension is reached; the joint rests until all of it slides. Concentrated friction would release half
+/// of the sheath at once: equal in the end, but with an error of up to 1/8 of the sheath's stretch on the way. With n
+/// places the error is 1/n² of that.
 #pragma once
 
 #include <array>

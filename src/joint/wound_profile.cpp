@@ -220,8 +220,8 @@ TurnedPulley WoundProfile::turned_to(const GroovePlace& take_off, double swellin
   TurnedPulley turned;
   turned.take_off = take_off;
   turned.before = take_off.arc > take_off_.arc ? take_off_ : take_off;
-  turned.lies = strain(swelling);
-  turned.log_lies = log_of(turned.lies);
+  turned.wound_strain = strain(swelling);
+  turned.log_wound_strain = log_of(turned.wound_strain);
   std::size_t remaining = pieces_.size();
   while (remaining > 0 && pieces_[remaining - 1].from.arc >= turned.before.arc)
     turned.came_off += pieces_[--remaining].held.material;
@@ -240,11 +240,11 @@ TurnedPulley WoundProfile::turned_to(const GroovePlace& take_off, double swellin
     turned.came_off -= turned.top.held.material;
   }
   const bool goes_on = turned.top.density_to == density_;
-  const double top = goes_on ? turned.lies : strain_of(turned.top.density_to, swelling);
-  turned.log_top = goes_on ? turned.log_lies : log_of(top);
+  const double top = goes_on ? turned.wound_strain : strain_of(turned.top.density_to, swelling);
+  turned.log_top = goes_on ? turned.log_wound_strain : log_of(top);
   if (take_off.arc < take_off_.arc) {
-    turned.lies = top;
-    turned.log_lies = turned.log_top;
+    turned.wound_strain = top;
+    turned.log_wound_strain = turned.log_top;
   }
   return turned;
 }
@@ -253,17 +253,17 @@ Slide WoundProfile::slide(const TurnedPulley& turned, double strain, double swel
   Slide slide;
   slide.strain = strain;
   slide.below = turned.below;
-  slide.rest = turned.top;
-  slide.has_rest = turned.has_top;
+  slide.remainder = turned.top;
+  slide.has_remainder = turned.has_top;
   slide.freed = turned.came_off;
   const double laid = turned.take_off.arc - turned.before.arc;
-  const double lies = turned.lies;
-  Bound bound{turned.before.turn, 0, strain > lies ? -friction_ : friction_, strain > lies};
+  const double wound_strain = turned.wound_strain;
+  Bound bound{turned.before.turn, 0, strain > wound_strain ? -friction_ : friction_, strain > wound_strain};
   const double falls = bound.fall * (turned.take_off.turn - turned.before.turn);
   bound.log_strain = log_of(strain) + falls;
-  slide.slides = turned.has_top && bound.beyond(bound.turn, turned.log_lies) > 0;
+  slide.slides = turned.has_top && bound.beyond(bound.turn, turned.log_wound_strain) > 0;
   const double q = slide.slides ? std::exp(falls) : 1.0;
-  const double top = slide.slides ? strain * q : lies;
+  const double top = slide.slides ? strain * q : wound_strain;
   slide.at_before = laid > 0 ? top : strain;
   const double ratio = (1.0 + strain) / (1.0 + top);
   const double shared = slide.slides ? q * ratio * ratio : 0.0;
@@ -276,22 +276,22 @@ Slide WoundProfile::slide(const TurnedPulley& turned, double strain, double swel
   double came_loose = 0;
   double log_to = turned.log_top;
   for (;;) {
-    const double log_from = slide.rest.density_from == slide.rest.density_to
+    const double log_from = slide.remainder.density_from == slide.remainder.density_to
                                 ? log_to
-                                : log_of(strain_of(slide.rest.density_from, swelling));
-    slide.cut = cut_of(slide.rest, log_from, log_to, bound, *groove_);
-    if (slide.cut.arc >= slide.rest.to.arc) break;
-    came_loose += slide.rest.held.material;
-    if (slide.cut.arc > slide.rest.from.arc) {
-      slide.rest = below(*groove_, slide.rest, slide.cut, swelling);
-      came_loose -= slide.rest.held.material;
+                                : log_of(strain_of(slide.remainder.density_from, swelling));
+    slide.cut = cut_of(slide.remainder, log_from, log_to, bound, *groove_);
+    if (slide.cut.arc >= slide.remainder.to.arc) break;
+    came_loose += slide.remainder.held.material;
+    if (slide.cut.arc > slide.remainder.from.arc) {
+      slide.remainder = below(*groove_, slide.remainder, slide.cut, swelling);
+      came_loose -= slide.remainder.held.material;
       break;
     }
-    slide.has_rest = slide.below > 0;
-    if (!slide.has_rest) break;
-    const double density = slide.rest.density_from;
-    slide.rest = pieces_[--slide.below];
-    log_to = slide.rest.density_to == density ? log_from : log_of(strain_of(slide.rest.density_to, swelling));
+    slide.has_remainder = slide.below > 0;
+    if (!slide.has_remainder) break;
+    const double density = slide.remainder.density_from;
+    slide.remainder = pieces_[--slide.below];
+    log_to = slide.remainder.density_to == density ? log_from : log_of(strain_of(slide.remainder.density_to, swelling));
   }
   const SlidContent moved = sliding(*groove_, slide.cut, turned.before, top, bound.fall, swelling);
   slide.sliding = moved.held;
@@ -312,7 +312,7 @@ WoundContent WoundProfile::accept(const TurnedPulley& turned, const Slide& slide
     more.energy += piece.held.energy;
     pieces_.push_back(piece);
   };
-  if (slide.has_rest) put(slide.rest);
+  if (slide.has_remainder) put(slide.remainder);
   const double at_before = density_of(slide.at_before, swelling);
   if (slide.slides && turned.before.arc > slide.cut.arc) {
     const double at_cut = slide.at_before * std::exp(slide.fall * (turned.before.turn - slide.cut.turn));

@@ -63,15 +63,15 @@ class WoundProfile;
 /// A pulley after turning, before the strain at its take-off is known.
 struct TurnedPulley {
   GroovePlace take_off;
-  GroovePlace before;      ///< where the part wound in this step begins; the take-off itself while paying out
-  std::size_t below = 0;   ///< number of unchanged pieces below `top`
-  WoundPiece top;          ///< the highest remaining piece, cut at the take-off
-  bool has_top = false;    ///< false: nothing is left on the pulley
-  double lies = 0;         ///< strain of the tendon at `before`
-  double log_lies = 0;     ///< logarithm of `lies`
-  double log_top = 0;      ///< logarithm of the strain at the upper end of `top`
-  double came_off = 0;     ///< material released by the turning itself, mm
-  WoundContent past_knot;  ///< part of came_off from beyond the range
+  GroovePlace before;           ///< where the part wound in this step begins; the take-off itself while paying out
+  std::size_t below = 0;        ///< number of unchanged pieces below `top`
+  WoundPiece top;               ///< the highest remaining piece, cut at the take-off
+  bool has_top = false;         ///< false: nothing is left on the pulley
+  double wound_strain = 0;      ///< strain of the tendon at `before`
+  double log_wound_strain = 0;  ///< logarithm of `wound_strain`
+  double log_top = 0;           ///< logarithm of the strain at the upper end of `top`
+  double came_off = 0;          ///< material released by the turning itself, mm
+  WoundContent past_knot;       ///< part of came_off from beyond the range
 };
 
 /// State of a turned pulley for a trial strain at its take-off.
@@ -86,8 +86,8 @@ struct Slide {
   GroovePlace cut;        ///< end of the sliding part
   WoundContent sliding;   ///< content of the sliding part between the cut and TurnedPulley::before
   std::size_t below = 0;  ///< number of unchanged pieces beyond the cut
-  WoundPiece rest;        ///< remainder of the piece that was cut
-  bool has_rest = false;
+  WoundPiece remainder;   ///< of the piece that was cut
+  bool has_remainder = false;
 };
 
 /// Tendon on a pulley: last wound, first paid out, and sliding in between as far as friction permits. With the strain ε

@@ -59,7 +59,7 @@ class StackMesh {
     Firsts before_firsts;
     for (const Slab& slab : body.slabs) {
       const std::vector<Polygon> low = outlines(slab, false), high = outlines(slab, true);
-      const Firsts low_firsts = begin(low, slab.low, before, before_firsts);
+      const Firsts low_firsts = add_faces(low, slab.low, before, before_firsts);
       Firsts high_firsts;
       for (std::size_t i = 0; i < high.size(); ++i) {
         high_firsts.push_back(add_ring(high[i], slab.high));
@@ -68,7 +68,7 @@ class StackMesh {
       before = high;
       before_firsts = high_firsts;
     }
-    begin({}, body.slabs.empty() ? 0.0 : body.slabs.back().high, before, before_firsts);
+    add_faces({}, body.slabs.empty() ? 0.0 : body.slabs.back().high, before, before_firsts);
   }
 
   solid::TriangleMesh take() { return std::move(mesh_); }
@@ -89,13 +89,14 @@ class StackMesh {
     }
   }
 
-  void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool turned_round) {
-    mesh_.triangles.push_back(turned_round ? std::array{a, c, b} : std::array{a, b, c});
+  void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool reversed) {
+    mesh_.triangles.push_back(reversed ? std::array{a, c, b} : std::array{a, b, c});
   }
 
-  /// Adds the flat faces between loops that end at `z` and loops that begin there. Returns the rings of the latter; a
+  /// Adds the flat faces between loops that end at `z` and loops that begin there. Returns the rings of `next`; a
   /// continued loop keeps its ring.
-  Firsts begin(const std::vector<Polygon>& next, double z, const std::vector<Polygon>& before, const Firsts& firsts) {
+  Firsts add_faces(const std::vector<Polygon>& next, double z, const std::vector<Polygon>& before,
+                   const Firsts& firsts) {
     std::vector<bool> goes_on(before.size(), false);
     Firsts next_firsts;
     std::vector<Polygon> rims;

@@ -57,7 +57,7 @@ std::vector<SlabLoop> motor_holes(const fusee::MotorType& motor, const Vec2& pul
   return holes;
 }
 
-double beside_motor(const fusee::MotorType& motor, const Vec2& off, const Vec2& front) {
+double distance_to_motor(const fusee::MotorType& motor, const Vec2& off, const Vec2& front) {
   const double along = off.dot(front);
   return std::max({std::abs(off.x()) - std::max(motor.side, motor.hole_x + motor.hole),
                    along - std::max(motor.front, motor.hole_front + motor.hole),

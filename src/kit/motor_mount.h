@@ -15,7 +15,7 @@ Vec2 motor_front(const Vec2& pulley);
 /// Holes through the plate.
 std::vector<SlabLoop> motor_holes(const fusee::MotorType& motor, const Vec2& pulley, const Vec2& front);
 /// Distance in the plane from the motor's body and screws to a place relative to the pulley's axis, negative inside.
-double beside_motor(const fusee::MotorType& motor, const Vec2& off, const Vec2& front);
+double distance_to_motor(const fusee::MotorType& motor, const Vec2& off, const Vec2& front);
 /// Corners of the part of the base plate that supports the motor.
 std::vector<Disc> motor_corners(const fusee::MotorType& motor, const Vec2& pulley, const Vec2& front);
 void buy_motor(KitPlan& plan, const fusee::MotorType& motor, double plate);

@@ -242,8 +242,8 @@ void check_axle(Conditions& checks, const Scene& scene, const KitPlan& plan) {
                     std::string(tendon == 0 ? "guides.EB_mm" : "guides.ED_mm") + " larger by {}");
   }
   if (sizes.motor) {
-    const double beside = beside_motor(*sizes.motor, axis - scene.pulley, sizes.motor_front);
-    checks.at_least("axle_beside_motor", fixed(beside - sizes.axle->head_radius), k_clear,
+    const double distance = distance_to_motor(*sizes.motor, axis - scene.pulley, sizes.motor_front);
+    checks.at_least("axle_beside_motor", fixed(distance - sizes.axle->head_radius), k_clear,
                     "the screw of the joint's axle is too close to the motor (" + sizes.motor->name + ")",
                     "pulley.EF_mm " + std::string(scene.pulley.y() < 0 ? "larger" : "smaller") +
                         " by {}, or a smaller motor (body.shaft, body.horn)");
@@ -271,8 +271,8 @@ void check_pins(Conditions& checks, const Scene& scene, const KitPlan& plan) {
     if (sizes.motor) {
       const double radius = own.screw ? own.screw->head_radius : own.radius + k_wall;
       checks.at_least("pin_" + name + "_beside_motor",
-                      {beside_motor(*sizes.motor, own.place - scene.pulley, sizes.motor_front) - radius, 0}, k_clear,
-                      "pin " + name + " is too close to the motor (" + sizes.motor->name + ")",
+                      {distance_to_motor(*sizes.motor, own.place - scene.pulley, sizes.motor_front) - radius, 0},
+                      k_clear, "pin " + name + " is too close to the motor (" + sizes.motor->name + ")",
                       "pulley.EF_mm larger by {}");
     }
   }
@@ -340,7 +340,7 @@ class FootRoom {
       if ((place - pin.place).norm() < pin.collar + 1 + own) return false;
     }
     if (sizes.motor &&
-        beside_motor(*sizes.motor, place - scene_.pulley, sizes.motor_front) < nut_corner_radius(*sizes.foot) + 1)
+        distance_to_motor(*sizes.motor, place - scene_.pulley, sizes.motor_front) < nut_corner_radius(*sizes.foot) + 1)
       return false;
     for (const auto& paths : scene_.paths) {
       for (const auto& path : paths) {

@@ -122,11 +122,11 @@ class TemplateMaker {
     }
     return nullptr;
   }
-  /// Radius of the opening for that ring, which does not rotate.
+  /// Radius of the opening for the ring of these bearings, which does not rotate.
   static double ring_hole(const fusee::BearingType& bearing) { return 0.5 * bearing.spacer + k_beside; }
   double hole_in_drum() const { return bearing_ ? ring_hole(*bearing_) : 0.5 * axle_.clearance; }
 
-  bool idlers() const { return mechanism_.guides.kind == GuideKind::idler; }
+  bool has_idlers() const { return mechanism_.guides.kind == GuideKind::idler; }
 
   double smallest_lever() const {
     const Joint& joint = mechanism_.joint;
@@ -139,7 +139,7 @@ class TemplateMaker {
   void base() {
     std::vector<NamedHole> holes{{"axle", {0, 0}, 0.5 * axle_.clearance}};
     const double pin_hole =
-        idlers() ? 0.5 * thread_within(mechanism_.guides.bearing_radius).clearance : mechanism_.guides.radius;
+        has_idlers() ? 0.5 * thread_within(mechanism_.guides.bearing_radius).clearance : mechanism_.guides.radius;
     for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
       const transmission::PinPlace place = transmission::pin_place(mechanism_, side, 0);
       const double sign = transmission::mirror_sign(side);
@@ -186,8 +186,8 @@ class TemplateMaker {
       return nullptr;
     }
     for (const NamedHole& hole : holes) {
-      const double beside = beside_motor(*motor, hole.place - pulley, motor_front(pulley));
-      if (beside - hole.radius >= k_between_holes) continue;
+      const double distance = distance_to_motor(*motor, hole.place - pulley, motor_front(pulley));
+      if (distance - hole.radius >= k_between_holes) continue;
       plan_.notes.push_back("the motor " + motor->name + " would overlap the hole of " + hole.name +
                             ": the base has only a hole for its axis. Increase pulley.EF_mm or choose a smaller motor "
                             "(body.shaft, body.horn)");
@@ -244,7 +244,7 @@ class TemplateMaker {
 
   void buy_guides() {
     const Guides& guides = mechanism_.guides;
-    if (idlers())
+    if (has_idlers())
       plan_.items.push_back(
           {2,
            std::string(plan_.heights && !guides.collar ? "roller" : "idler") + " on a ball bearing, ⌀ " +

@@ -61,7 +61,7 @@ std::size_t BagLog::add_topic(std::string_view name, std::string_view type, std:
 
 void BagLog::take(std::size_t index, std::int64_t log_time, std::string_view message) {
   Topic& topic = topics_[index];
-  Unpacked unpacked;  // of a bag that is compressed message by message
+  UnpackedBytes unpacked;  // of a bag that is compressed message by message
   if (is_zstd(message)) {
     unpacked = unpack(Packing::zstd, message, k_largest_message);
     message = unpacked.bytes;
@@ -144,11 +144,11 @@ void BagLog::refuse_without_numbers() const {
 LoggedRows BagLog::finish(std::size_t most_samples) {
   if (series_.empty()) refuse_without_numbers();
   LoggedRows rows;
-  std::vector<Chosen> chosen = choose(rows);
+  std::vector<ChosenColumn> chosen = choose(rows);
   std::string why;
   const Clock clock = choose_clock(chosen, why);
   std::vector<Track> tracks;
-  for (Chosen& each : chosen) {
+  for (ChosenColumn& each : chosen) {
     Column& column = each.column;
     Track& track = tracks.emplace_back();
     track.role = column.role;
@@ -174,14 +174,14 @@ LoggedRows BagLog::finish(std::size_t most_samples) {
   rows.samples = std::move(keeper.samples);
   rows.stride = keeper.stride;
   std::vector<Column> columns;
-  for (Chosen& each : chosen) columns.push_back(std::move(each.column));
+  for (ChosenColumn& each : chosen) columns.push_back(std::move(each.column));
   settle(columns, options_, name_, rows);
   rows.has_time = true;
   return rows;
 }
 
 /// The columns of the options, and motor and joint where they are obvious.
-std::vector<BagLog::Chosen> BagLog::choose(LoggedRows& rows) const {
+std::vector<BagLog::ChosenColumn> BagLog::choose(LoggedRows& rows) const {
   std::vector<std::string> names;
   for (const auto& [name, series] : series_) names.push_back(name);
   MeasurementOptions options = options_;
@@ -192,7 +192,7 @@ std::vector<BagLog::Chosen> BagLog::choose(LoggedRows& rows) const {
   const auto add_problem = [&](const std::string& message, const std::string& hint) {
     problems.push_back(InputError(name_, message, hint).diagnostics().front());
   };
-  std::vector<Chosen> chosen;
+  std::vector<ChosenColumn> chosen;
   for (Column& column : header.columns) {
     const std::string& role = column.role;
     const Series& series = series_.at(column.name);
@@ -210,7 +210,7 @@ std::vector<BagLog::Chosen> BagLog::choose(LoggedRows& rows) const {
 
 /// The stamps of the headers are nearer to the measurement than the time of arrival at the recorder. They count if all
 /// topics have them and, for motor and joint, come from one clock.
-BagLog::Clock BagLog::choose_clock(const std::vector<Chosen>& chosen, std::string& why) const {
+BagLog::Clock BagLog::choose_clock(const std::vector<ChosenColumn>& chosen, std::string& why) const {
   const auto given = options_.columns.find("time");
   const std::string wanted = given == options_.columns.end() ? "" : given->second;
   if (!wanted.empty() && wanted != k_header_clock && wanted != k_recorder_clock)
@@ -218,7 +218,7 @@ BagLog::Clock BagLog::choose_clock(const std::vector<Chosen>& chosen, std::strin
            std::string("--column time=") + k_header_clock + " or time=" + k_recorder_clock);
   if (wanted == k_recorder_clock) return Clock::recorder;
   std::vector<std::pair<TimeSpan, TimeSpan>> angles;  // by stamp, by log time
-  for (const Chosen& each : chosen) {
+  for (const ChosenColumn& each : chosen) {
     std::pair<TimeSpan, TimeSpan> spans;
     bool is_stamped = true;
     for (const Point& point : *each.points) {
@@ -239,10 +239,10 @@ BagLog::Clock BagLog::choose_clock(const std::vector<Chosen>& chosen, std::strin
 }
 
 /// Says which topics and which clock the rows have.
-void BagLog::add_source(const std::vector<Chosen>& chosen, Clock clock, const std::string& why,
+void BagLog::add_source(const std::vector<ChosenColumn>& chosen, Clock clock, const std::string& why,
                         LoggedRows& rows) const {
   std::string words;
-  for (const Chosen& each : chosen) {
+  for (const ChosenColumn& each : chosen) {
     const bool is_position = each.column.quantity == Quantity::angle && each.column.name.ends_with("/position");
     words += (words.empty() ? "" : ", ") + each.column.role + " is " + cleaned_line(each.column.name) +
              (is_position && each.column.unit != nullptr ? " in " + std::string(each.column.unit->name) : "");

@@ -32,7 +32,7 @@ class BagLog {
   std::size_t add_topic(std::string_view name, std::string_view type, std::string_view encoding);
   /// `log_time`: of the recorder, ns. Malformed messages are counted.
   void take(std::size_t topic, std::int64_t log_time, std::string_view message);
-  /// A fault of the file that leaves the rest readable.
+  /// A fault of the file that leaves other parts readable.
   void add_note(std::string words) { notes_.push_back(std::move(words)); }
   std::size_t messages() const { return messages_; }
 
@@ -59,7 +59,7 @@ class BagLog {
   };
   enum class Clock { header, recorder };
   /// A column of the log and its numbers.
-  struct Chosen {
+  struct ChosenColumn {
     Column column;
     const std::vector<Point>* points;
   };
@@ -69,9 +69,9 @@ class BagLog {
   void thin_out();
   [[noreturn]] void refuse(const std::string& message, const std::string& hint) const;
   [[noreturn]] void refuse_without_numbers() const;
-  std::vector<Chosen> choose(LoggedRows& rows) const;
-  Clock choose_clock(const std::vector<Chosen>& chosen, std::string& why) const;
-  void add_source(const std::vector<Chosen>& chosen, Clock clock, const std::string& why, LoggedRows& rows) const;
+  std::vector<ChosenColumn> choose(LoggedRows& rows) const;
+  Clock choose_clock(const std::vector<ChosenColumn>& chosen, std::string& why) const;
+  void add_source(const std::vector<ChosenColumn>& chosen, Clock clock, const std::string& why, LoggedRows& rows) const;
 
   std::string name_;
   MeasurementOptions options_;

@@ -114,9 +114,9 @@ class ColumnFinder {
       const bool is_load = quantity_of(role) == Quantity::load;
       if (!is_load && quantity_of(role) != Quantity::time) continue;
       header_.notes.push_back("column " + shown(names_[i]) + " is not used: " + shown(name.unknown_unit) +
-                              (is_load ? " is no unit of a load" : " is no unit of time") + "; --column " + role + "=" +
-                              argument(names_[i]) + " --unit " + role + (is_load ? "=N" : "=s") +
-                              " says what it is in");
+                              (is_load ? " is no unit of a load" : " is no unit of time") +
+                              "; select the column and its unit with --column " + role + "=" + argument(names_[i]) +
+                              " --unit " + role + (is_load ? "=N" : "=s"));
     }
     return std::nullopt;
   }
@@ -159,8 +159,8 @@ class ColumnFinder {
     const bool is_unknown = name.states_unit || (is_load && by_option && !name.unknown_unit.empty());
     if (is_unknown) {
       problem("the unit of " + shown(column.name) + " is unknown: " + shown(name.unknown_unit),
-              "units: " + unit_names(column.quantity) + "; --unit " + column.role + "=" +
-                  std::string(usual_unit(column.quantity)->name) + " says which one it is");
+              "units: " + unit_names(column.quantity) + "; select one with --unit " + column.role + "=" +
+                  std::string(usual_unit(column.quantity)->name));
       return;
     }
     if (column.quantity == Quantity::angle || column.quantity == Quantity::time) return;  // settle_units()

@@ -159,7 +159,7 @@ void LogFile::end(const std::function<std::string()>& write_ahead_log) {
 void LogFile::unpack_held() {
   if (is_unpacked_) throw InputError(name_, "is packed twice", "unpack it: unzstd");
   UnpackingLimit limit;
-  const Unpacked unpacked = unpack(Packing::zstd, held_, std::min(limit.after(held_.size()), k_largest_database));
+  const UnpackedBytes unpacked = unpack(Packing::zstd, held_, std::min(limit.after(held_.size()), k_largest_database));
   if (!unpacked.whole && unpacked.bytes.empty()) throw InputError(name_, "is a damaged zstd file", "copy it again");
   held_.clear();
   format_.reset();

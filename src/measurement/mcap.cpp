@@ -184,7 +184,7 @@ void McapReader::take_chunk(std::string_view body, bool is_cut_off) {
     return;
   }
   const std::size_t most = std::min({limit_.after(packed.size()), k_largest_chunk, static_cast<std::size_t>(size)});
-  const Unpacked records = unpack(*packing, packed, most);
+  const UnpackedBytes records = unpack(*packing, packed, most);
   limit_.use(records.bytes.size());
   const bool is_whole = records.bytes.size() == size && (crc == 0 || crc32(records.bytes) == crc);
   std::vector<std::string_view> messages;

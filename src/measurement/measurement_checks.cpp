@@ -177,8 +177,7 @@ std::string fault(const transmission::TargetMotion& law, const Slopes& slopes) {
   if (ratio < -0.4 && ratio > -2.5) {
     return slope_text(slopes) +
            "one of the two has the opposite sign; alpha > 0 turns the pulley clockwise and increases theta: reverse "
-           "the "
-           "sign of one column";
+           "the sign of one column";
   }
   return slope_text(slopes) + "this is not the declared joint, or a column has another unit";
 }
@@ -196,8 +195,7 @@ void compare_with_law(const Mechanism& declared, Measurement& measurement) {
   if (!law.exists()) {
     measurement.not_testable.push_back(
         "the declared joint has no law over its range (a dead centre, or C meets a pin): there is nothing to compare "
-        "the "
-        "data with; 'fusee build' shows where");
+        "the data with; 'fusee build' shows where");
     return;
   }
   if (!std::isfinite(law.slope()) || law.slope() == 0) return;

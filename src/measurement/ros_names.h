@@ -22,15 +22,15 @@ const Unit* ros_unit(std::string_view name, Quantity quantity);
 /// The name without what a message adds: "/motor_deg/data" is "/motor_deg".
 std::string_view without_field(std::string_view name);
 
-/// True if `wanted` selects `name`: all of it or its end, with or without its last part: "/joint_states/motor/position",
-/// "motor/position", "motor".
+/// True if `wanted` selects `name`: all of it or its end, with or without its last part:
+/// "/joint_states/motor/position", "motor/position", "motor".
 bool selects(std::string_view wanted, std::string_view name);
 
 /// Indices of names that can be angles: all positions, and if there are fewer than two, all numbers of std_msgs.
 std::vector<std::size_t> ros_angles(const std::vector<std::string>& names);
 
-/// Motor and joint among the names, by words such as "motor" and "joint" in which they differ. Given ones are kept. Of
-/// two angles of one kind, one decides the other. Empty where the choice is not obvious.
+/// Motor and joint among the names, by words such as "motor" and "joint" in which they differ. Given ones are kept. If
+/// there are two angles of one kind, the choice of one decides the other. Empty where the choice is not obvious.
 struct AnglePair {
   std::optional<std::size_t> alpha, theta;
 };

@@ -380,8 +380,8 @@ class RowReader {
         fail(column_of(values_[column.index]),
              column.name + " is in " + std::string(stated->name) + " by its name, but in " + std::string(unit->name) +
                  " by the line below it",
-             "--unit " + column.role + "=" + std::string(unit->name) + " or =" + std::string(stated->name) +
-                 " says which one it is");
+             "select one with --unit " + column.role + "=" + std::string(unit->name) + " or --unit " + column.role +
+                 "=" + std::string(stated->name));
         continue;
       }
       column.unit = unit;
@@ -405,8 +405,8 @@ class RowReader {
 
   // ---- numbers with times of their own
 
-  /// A table of PlotJuggler has a row for each time at which any number was logged, with empty cells for the others. The
-  /// numbers are joined as those of a bag.
+  /// A table of PlotJuggler has a row for each time at which any number was logged, with empty cells for the others.
+  /// The numbers are joined as those of a bag.
   void begin_tracks() {
     const Column* const time = find("time");
     const bool is_ros = std::any_of(columns_.begin(), columns_.end(), [](const Column& column) {

@@ -1,6 +1,6 @@
 /// \file
-/// Internal: reads one log of any format into samples: CSV, MCAP, or a bag of ROS 2. In blocks, since a log may exceed
-/// the memory.
+/// Internal: reads one log of any format into samples: CSV, MCAP, or a bag of ROS 2. It is read in blocks, since a log
+/// may exceed the memory.
 #pragma once
 
 #include <cstddef>

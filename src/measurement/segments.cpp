@@ -67,7 +67,7 @@ void add_or_join(std::vector<RowRange>& dwells, const RowRange& next, const std:
   }
 }
 
-/// Suspected step of the motor's sensor; 0 if steps are as wide as between dwells.
+/// Probable step of the motor's sensor; 0 if steps are as wide as between dwells.
 double sensor_step(const std::vector<Sample>& samples, double quantum) {
   return k_steps_of_a_sensor * quantum < value_range(samples, &Sample::alpha).size() ? quantum : 0;
 }

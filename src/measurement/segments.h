@@ -18,7 +18,7 @@ struct RowRange {
 /// its strokes.
 std::vector<RowRange> dwells_in(const std::vector<Sample>& samples, double alpha_quantum);
 
-/// The sensor's step, given a suspected `quantum`: dwell angles also lie on a grid, of steps that are no sensor's.
+/// `quantum` if it is the sensor's step; 0 if it is the step of a grid of dwell angles.
 double sensor_quantum(const std::vector<RowRange>& dwells, const std::vector<Sample>& samples, double Sample::*angle,
                       double quantum);
 

@@ -93,7 +93,7 @@ bool cut_to_whole_pages(std::string& database) {
 
 // ---- queries --------------------------------------------------------------------------------------------------------
 
-struct Closing {
+struct SqliteCloser {
   void operator()(sqlite3* database) const { sqlite3_close(database); }
   void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 };
@@ -124,7 +124,7 @@ class Database {
   bool query(const std::string& text, const Take& take) {
     sqlite3_stmt* prepared = nullptr;
     if (sqlite3_prepare_v2(database_.get(), text.c_str(), -1, &prepared, nullptr) != SQLITE_OK) return false;
-    const std::unique_ptr<sqlite3_stmt, Closing> statement(prepared);
+    const std::unique_ptr<sqlite3_stmt, SqliteCloser> statement(prepared);
     for (;;) {
       const int code = sqlite3_step(prepared);
       if (code != SQLITE_ROW) return code == SQLITE_DONE;
@@ -135,7 +135,7 @@ class Database {
  private:
   static int is_too_long(void* self) { return --static_cast<Database*>(self)->steps_left_ < 0 ? 1 : 0; }
 
-  std::unique_ptr<sqlite3, Closing> database_;
+  std::unique_ptr<sqlite3, SqliteCloser> database_;
   std::int64_t steps_left_ = 0;
 };
 

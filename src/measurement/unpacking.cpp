@@ -19,9 +19,9 @@ bool make_room(std::string& bytes, std::size_t used, std::size_t most) {
   return true;
 }
 
-Unpacked unpack_zstd(std::string_view packed, std::size_t most) {
+UnpackedBytes unpack_zstd(std::string_view packed, std::size_t most) {
   const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(), &ZSTD_freeDCtx);
-  Unpacked result;
+  UnpackedBytes result;
   std::size_t used = 0, wanted = 1;
   ZSTD_inBuffer in{packed.data(), packed.size(), 0};
   for (bool is_full = false; !is_full && (in.pos < in.size || wanted != 0);) {
@@ -38,12 +38,12 @@ Unpacked unpack_zstd(std::string_view packed, std::size_t most) {
   return result;
 }
 
-Unpacked unpack_lz4(std::string_view packed, std::size_t most) {
+UnpackedBytes unpack_lz4(std::string_view packed, std::size_t most) {
   LZ4F_dctx* created = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&created, LZ4F_VERSION)) != 0) throw std::bad_alloc();
   const std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> context(created,
                                                                                      &LZ4F_freeDecompressionContext);
-  Unpacked result;
+  UnpackedBytes result;
   std::size_t used = 0, read = 0, wanted = 1;
   for (bool is_full = false; !is_full && (read < packed.size() || wanted != 0);) {
     if (!make_room(result.bytes, used, most)) break;
@@ -64,7 +64,7 @@ Unpacked unpack_lz4(std::string_view packed, std::size_t most) {
 
 bool is_zstd(std::string_view bytes) { return bytes.starts_with("\x28\xB5\x2F\xFD"); }
 
-Unpacked unpack(Packing packing, std::string_view packed, std::size_t most) {
+UnpackedBytes unpack(Packing packing, std::string_view packed, std::size_t most) {
   if (packing == Packing::zstd) return unpack_zstd(packed, most);
   if (packing == Packing::lz4) return unpack_lz4(packed, most);
   return {std::string(packed.substr(0, most)), packed.size() <= most};

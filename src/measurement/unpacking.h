@@ -10,13 +10,13 @@ namespace fusee::measurement {
 
 enum class Packing { none, zstd, lz4 };
 
-struct Unpacked {
+struct UnpackedBytes {
   std::string bytes;   ///< all that could be unpacked
   bool whole = false;  ///< false: the data are cut off, damaged, or larger than allowed
 };
 
 /// Unpacks frames that follow each other, up to `most` bytes.
-Unpacked unpack(Packing packing, std::string_view packed, std::size_t most);
+UnpackedBytes unpack(Packing packing, std::string_view packed, std::size_t most);
 
 /// True if the bytes begin with the magic number of a zstd frame.
 bool is_zstd(std::string_view bytes);

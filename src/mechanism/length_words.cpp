@@ -11,7 +11,7 @@ namespace fusee {
 namespace {
 
 /// A number in a message.
-struct Written {
+struct NumberInText {
   std::size_t begin = 0;
   std::size_t end = 0;
   double value = 0;
@@ -22,12 +22,12 @@ bool is_decimal(char c) { return c >= '0' && c <= '9'; }
 bool is_word_part(char c) { return is_decimal(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
 /// All numbers of a text that are not part of a word, such as P1 or M2.5.
-std::vector<Written> numbers_in(std::string_view text) {
-  std::vector<Written> found;
+std::vector<NumberInText> numbers_in(std::string_view text) {
+  std::vector<NumberInText> found;
   for (std::size_t at = 0; at < text.size(); ++at) {
     const bool signed_digit = text[at] == '-' && at + 1 < text.size() && is_decimal(text[at + 1]);
     if (!is_decimal(text[at]) && !signed_digit) continue;
-    Written number;
+    NumberInText number;
     const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), number.value);
     number.begin = at;
     number.end = static_cast<std::size_t>(end - text.data());
@@ -83,9 +83,9 @@ bool is_value_of_key(std::string_view before, std::string_view rest) {
   return false;
 }
 
-void mark_lengths(std::string_view text, std::vector<Written>& numbers) {
+void mark_lengths(std::string_view text, std::vector<NumberInText>& numbers) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    Written& number = numbers[i];
+    NumberInText& number = numbers[i];
     const std::string_view before = text.substr(0, number.begin), rest = text.substr(number.end);
     const std::string_view between = i == 0 ? "" : text.substr(numbers[i - 1].end, number.begin - numbers[i - 1].end);
     const bool follows = i > 0 && numbers[i - 1].is_length &&
@@ -113,11 +113,11 @@ int digits_of(std::string_view number) {
 
 std::string lengths_in(LengthUnit unit, const std::string& message) {
   if (unit == LengthUnit::mm) return message;
-  std::vector<Written> numbers = numbers_in(message);
+  std::vector<NumberInText> numbers = numbers_in(message);
   mark_lengths(message, numbers);
   std::string text;
   std::size_t from = 0;
-  for (const Written& number : numbers) {
+  for (const NumberInText& number : numbers) {
     if (!number.is_length) continue;
     // One digit more than in mm, so that the length is no coarser.
     const int digits =

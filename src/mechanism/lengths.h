@@ -31,8 +31,8 @@ double from_mm(double mm, LengthUnit unit);
 /// "10 thou". Nullopt for any other text.
 std::optional<double> parse_length(std::string_view text);
 
-/// TOML value that reads back as exactly `mm`: a number of the file's unit; in an inch file "5 mm" for lengths that have
-/// at most six digits in mm and more in inches.
+/// TOML value that reads back as exactly `mm`: a number of the file's unit; in an inch file "5 mm" for lengths that
+/// have at most six digits in mm and more in inches.
 std::string length_value_text(double mm, LengthUnit unit);
 
 /// A message with its lengths in the file's unit: numbers before "mm", also in lists ("20 × 30 mm", "1 to 5 mm"), and

@@ -22,8 +22,8 @@
 // Conditions are evaluated only where the evaluation of designs tests them (k_places of the stroke): designs excluded
 // by a proof are then never accepted.
 //
-// Between RoundingUp's construction and its end, rounding is directed; these functions must not be merged by the
-// compiler.
+// While a RoundingUp exists, rounding is directed. Functions that construct one are noinline, so that the compiler does
+// not merge them with others.
 
 namespace fusee::optimize {
 namespace {

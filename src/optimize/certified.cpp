@@ -77,14 +77,14 @@ class BranchAndBound {
  private:
   double tie_limit() const { return best_.empty() ? k_none : best_value_ + options_.tie * std::abs(best_value_); }
 
-  // ---- branch and bound ----------------------------------------------------------------------------------------------
+  // ---- branch and bound ---------------------------------------------------------------------------------------------
 
   void start() {
-    for (const Design& design : options_.first_tries) accept_if_better(evaluated(design));
+    for (const Design& design : options_.first_tries) accept_if_better(evaluate(design));
     constexpr int k_first_tries = 200;
     Random random(1);
-    for (int i = 0; i < k_first_tries && !stopped(-k_none); ++i)
-      accept_if_better(evaluated(random_design(problem_, random)));
+    for (int i = 0; i < k_first_tries && !must_stop(-k_none); ++i)
+      accept_if_better(evaluate(random_design(problem_, random)));
     for (std::size_t i = 0; i < count_; ++i) {
       root_.lower[i] = problem_.variables[i].lower;
       root_.upper[i] = problem_.variables[i].upper;
@@ -94,8 +94,8 @@ class BranchAndBound {
     process({root_});
   }
 
-  /// Best-first search until the smallest bound meets the best design. Then up to the same effort again for a gap a
-  /// hundred times smaller, to improve the design. False if it was stopped before.
+  /// Best-first search until the smallest bound meets the best design; false if it is stopped before. The search then
+  /// goes on for at most as many boxes, to a gap a hundred times smaller, because that improves the design.
   bool branch() {
     const bool met = branch_until(0.5 * options_.gap, options_.most_boxes);
     if (met) branch_until(0.005 * options_.gap, std::min(options_.most_boxes, 2 * boxes_));
@@ -106,7 +106,7 @@ class BranchAndBound {
     while (!queue_.empty()) {
       const double bound = queue_.top().bound;
       if (is_met(bound, gap)) return true;
-      if (boxes_ >= most_boxes || stopped(bound)) return false;
+      if (boxes_ >= most_boxes || must_stop(bound)) return false;
       std::vector<Box> batch;
       while (!queue_.empty() && batch.size() < k_batch && !is_met(queue_.top().bound, gap)) {
         for (const Box& half : halves(queue_.top())) batch.push_back(half);
@@ -121,7 +121,7 @@ class BranchAndBound {
     return !best_.empty() && best_value_ - bound <= gap * std::abs(best_value_);
   }
 
-  bool stopped(double bound) {
+  bool must_stop(double bound) {
     if (stopped_) return true;
     const double gap = (best_value_ - bound) / std::abs(best_value_);
     // The gap closes by powers of ten.
@@ -131,11 +131,11 @@ class BranchAndBound {
     return stopped_;
   }
 
-  /// Boxes are bounded in parallel, with the knowledge from before; results are taken in order.
+  /// Bounds all boxes in parallel, with the best design of earlier batches. Outcomes have the order of the boxes.
   std::vector<Outcome> outcomes_of(const std::vector<Box>& boxes) {
     std::vector<Outcome> outcomes(boxes.size());
     ThreadPool::shared().each(
-        boxes.size(), [&](std::size_t i, std::size_t) { outcomes[i] = bounded(boxes[i], i < k_mended); },
+        boxes.size(), [&](std::size_t i, std::size_t) { outcomes[i] = bound_box(boxes[i], i < k_repaired); },
         options_.threads);
     boxes_ += static_cast<long>(boxes.size());
     for (const Outcome& outcome : outcomes) evaluations_ += outcome.evaluations;
@@ -162,8 +162,8 @@ class BranchAndBound {
     }
   }
 
-  /// `mends`: if the resulting design is infeasible, a feasible one near it is searched.
-  Outcome bounded(const Box& given, bool mends) const {
+  /// `repairs`: if the resulting design is infeasible, a feasible one near it is searched.
+  Outcome bound_box(const Box& given, bool repairs) const {
     Outcome outcome;
     outcome.box = given;
     const BoxBound bound = bounds_.bound(outcome.box, tie_limit());
@@ -174,11 +174,11 @@ class BranchAndBound {
     outcome.box.cut = best_cut(outcome.box, bound);
     if (bound.bound > best_value_) return outcome;
     outcome.evaluated.push_back(
-        evaluated(bound.lowest.empty() ? middle_of(outcome.box) : kept(bound.lowest, outcome.box)));
-    if (best_.empty() && !bound.lowest.empty()) outcome.evaluated.push_back(evaluated(middle_of(outcome.box)));
-    if (mends && !bound.lowest.empty() && !outcome.evaluated.front().evaluation.possible) {
-      const Design mended = bounds_.lowest_around(bound.lowest, std::max(1e-3, relative_size(outcome.box)));
-      if (!mended.empty()) outcome.evaluated.push_back(evaluated(kept(mended, root_)));
+        evaluate(bound.lowest.empty() ? middle_of(outcome.box) : constrained(bound.lowest, outcome.box)));
+    if (best_.empty() && !bound.lowest.empty()) outcome.evaluated.push_back(evaluate(middle_of(outcome.box)));
+    if (repairs && !bound.lowest.empty() && !outcome.evaluated.front().evaluation.possible) {
+      const Design repaired = bounds_.lowest_around(bound.lowest, std::max(1e-3, relative_size(outcome.box)));
+      if (!repaired.empty()) outcome.evaluated.push_back(evaluate(constrained(repaired, root_)));
     }
     return outcome;
   }
@@ -195,7 +195,7 @@ class BranchAndBound {
   }
 
   /// Satisfies the constraints, if moving a single variable suffices.
-  Design kept(const Design& design, const Box& box) const {
+  Design constrained(const Design& design, const Box& box) const {
     for (std::size_t i = 0; i < count_ && !problem_.constraints.empty(); ++i) {
       const Design moved = moved_into_constraints(design, i, box);
       if (constraint_violation(problem_, moved) == 0) return moved;
@@ -203,7 +203,7 @@ class BranchAndBound {
     return design;
   }
 
-  EvaluatedDesign evaluated(const Design& design) const {
+  EvaluatedDesign evaluate(const Design& design) const {
     return {design, evaluate_design(problem_, objective_, design)};
   }
 
@@ -223,10 +223,10 @@ class BranchAndBound {
     constexpr double k_least = 1e-8, k_smaller = 0.25, k_larger = 2.0;
     constexpr int k_steps = 40;
     double size = 0.05;
-    for (int step = 0; step < k_steps && size > k_least && !best_.empty() && !stopped(-k_none); ++step) {
+    for (int step = 0; step < k_steps && size > k_least && !best_.empty() && !must_stop(-k_none); ++step) {
       const double before = best_value_;
       const Design lowest = bounds_.lowest_around(best_, size);
-      if (!lowest.empty()) accept_if_better(evaluated(kept(lowest, root_)));
+      if (!lowest.empty()) accept_if_better(evaluate(constrained(lowest, root_)));
       size *= best_value_ < before - 1e-3 * options_.gap * std::abs(before) ? k_larger : k_smaller;
     }
     polished_ = best_value_;
@@ -261,7 +261,7 @@ class BranchAndBound {
     return middle;
   }
 
-  // ---- result --------------------------------------------------------------------------------------------------------
+  // ---- result -------------------------------------------------------------------------------------------------------
 
   void finish(CertifiedResult& result) {
     result.best = best_;
@@ -299,7 +299,7 @@ class BranchAndBound {
       if (box.bound <= tie_limit()) by_size.emplace(relative_size(box), box);
     }
     ties.known = {best_, best_};
-    while (!by_size.empty() && by_size.begin()->first > k_small && !stopped(best_value_) &&
+    while (!by_size.empty() && by_size.begin()->first > k_small && !must_stop(best_value_) &&
            static_cast<long>(by_size.size()) < options_.most_tie_boxes) {
       std::vector<Box> batch;
       for (; !by_size.empty() && by_size.begin()->first > k_small && batch.size() < k_batch;
@@ -351,7 +351,7 @@ class BranchAndBound {
   /// Halves per batch: enough for eight threads, and few compared with a search. The search does not depend on the
   /// number of threads.
   static constexpr std::size_t k_batch = 32;
-  static constexpr std::size_t k_mended = 4;  ///< number of boxes of a batch with the lowest bounds
+  static constexpr std::size_t k_repaired = 4;  ///< number of boxes of a batch with the lowest bounds
 
   const Problem& problem_;
   std::size_t count_;
@@ -371,10 +371,6 @@ class BranchAndBound {
   long evaluations_ = 0;
   bool stopped_ = false;
 };
-
-}  // namespace
-
-namespace {
 
 double least_of(const MovingKey& moving, const std::vector<Variable>& variables) {
   double least = moving.constant;

@@ -34,7 +34,7 @@ constexpr std::size_t k_basic_conditions = 4;
 constexpr std::size_t k_drawing_conditions = 6;  ///< method = "paper": radii too
 constexpr std::size_t k_max_conditions = 10;     ///< method = "exact"
 
-/// Number of these conditions that apply.
+/// Number of conditions that apply to a design.
 inline std::size_t condition_count(bool feasible, Method method) {
   if (!feasible) return k_basic_conditions;
   return method == Method::exact ? k_max_conditions : k_drawing_conditions;

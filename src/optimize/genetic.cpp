@@ -92,7 +92,7 @@ struct GenerationEvaluator {
   }
 
   /// Evaluates a few at a time and checks in between for a stop.
-  void evaluator(const std::vector<Design>& designs) {
+  void evaluate(const std::vector<Design>& designs) {
     constexpr std::size_t k_at_once = 16;
     known.clear();
     for (std::size_t begin = 0; begin < designs.size(); begin += k_at_once) {
@@ -129,7 +129,7 @@ std::unique_ptr<Evolution> evolution_of(const GenerationEvaluator& evaluator, Ev
 }
 
 void advance(Evolution& evolution, GenerationEvaluator& evaluator) {
-  evaluator.evaluator(evolution.next_designs());
+  evaluator.evaluate(evolution.next_designs());
   evolution.advance(evaluator.known);
 }
 
@@ -144,11 +144,11 @@ void begin(Evolution& evolution, GenerationEvaluator& evaluator, const GeneticOp
       design = random_design(evaluator.problem, random);
     designs.push_back(std::move(design));
   }
-  evaluator.evaluator(designs);
+  evaluator.evaluate(designs);
   evolution.begin(designs, evaluator.known);
 }
 
-Generation described(unsigned number, const Evolution& evolution, Objective objective, double best_before) {
+Generation describe_generation(unsigned number, const Evolution& evolution, Objective objective, double best_before) {
   Generation generation;
   generation.number = number;
   const double sign = info(objective).largest ? -1.0 : 1.0;
@@ -165,7 +165,9 @@ Generation described(unsigned number, const Evolution& evolution, Objective obje
   return generation;
 }
 
-std::optional<double> found(double best) { return std::abs(best) < k_no_value ? std::optional(best) : std::nullopt; }
+std::optional<double> known_value(double best) {
+  return std::abs(best) < k_no_value ? std::optional(best) : std::nullopt;
+}
 
 }  // namespace
 
@@ -180,9 +182,9 @@ GeneticResult genetic_optimum(const Problem& problem, Objective objective, const
     for (unsigned number = 0; number <= options.generations; ++number) {
       evaluator.done = static_cast<double>(number) / options.generations;
       if (number > 0) advance(*evolution, evaluator);
-      result.generations.push_back(described(number, *evolution, objective, best));
+      result.generations.push_back(describe_generation(number, *evolution, objective, best));
       best = result.generations.back().best;
-      evaluator.best = found(best);
+      evaluator.best = known_value(best);
       result.best = evolution->best();
     }
   } catch (const SearchStopped&) {

@@ -185,10 +185,10 @@ namespace {
 std::optional<std::string> obstacle_to_pulleys(const Problem& problem, const Mechanism& mechanism) {
   const auto obstacle = profile::obstacle_to(mechanism);
   if (!obstacle) return std::nullopt;
-  if (!profile::is_of_one_turn(*obstacle) || !problem.several_turns || profile::kept_to_one_turn(mechanism))
+  if (!profile::is_of_one_turn(*obstacle) || !problem.multi_turn || profile::kept_to_one_turn(mechanism))
     return obstacle->message;
   if (const auto other = profile::obstacle_but_one_turn(mechanism)) return other->message;
-  return problem.several_turns(mechanism);
+  return problem.multi_turn(mechanism);
 }
 
 }  // namespace
@@ -232,7 +232,7 @@ bool is_widened(const Problem& problem) {
 
 bool has_footprint(const Problem& problem) { return !is_widened(problem) && !problem.base.sheath.is_there(); }
 
-Problem make_problem(const MechanismFile& file, JointConverter identified_joint, HelicalCheck several_turns) {
+Problem make_problem(const MechanismFile& file, JointConverter identified_joint, HelicalCheck multi_turn) {
   const Optimization& table = file.mechanism.optimize;
   if (file.mechanism.transmission)
     throw InputError(file.path, "declares [transmission] in place of a mechanism",
@@ -247,7 +247,7 @@ Problem make_problem(const MechanismFile& file, JointConverter identified_joint,
   problem.base = file.mechanism;
   problem.base.optimize = {};  // designs are copied by the thousand
   problem.identified_joint = std::move(identified_joint);
-  problem.several_turns = std::move(several_turns);
+  problem.multi_turn = std::move(multi_turn);
   for (const std::string& name : table.objectives) problem.objectives.push_back(find_objective(name));
   problem.variables = variables_of(table);
   add_moving_keys(problem, table);

@@ -31,7 +31,7 @@ constexpr bool k_may_be_wide = std::is_same_v<S, double> || std::is_same_v<S, tr
 /// Features of a mechanism that the paper's joint lacks.
 struct WideKind {
   bool drum = false, own1 = false, own2 = false, idlers = false, sheath = false;
-  bool sheath_gives = false;
+  bool sheath_is_compliant = false;
 
   bool is_papers() const { return !drum && !own1 && !own2 && !idlers && !sheath; }
 };
@@ -101,7 +101,7 @@ SheathNumbers<S> sheath_numbers(const WideKind& kind, const WideFileNumbers<S>& 
   return {file.sheath_length,
           file.sheath_bend,
           file.sheath_mu,
-          kind.sheath_gives ? S(1.0 / file.sheath_stiffness) : S(0.0),
+          kind.sheath_is_compliant ? S(1.0 / file.sheath_stiffness) : S(0.0),
           across,
           above,
           hypot(across, above),

@@ -84,7 +84,7 @@ bool is_optimal(const PaperAssumptions& assumptions, optimize::Objective objecti
 // ---- windows --------------------------------------------------------------------------------------------------------
 
 std::vector<ParameterWindows> windows_of(const PaperAssumptions& assumptions, const Holds& holds) {
-  struct Searched {
+  struct SearchedParameter {
     const char* parameter;
     const char* unit;
     double PaperAssumptions::*member;
@@ -92,11 +92,11 @@ std::vector<ParameterWindows> windows_of(const PaperAssumptions& assumptions, co
   };
   // μ = 0 is excluded, because whole surfaces tie there. r1 begins where P2 turns once; EF where the pulley touches the
   // line of the pins.
-  constexpr Searched searched[] = {{"mu", "", &PaperAssumptions::mu, 0.01, 0.51},
-                                   {"r1", "mm", &PaperAssumptions::r1, 2.0, 42.0},
-                                   {"EF", "mm", &PaperAssumptions::EF, 20.0, 220.0}};
+  constexpr SearchedParameter searched[] = {{"mu", "", &PaperAssumptions::mu, 0.01, 0.51},
+                                            {"r1", "mm", &PaperAssumptions::r1, 2.0, 42.0},
+                                            {"EF", "mm", &PaperAssumptions::EF, 20.0, 220.0}};
   std::vector<ParameterWindows> all;
-  for (const Searched& one : searched) {
+  for (const SearchedParameter& one : searched) {
     PaperAssumptions changed = assumptions;
     const auto holds_at = [&](double value) {
       changed.*one.member = value;

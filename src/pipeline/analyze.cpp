@@ -6,13 +6,13 @@
 #include "pipeline/design.h"
 #include "pipeline/layout.h"
 #include "pipeline/motor_advice.h"
-#include "pipeline/several_turns.h"
+#include "pipeline/multi_turn.h"
 
 namespace fusee::pipeline {
 namespace {
 
-/// Removes the obstacles that a pulley of several turns does not have.
-void wind_several_times(analysis::AnalysisResult& result) {
+/// Removes the obstacles that a multi-turn pulley does not have.
+void drop_one_turn_obstacles(analysis::AnalysisResult& result) {
   std::erase_if(result.obstacles,
                 [](const profile::Condition& condition) { return condition.name.rfind("one_turn_", 0) == 0; });
 }
@@ -47,7 +47,7 @@ analysis::AnalysisResult analyze(const MechanismFile& file, const analysis::Anal
   const std::vector<Diagnostic> bends = analysis::tight_bends(file);
   result.warnings.insert(result.warnings.end(), bends.begin(), bends.end());
   if (const auto turns = note_on_turns(file)) {
-    wind_several_times(result);
+    drop_one_turn_obstacles(result);
     result.warnings.push_back(*turns);
     for (Diagnostic& warning : warnings_of_turns(file)) result.warnings.push_back(std::move(warning));
   }

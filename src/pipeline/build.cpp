@@ -12,13 +12,13 @@
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
 #include "pipeline/agreement.h"
-#include "pipeline/axle_room.h"
+#include "pipeline/axle_clearance.h"
 #include "pipeline/design.h"
 #include "pipeline/law_table_copy.h"
 #include "pipeline/layout.h"
 #include "pipeline/motor_advice.h"
+#include "pipeline/multi_turn.h"
 #include "pipeline/omissions.h"
-#include "pipeline/several_turns.h"
 #include "pipeline/thin_walls.h"
 #include "solid/print.h"
 
@@ -117,7 +117,7 @@ std::vector<Check> step_checks(const BuildContext& context) {
   std::vector<Check> checks = std::move(inspection.checks);
   if (!all_ok(checks)) return checks;
   const profile::RewindResult wound =
-      product.helix ? rewind_several_turns(product, inspection.helical).result
+      product.helix ? rewind_multi_turn(product, inspection.helical).result
                     : rewind_floors(product.joint, product.pulley.layout, inspection.floor1, inspection.floor2);
   for (Check& check : as_built_checks(product.joint.mechanism, wound, context.options.limits))
     checks.push_back(std::move(check));
@@ -251,9 +251,9 @@ Tables check_helical_parts(BuildContext& context, const formats::DracoFile& drac
   auto of_3mf = run_async([&] { return same_mesh(mesh, context.mesh_of("pulley.3mf")); });
   auto of_obj = run_async([&] { return same_mesh(mesh, context.mesh_of("pulley.obj")); });
   auto of_profile = run_async([&] { return check_part(context.read_back("profile.dxf")); });
-  auto of_pulley = run_async([&] { return check_several_turns(product, mesh); });
+  auto of_pulley = run_async([&] { return check_multi_turn(product, mesh); });
   auto of_printing = run_async([&] { return print_checks(mechanism.print, mesh); });
-  auto as_built = run_async([&] { return rewind_several_turns(product, mesh); });
+  auto as_built = run_async([&] { return rewind_multi_turn(product, mesh); });
   auto of_step =
       run_async([&] { return has_step(context) ? step_checks(context) : std::vector<Check>(); }, context.options.step);
   context.add(of_pulley.get());
@@ -306,18 +306,18 @@ void write_texts(BuildContext& context, Tables tables) {
   context.stage("manifest.json", manifest.get());
 }
 
-bool passes_checks_of_several_turns(const formats::Product& product, const BuildOptions& options) {
+bool passes_multi_turn_checks(const formats::Product& product, const BuildOptions& options) {
   const Mechanism& mechanism = product.joint.mechanism;
   const solid::TriangleMesh& mesh = product.pulley.mesh;
-  return all_ok(check_several_turns(product, mesh)) && all_ok(print_checks(mechanism.print, mesh)) &&
-         all_ok(as_built_checks(mechanism, rewind_several_turns(product, mesh).result, options.limits));
+  return all_ok(check_multi_turn(product, mesh)) && all_ok(print_checks(mechanism.print, mesh)) &&
+         all_ok(as_built_checks(mechanism, rewind_multi_turn(product, mesh).result, options.limits));
 }
 
 /// Designs curves, body and plates in memory and runs the checks that a design can fail.
 bool passes_checks(formats::Product& product, const BuildOptions& options, const RunContext& context) {
   product.joint = joint::identified_joint(product.file.mechanism);
   if (!design_any(product, options.chord_error_mm, options.limits, context, solid::TieOffSearch::brief)) return false;
-  if (product.helix) return passes_checks_of_several_turns(product, options);
+  if (product.helix) return passes_multi_turn_checks(product, options);
   const Mechanism& mechanism = product.joint.mechanism;
   const solid::TriangleMesh& mesh = product.pulley.mesh;
   context.throw_if_stopped();
@@ -450,7 +450,7 @@ profile::Advice advice_for(const formats::Product& product, const BuildOptions& 
     return is_made(trial, options, context) && (!with_motor || motor_suffices(trial));
   };
   if (product.helix) {
-    return advice_for_several_turns(product, {options.chord_error_mm, made, context});
+    return multi_turn_advice(product, {options.chord_error_mm, made, context});
   }
   const FeasibilityCheck check(product, options, context, with_motor);
   std::atomic<int> begun = 0;
@@ -515,7 +515,7 @@ std::vector<std::string> advised_notes(const formats::Product& product, const Bu
 
 std::vector<Diagnostic> parts_in_the_way(const formats::Product& product, const BuildOptions& options,
                                          const RunContext& context) {
-  return pulley_in_the_way(product, [&](const Mechanism& changed) {
+  return axle_clearance_warnings(product, [&](const Mechanism& changed) {
     return options.advice ? made(with_declared(product.file, changed), options, context) : std::nullopt;
   });
 }
@@ -537,7 +537,7 @@ void write_and_check(BuildContext& context) {
     product.file.warnings.push_back(std::move(*lost));
   }
   compare_with_motor(context);
-  for (Diagnostic& thin : walls_below_a_line(product)) product.file.warnings.push_back(std::move(thin));
+  for (Diagnostic& thin : thin_wall_warnings(product)) product.file.warnings.push_back(std::move(thin));
   write_texts(context, std::move(tables));
   context.result.status = all_ok(context.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
 }

@@ -3,7 +3,7 @@
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
 #include "pipeline/law_table_copy.h"
-#include "pipeline/several_turns.h"
+#include "pipeline/multi_turn.h"
 
 namespace fusee::pipeline {
 namespace {

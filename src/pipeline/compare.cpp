@@ -1,6 +1,6 @@
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
-#include "pipeline/several_turns.h"
+#include "pipeline/multi_turn.h"
 
 namespace fusee::pipeline {
 namespace {

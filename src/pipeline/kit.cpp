@@ -10,7 +10,7 @@
 #include "pipeline/agreement.h"
 #include "pipeline/design.h"
 #include "pipeline/law_table_copy.h"
-#include "pipeline/several_turns.h"
+#include "pipeline/multi_turn.h"
 #include "solid/print.h"
 
 namespace fusee::pipeline {
@@ -112,7 +112,7 @@ bool has_kit(const MechanismFile& file, double chord_error_mm, const RunContext&
   }
 }
 
-/// Changes that make room for the rig of a feasible pulley.
+/// Changes with which the rig of a feasible pulley has no collisions.
 profile::Advice advice_for_kit(const MechanismFile& file, const formats::KitProduct& product, const KitOptions& options,
                                const RunContext& context) {
   const kit::KitPlan& plan = product.plan;
@@ -182,7 +182,7 @@ KitResult kit(const MechanismFile& file, const KitOptions& options, const RunCon
   product.plan = plan_of(product.pulley);
   if (!product.plan.made()) {
     result.ending = KitEnding::no_kit;
-    context.begin_step("searching for changes that make room");
+    context.begin_step("searching for changes that avoid collisions");
     result.advice = advice_for_kit(file, product, options, context.without_progress());
     return result;
   }

@@ -13,7 +13,7 @@
 #include "fusee/solid.h"
 #include "fusee/transmission.h"
 #include "pipeline/design.h"
-#include "pipeline/several_turns.h"
+#include "pipeline/multi_turn.h"
 #include "transmission/load.h"
 
 namespace fusee::pipeline {
@@ -188,7 +188,7 @@ std::optional<std::string> quick_obstacle(const DeclaredMechanism& declared) {
   if (!curves.obstacles.empty()) {
     const bool turns = std::all_of(curves.obstacles.begin(), curves.obstacles.end(), profile::is_of_one_turn);
     if (!turns || profile::kept_to_one_turn(mechanism)) return curves.obstacles.front().message;
-    return obstacle_to_several_turns(mechanism);
+    return obstacle_to_multi_turn(mechanism);
   }
   const std::vector<profile::Condition> of_body = solid::body_obstacles(mechanism, curves.synthesis);
   return of_body.empty() ? std::nullopt : std::optional(of_body.front().message);

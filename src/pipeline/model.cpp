@@ -5,7 +5,7 @@
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
 #include "pipeline/design.h"
-#include "pipeline/several_turns.h"
+#include "pipeline/multi_turn.h"
 #include "pipeline/without_law.h"
 
 namespace fusee::pipeline {

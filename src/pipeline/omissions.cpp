@@ -161,7 +161,7 @@ class OmissionSearch {
     const Curves curves = curves_of(with_declared(product_.file, trial.mechanism).mechanism);
     if (!curves.obstacles.empty()) return std::nullopt;
     const solid::BodyPlan plan = solid::plan_body(curves.joint.mechanism, curves.synthesis);
-    return plan.possible() ? std::optional(features_of(plan.layout)) : std::nullopt;
+    return plan.is_possible() ? std::optional(features_of(plan.layout)) : std::nullopt;
   }
 
   /// "try pulley.r1_mm = 11 (now 9)", and what it costs.

@@ -6,7 +6,7 @@
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
 #include "pipeline/design_file.h"
-#include "pipeline/several_turns.h"
+#include "pipeline/multi_turn.h"
 
 namespace fusee::pipeline {
 namespace {
@@ -30,7 +30,7 @@ SearchMethod strongest_method(const optimize::Problem& problem) {
 }
 
 optimize::Problem problem_of(const MechanismFile& file) {
-  return optimize::make_problem(file, joint_gate(file.mechanism), obstacle_to_several_turns);
+  return optimize::make_problem(file, joint_gate(file.mechanism), obstacle_to_multi_turn);
 }
 
 void demand_one_objective(const MechanismFile& file, const optimize::Problem& problem) {

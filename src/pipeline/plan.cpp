@@ -1,5 +1,5 @@
 #include "fusee/pipeline.h"
-#include "pipeline/several_turns.h"
+#include "pipeline/multi_turn.h"
 #include "pipeline/without_law.h"
 
 namespace fusee::pipeline {

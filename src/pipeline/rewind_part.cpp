@@ -9,7 +9,7 @@
 #include "fusee/pipeline.h"
 #include "fusee/profile.h"
 #include "fusee/solid.h"
-#include "pipeline/several_turns.h"
+#include "pipeline/multi_turn.h"
 
 namespace fusee::pipeline {
 namespace {
@@ -201,7 +201,7 @@ RewoundPart rewind_placed(const joint::IdentifiedJoint& joint, std::vector<solid
 // ---- helical parts --------------------------------------------------------------------------------------------------
 
 bool is_helical(const joint::IdentifiedJoint& joint) {
-  return profile::need_several_turns(declared_curves(joint)) && !profile::kept_to_one_turn(joint.mechanism);
+  return profile::needs_multi_turn(declared_curves(joint)) && !profile::kept_to_one_turn(joint.mechanism);
 }
 
 profile::RewindResult rewind_helical_part(const joint::IdentifiedJoint& joint, const Part& part) {
@@ -211,13 +211,13 @@ profile::RewindResult rewind_helical_part(const joint::IdentifiedJoint& joint, c
                      "use the mesh: pulley.stl");
   formats::Product expected;
   expected.joint = joint;
-  if (!design_several_turns(expected, BuildOptions().chord_error_mm, {})) {
+  if (!design_multi_turn(expected, BuildOptions().chord_error_mm, {})) {
     std::string why = expected.synthesis.made() ? "" : expected.synthesis.brief();
     for (const profile::Condition& condition : expected.pulley.conditions)
       if (!condition.ok && why.empty()) why = condition.message;
     throw InputError("", "no pulley is feasible for this mechanism: " + why);
   }
-  return rewind_several_turns(expected, *mesh).result;
+  return rewind_multi_turn(expected, *mesh).result;
 }
 
 /// Winds on the part in its present position, axis along z: the search for a move needs grooves of constant height.

@@ -2,7 +2,7 @@
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
 #include "mechanism/effect.h"
-#include "pipeline/several_turns.h"
+#include "pipeline/multi_turn.h"
 #include "pipeline/without_law.h"
 #include "transmission/target_motion.h"
 

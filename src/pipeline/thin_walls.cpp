@@ -31,7 +31,7 @@ double thinnest_measured(const formats::Product& product, double at_most) {
 
 }  // namespace
 
-std::vector<Diagnostic> walls_below_a_line(const formats::Product& product) {
+std::vector<Diagnostic> thin_wall_warnings(const formats::Product& product) {
   const solid::BodyLayout& layout = product.pulley.layout;
   const Body& body = product.joint.mechanism.body;
   const double line = product.joint.mechanism.print.nozzle - k_grain;

@@ -11,6 +11,6 @@ namespace fusee::pipeline {
 
 /// Warnings about flanges and walls of a checked part that are thinner than print.nozzle_mm. A slicer omits or widens
 /// such walls.
-std::vector<Diagnostic> walls_below_a_line(const formats::Product& product);
+std::vector<Diagnostic> thin_wall_warnings(const formats::Product& product);
 
 }  // namespace fusee::pipeline

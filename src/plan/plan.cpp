@@ -19,7 +19,7 @@ namespace {
 /// A candidate measurement and its information.
 struct Option {
   PlanStep step;
-  std::optional<Signatures::Seen> seen;
+  std::optional<Signatures::RunEquations> seen;
   Eigen::MatrixXd read;
 
   Information added_to(const Information& known) const { return seen ? known.with(*seen) : known.with(read); }

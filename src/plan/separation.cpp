@@ -27,7 +27,7 @@ Information Information::none(Eigen::Index columns) {
   return {Eigen::MatrixXd::Zero(columns, columns), Eigen::MatrixXd::Zero(columns, columns), 0};
 }
 
-Information Information::with(const Signatures::Seen& seen) const {
+Information Information::with(const Signatures::RunEquations& seen) const {
   return {runs + seen.squares, readings, rows + seen.rows};
 }
 Information Information::with(const Eigen::MatrixXd& reading) const { return {runs, readings + reading, rows}; }

@@ -18,7 +18,7 @@ struct Information {
   double rows = 0;
 
   static Information none(Eigen::Index columns);
-  Information with(const Signatures::Seen& seen) const;
+  Information with(const Signatures::RunEquations& seen) const;
   Information with(const Eigen::MatrixXd& reading) const;
 };
 

@@ -104,7 +104,7 @@ Eigen::VectorXd Signatures::response_to(joint::Forward& forward, const Imperfect
   return moved;
 }
 
-std::optional<Signatures::Seen> Signatures::of(const PlannedRun& run) const {
+std::optional<Signatures::RunEquations> Signatures::of(const PlannedRun& run) const {
   const joint::BenchLog log = {driven(run, k_rows_a_stroke)};
   joint::Forward forward(expected_, log);
   const std::vector<double> plain = forward({}).front();
@@ -143,7 +143,7 @@ std::optional<Signatures::Seen> Signatures::of(const PlannedRun& run) const {
     }
   }
   A /= noise_;
-  return Seen{A.transpose() * A, static_cast<double>(rows)};
+  return RunEquations{A.transpose() * A, static_cast<double>(rows)};
 }
 
 Eigen::MatrixXd Signatures::of(const fusee::EffectParameter& reading) const {

@@ -38,11 +38,11 @@ class Signatures {
 
   /// Normal equations AᵀA of one run, in units of the noise, and its number of rows. Empty if the joint has no
   /// equilibrium somewhere in the run.
-  struct Seen {
+  struct RunEquations {
     Eigen::MatrixXd squares;
     double rows = 0;
   };
-  std::optional<Seen> of(const PlannedRun& run) const;
+  std::optional<RunEquations> of(const PlannedRun& run) const;
   /// Normal equations of a dimension that is read by hand.
   Eigen::MatrixXd of(const fusee::EffectParameter& reading) const;
   double largest_load() const { return bench_.largest_load(); }

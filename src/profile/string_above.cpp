@@ -92,8 +92,8 @@ double StringAbove::length(double theta, double lower_normal) const {
   return rho_ * wrap + up.length;
 }
 
-/// Wrap angle of the string on the drum; negative if it is clear of it. An end at home is reached over the drum's outer
-/// side, so both its direction and the pin's are counted from straight below O in the winding sense.
+/// Wrap angle of the string on the drum; negative if the string is clear of it. The end's direction and the pin's are
+/// counted from straight below O in the winding sense, since at home the string lies on the drum's outer side.
 double StringAbove::wound_on_drum(double theta) const {
   const auto counted = [this](double angle) {
     const double own = hand_ > 0 ? angle : k_pi - angle;

@@ -28,7 +28,7 @@ class StringAbove {
   /// Outward normal of the line that touches the guide and the string's half-thickness disc about a groove floor corner
   /// on their outer sides. Both positions are in one frame.
   double lower_normal(const Vec2& guide, const Vec2& corner) const;
-  /// Length of that line; 0 or NaN where the corner reaches into the guide.
+  /// Length of the line of lower_normal(); 0 or NaN where the corner reaches into the guide.
   double lower_span(const Vec2& guide, const Vec2& corner) const;
   /// Radius of the guide to the string's centre line; 0 for a sheath exit.
   double lower_rho() const { return sheathed_ ? 0.0 : rho_; }

@@ -97,7 +97,7 @@ SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& o
   return result;
 }
 
-bool need_several_turns(const SynthesisResult& synthesis) {
+bool needs_multi_turn(const SynthesisResult& synthesis) {
   const std::vector<Condition> failed = failed_of(synthesis.conditions);
   return !failed.empty() && std::all_of(failed.begin(), failed.end(), is_of_one_turn);
 }

@@ -295,7 +295,7 @@ std::vector<std::filesystem::path> paths_of(const std::vector<std::string>& name
   return {names.begin(), names.end()};
 }
 
-/// Options for reading logs by role: columns, units, counts a turn, counts at home.
+/// Options for reading logs by role: columns, units, counts per turn, counts at home.
 using ReadingOptions = std::tuple<std::map<std::string, std::string>, std::map<std::string, std::string>,
                                   std::map<std::string, double>, std::map<std::string, double>>;
 

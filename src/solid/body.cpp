@@ -110,8 +110,8 @@ class StackBuilder {
     stack_.rings.push_back({z, std::move(points)});
   }
 
-  // Adds all rings of P1: up to the bottom of the middle flange if the pulley is one part, otherwise up to the face that
-  // meets P2.
+  // Adds all rings of P1: up to the bottom of the middle flange if the pulley is one part, otherwise up to the face
+  // that meets P2.
   void add_p1() {
     if (apart()) {
       add(0.0, rims_.lower);

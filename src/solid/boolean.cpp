@@ -103,7 +103,7 @@ Neighbourhood neighbourhood(const TriangleMesh& body, const std::vector<bool>& t
 // may then fail, return garbage or not terminate, so this is tested first.
 struct Division {
   TriangleMesh near;
-  std::optional<Corefined> cut;
+  std::optional<CorefinedPair> cut;
 };
 
 // Components of a tool with the facets that they touch and no other component does.
@@ -141,14 +141,14 @@ std::vector<ContactGroup> contact_groups(const TriangleMesh& near, const Triangl
 }
 
 // Cuts all contacts in parallel.
-std::optional<Corefined> corefined_apart(const TriangleMesh& near, const TriangleMesh& tool) {
+std::optional<CorefinedPair> corefined_apart(const TriangleMesh& near, const TriangleMesh& tool) {
   const std::vector<ContactGroup> all = contact_groups(near, tool);
-  std::vector<std::optional<Corefined>> parts(all.size());
+  std::vector<std::optional<CorefinedPair>> parts(all.size());
   ThreadPool::shared().each(all.size(),
                             [&](std::size_t k, std::size_t) { parts[k] = corefined(all[k].near, all[k].tool); });
-  std::optional<Corefined> whole = std::move(parts.front());
+  std::optional<CorefinedPair> whole = std::move(parts.front());
   for (std::size_t k = 1; k < parts.size(); ++k) {
-    const std::optional<Corefined>& part = parts[k];
+    const std::optional<CorefinedPair>& part = parts[k];
     if (!whole || !part) return std::nullopt;
     whole->first.insert(whole->first.end(), part->first.begin(), part->first.end());
     whole->second.insert(whole->second.end(), part->second.begin(), part->second.end());
@@ -369,7 +369,7 @@ constexpr double k_flat = 0.1 * k_float_grain;
 // Flips the diagonal between a flat facet and its neighbour across the longest side. It does not flip if one of the two
 // new facets would be hardly better (a neighbour that is as flat is flipped first), would face elsewhere, or would
 // duplicate a facet.
-bool flipped(TriangleMesh& mesh, std::array<std::uint32_t, 3>& flat) {
+bool flip_diagonal(TriangleMesh& mesh, std::array<std::uint32_t, 3>& flat) {
   constexpr double k_better = 10.0;
   const auto [p, q, r] = longest_side(mesh, flat);
   const auto runs_back = [p = p, q = q](const auto& t) {
@@ -396,7 +396,7 @@ void flip_flat_facets(TriangleMesh& mesh) {
   std::vector<std::size_t> flat;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
     if (height(mesh, mesh.triangles[f]) < k_flat) flat.push_back(f);
-  const auto mend = [&mesh](std::size_t f) { return flipped(mesh, mesh.triangles[f]); };
+  const auto mend = [&mesh](std::size_t f) { return flip_diagonal(mesh, mesh.triangles[f]); };
   for (std::size_t before = flat.size() + 1; before > flat.size();) {
     before = flat.size();
     std::erase_if(flat, mend);
@@ -406,14 +406,14 @@ void flip_flat_facets(TriangleMesh& mesh) {
 // CGAL numbers its results in an order that depends on memory addresses. Sorting gives the same order of vertices and
 // facets every time.
 TriangleMesh in_order(TriangleMesh mesh) {
-  struct Numbered {
+  struct NumberedVertex {
     Vec3 vertex;
     std::uint32_t index;
   };
-  std::vector<Numbered> order;
+  std::vector<NumberedVertex> order;
   order.reserve(mesh.vertices.size());
   for (std::uint32_t k = 0; k < mesh.vertices.size(); ++k) order.push_back({mesh.vertices[k], k});
-  std::sort(order.begin(), order.end(), [](const Numbered& a, const Numbered& b) {
+  std::sort(order.begin(), order.end(), [](const NumberedVertex& a, const NumberedVertex& b) {
     const Vec3 &p = a.vertex, &q = b.vertex;
     return p.z() != q.z() ? p.z() < q.z() : p.y() != q.y() ? p.y() < q.y() : p.x() < q.x();
   });
@@ -443,7 +443,7 @@ std::optional<BooleanResult> combined(const TriangleMesh& body, const TriangleMe
     made = divided(parts.near, tool);
     foreseen = &made;
   }
-  const std::optional<Corefined>& cut = foreseen->cut;
+  const std::optional<CorefinedPair>& cut = foreseen->cut;
   KeptPatches kept;
   if (!cut || !sort_patches(cut->first, tool, true, operation, kept) ||
       !sort_patches(cut->second, body, false, operation, kept))

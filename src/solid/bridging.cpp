@@ -222,7 +222,7 @@ class Ceiling {
       if (chord.high - chord.low <= k_usual_layer) {
         bridges.push_back(chord);
       } else {
-        look_at_vault(reach, frame, chord);
+        check_vault(reach, frame, chord);
       }
     }
     for (const Chord& chord : bridges) check_bridge(reach, frame, chord);
@@ -231,7 +231,7 @@ class Ceiling {
     bridges.erase(std::remove_if(bridges.begin(), bridges.end(),
                                  [longest](const Chord& chord) { return chord.length() > longest; }),
                   bridges.end());
-    look_at_rim(reach, frame, bridges);
+    check_rim(reach, frame, bridges);
     return reach;
   }
 
@@ -252,7 +252,7 @@ class Ceiling {
     return found;
   }
 
-  void look_at_vault(SupportGaps& reach, const Frame& frame, const Chord& chord) const {
+  void check_vault(SupportGaps& reach, const Frame& frame, const Chord& chord) const {
     if (0.5 * chord.length() <= reach.step) return;
     const auto [distance, at] = furthest(frame, chord);
     if (distance > reach.step) std::tie(reach.step, reach.step_at) = std::pair(distance, at);
@@ -266,7 +266,7 @@ class Ceiling {
     reach.bridge_at = on(frame, chord, 0.5);
   }
 
-  void look_at_rim(SupportGaps& reach, const Frame& frame, const std::vector<Chord>& bridges) const {
+  void check_rim(SupportGaps& reach, const Frame& frame, const std::vector<Chord>& bridges) const {
     for (const RimPoint& point : rim_) {
       if (point.from_edge <= reach.step) continue;
       const double distance = to_bridges(bridges, frame(point.at), point.from_edge);
@@ -280,10 +280,10 @@ class Ceiling {
         std::lower_bound(bridges.begin(), bridges.end(), (point.y() - least) / spacing_ - 1,
                          [](const Chord& chord, double line) { return static_cast<double>(chord.line) < line; });
     for (auto chord = first; chord != bridges.end(); ++chord) {
-      const double beside = static_cast<double>(chord->line) * spacing_ - point.y();
-      if (beside > least + spacing_) break;
+      const double across = static_cast<double>(chord->line) * spacing_ - point.y();
+      if (across > least + spacing_) break;
       const double beyond = std::max({chord->from - point.x(), point.x() - chord->to, 0.0});
-      least = std::min(least, std::hypot(std::max(std::abs(beside) - spacing_, 0.0), beyond));
+      least = std::min(least, std::hypot(std::max(std::abs(across) - spacing_, 0.0), beyond));
     }
     return least;
   }

@@ -48,7 +48,7 @@ struct WorstPlace {
   }
 };
 
-bool measurable(const TriangleMesh& mesh) {
+bool is_measurable(const TriangleMesh& mesh) {
   const auto known = [&mesh](const std::array<std::uint32_t, 3>& triangle) {
     return std::max({triangle[0], triangle[1], triangle[2]}) < mesh.vertices.size();
   };
@@ -63,7 +63,7 @@ Check island_check(const TriangleMesh& mesh, const PrintLimits& limits) {
 }
 
 std::vector<Check> checks_within(const PrintLimits& limits, const TriangleMesh& mesh) {
-  if (!measurable(mesh)) {
+  if (!is_measurable(mesh)) {
     const std::string why = "not checked: the mesh is not a valid solid";
     return {{"overhang", 0, degrees(limits.overhang), "deg", false, why},
             {"unsupported_step", 0, limits.step, "mm", false, why},

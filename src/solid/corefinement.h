@@ -10,12 +10,12 @@
 namespace fusee::solid {
 
 /// Two surfaces cut along their intersection line: patches that it does not cross. Facets do not share vertices.
-struct Corefined {
+struct CorefinedPair {
   std::vector<TriangleMesh> first, second;
 };
 
 /// Cuts both surfaces by CGAL's corefinement, with exact predicates. They must not intersect themselves and may have
 /// borders. Empty if one of them is not manifold.
-std::optional<Corefined> corefined(const TriangleMesh& a, const TriangleMesh& b);
+std::optional<CorefinedPair> corefined(const TriangleMesh& a, const TriangleMesh& b);
 
 }  // namespace fusee::solid

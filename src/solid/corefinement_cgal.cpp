@@ -68,7 +68,7 @@ std::vector<TriangleMesh> patches_of(const SurfaceMesh& surface, const IsCut& is
 
 }  // namespace
 
-std::optional<Corefined> corefined(const TriangleMesh& a, const TriangleMesh& b) {
+std::optional<CorefinedPair> corefined(const TriangleMesh& a, const TriangleMesh& b) {
   // CGAL's box search draws from its default generator. A fixed seed gives the same order of vertices every time.
   CGAL::get_default_random() = CGAL::Random(0);
   std::optional<SurfaceMesh> first = surface_of(a), second = surface_of(b);
@@ -79,7 +79,7 @@ std::optional<Corefined> corefined(const TriangleMesh& a, const TriangleMesh& b)
                 CGAL::parameters::edge_is_constrained_map(cut_second));
   first->collect_garbage();
   second->collect_garbage();
-  return Corefined{patches_of(*first, cut_first), patches_of(*second, cut_second)};
+  return CorefinedPair{patches_of(*first, cut_first), patches_of(*second, cut_second)};
 }
 
 }  // namespace fusee::solid

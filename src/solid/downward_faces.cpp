@@ -10,8 +10,8 @@ namespace {
 
 // Much larger than the rounding of sections and normals, much smaller than any feature.
 constexpr double k_grain_of_plan = 1e-6;
-// Relative margin on the steepness. Slivers have no slope of their own, so a path down across them may be longer by this
-// fraction. A sliver is at most a quarter of this fraction of the reach wide.
+// Relative margin on the steepness. Slivers have no slope of their own, so a path down across them may be longer by
+// this fraction. A sliver is at most a quarter of this fraction of the reach wide.
 constexpr double k_spare = 1e-2;
 constexpr double k_narrow_sliver = 0.25 * k_spare;
 

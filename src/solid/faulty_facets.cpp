@@ -18,8 +18,8 @@ using VertexTriple = std::array<std::uint32_t, 3>;
 bool is_collapsed(const VertexTriple& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
 std::vector<std::uint32_t> duplicates_among(const TriangleMesh& mesh, const std::vector<bool>& left_out) {
-  using SortedBox = std::pair<VertexTriple, std::uint32_t>;
-  std::vector<SortedBox> facets;
+  using NumberedFacet = std::pair<VertexTriple, std::uint32_t>;
+  std::vector<NumberedFacet> facets;
   facets.reserve(mesh.triangles.size());
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
     if (left_out[f]) continue;
@@ -27,8 +27,8 @@ std::vector<std::uint32_t> duplicates_among(const TriangleMesh& mesh, const std:
     std::sort(corners.begin(), corners.end());
     facets.emplace_back(corners, f);
   }
-  const std::vector<SortedBox> sorted = sorted_by_vertex(
-      facets, mesh.vertices.size(), [](const SortedBox& facet) { return facet.first[0]; }, std::less<>());
+  const std::vector<NumberedFacet> sorted = sorted_by_vertex(
+      facets, mesh.vertices.size(), [](const NumberedFacet& facet) { return facet.first[0]; }, std::less<>());
   std::vector<std::uint32_t> duplicates;
   for (std::size_t k = 1; k < sorted.size(); ++k) {
     if (sorted[k].first == sorted[k - 1].first) duplicates.push_back(sorted[k].second);
@@ -58,7 +58,7 @@ class NeedleCollapse {
       }
       gone_[needle] = true;
     }
-    leave_out_what_is_gone();
+    drop_removed_facets();
   }
 
  private:
@@ -104,7 +104,7 @@ class NeedleCollapse {
     }
   }
 
-  void leave_out_what_is_gone() {
+  void drop_removed_facets() {
     std::size_t kept = 0;
     for (std::size_t f = 0; f < gone_.size(); ++f) {
       if (gone_[f]) continue;

@@ -35,22 +35,22 @@ std::vector<Slice> slices(const TriangleMesh& mesh, double low, double high, int
   return all;
 }
 
-/// Valleys: places where the radius falls and rises by at least this fraction. Returns the index of each lowest slice.
+/// The narrowest slice of each valley, by index. In a valley the radius falls and rises by at least this fraction.
 std::vector<std::size_t> valleys_of(const std::vector<Slice>& all, double least_depth) {
   std::vector<std::size_t> found;
   bool is_down = false;
   double high = 0;
-  std::size_t lowest = 0;
+  std::size_t narrowest = 0;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const double radius = all[k].radius;
     if (!is_down) {
       high = std::max(high, radius);
       is_down = radius < high * (1 - least_depth);
-      lowest = k;
+      narrowest = k;
     } else {
-      if (radius < all[lowest].radius) lowest = k;
-      if (radius * (1 - least_depth) <= all[lowest].radius) continue;
-      found.push_back(lowest);
+      if (radius < all[narrowest].radius) narrowest = k;
+      if (radius * (1 - least_depth) <= all[narrowest].radius) continue;
+      found.push_back(narrowest);
       is_down = false;
       high = radius;
     }
@@ -67,19 +67,19 @@ double floor_end(const TriangleMesh& mesh, double inside, double outside, double
   return inside;
 }
 
-/// The middle of the floor whose lowest slice is all[at].
+/// The middle of the floor whose narrowest slice is all[at].
 double floor_middle(const TriangleMesh& mesh, const std::vector<Slice>& all, std::size_t at) {
   const double below = all[at - 1].z, above = all[at + 1].z;
-  Slice lowest = all[at];
+  Slice narrowest = all[at];
   for (const Slice& slice : slices(mesh, below, above, k_fine_samples)) {
-    if (slice.radius < lowest.radius) lowest = slice;
+    if (slice.radius < narrowest.radius) narrowest = slice;
   }
-  const double most = lowest.radius * (1 + k_floor_rise);
+  const double most = narrowest.radius * (1 + k_floor_rise);
   std::size_t low = at, high = at;
   while (low > 0 && all[low].radius <= most) --low;
   while (high + 1 < all.size() && all[high].radius <= most) ++high;
   const double from = low == at ? below : all[low].z, to = high == at ? above : all[high].z;
-  return 0.5 * (floor_end(mesh, lowest.z, from, most) + floor_end(mesh, lowest.z, to, most));
+  return 0.5 * (floor_end(mesh, narrowest.z, from, most) + floor_end(mesh, narrowest.z, to, most));
 }
 
 }  // namespace

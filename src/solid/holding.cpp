@@ -56,7 +56,7 @@ bool all_hold(const Holding& holding) {
 std::optional<Holding> with_planned_tie_offs(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
                                              const StrokeLoads& loads) {
   const BodyPlan plan = plan_body(mechanism, synthesis);
-  if (!plan.possible()) return std::nullopt;
+  if (!plan.is_possible()) return std::nullopt;
   Holding holding;
   holding.strength = analysis::tendon_strength(mechanism.tendon);
   for (const PlannedAnchor& anchor : plan.anchors) {
@@ -110,9 +110,7 @@ std::string warning_of(const KnotHold& knot, const Holding& holding, const std::
   const analysis::Strength& strength = *holding.strength;
   return fmt::format(
       "the knot of tendon {} on {} carries up to {} N, at alpha = {} deg: {:.0f} % of the {} N at which it breaks "
-      "there "
-      "({} "
-      "x tendon.knot_efficiency). At most half is safe. Try {}",
+      "there ({} x tendon.knot_efficiency). At most half is safe. Try {}",
       knot.side == transmission::Side::left ? 1 : 2, transmission::pulley_name(knot.side), rounded(knot.at_knot, 3),
       fixed(degrees(knot.alpha), 1), 100.0 * *holding.share(knot), rounded(strength.at_knot), strength.source,
       joined_by_or(helps));

@@ -1,5 +1,6 @@
 /// \file
-/// Internal: the largest tension of each tendon where it leaves the pulley, and what the wrap leaves of it at a knot.
+/// Internal: the largest tension of each tendon where it leaves the pulley, and the part of it that reaches a knot
+/// after the wrap.
 #pragma once
 
 #include <array>

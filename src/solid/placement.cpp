@@ -53,7 +53,8 @@ struct Match {
   const GrooveInMesh* groove = nullptr;
 };
 
-struct Way {
+/// An assignment of grooves of the mesh to the pulley's sides.
+struct Assignment {
   std::vector<Match> matches;
   bool flipped = false;  ///< outlines seen from below: turned over, or mirrored
   bool mirrored = false;
@@ -68,46 +69,46 @@ Polygon seen_from_below(Polygon outline) {
 
 Polygon seen(const Polygon& outline, bool flipped) { return flipped ? seen_from_below(outline) : outline; }
 
-std::vector<OutlinePair> pairs_of(const Way& way, const GrooveFloors& expected, double scale) {
+std::vector<OutlinePair> pairs_of(const Assignment& assignment, const GrooveFloors& expected, double scale) {
   std::vector<OutlinePair> pairs;
-  for (const Match& match : way.matches) {
-    OutlinePair pair{seen(match.groove->floor, way.flipped), floor_of(expected, match.side)};
+  for (const Match& match : assignment.matches) {
+    OutlinePair pair{seen(match.groove->floor, assignment.flipped), floor_of(expected, match.side)};
     for (Vec2& point : pair.found) point /= scale;
     pairs.push_back(std::move(pair));
   }
   return pairs;
 }
 
-double scale_of(const Way& way, const GrooveFloors& expected) {
+double scale_of(const Assignment& assignment, const GrooveFloors& expected) {
   double found = 0, wanted = 0;
-  for (const OutlinePair& pair : pairs_of(way, expected, 1.0)) {
+  for (const OutlinePair& pair : pairs_of(assignment, expected, 1.0)) {
     found += perimeter(convex_hull(pair.found));
     wanted += perimeter(convex_hull(pair.expected));
   }
   return found / wanted;
 }
 
-struct FittedWay {
-  Way way;
+struct FittedAssignment {
+  Assignment assignment;
   OutlineFit fit;
   double scale = 1;
   double deviation = std::numeric_limits<double>::infinity();  ///< in units of the expected part
 };
 
 /// A part of another size is fitted after scaling to the right size.
-FittedWay fitted(const Way& way, const GrooveFloors& expected) {
-  const double scale = scale_of(way, expected);
-  FittedWay result{way, {}, std::abs(scale - 1) > k_most_rescaled ? scale : 1.0};
-  const std::vector<OutlinePair> pairs = pairs_of(way, expected, result.scale);
+FittedAssignment fit_assignment(const Assignment& assignment, const GrooveFloors& expected) {
+  const double scale = scale_of(assignment, expected);
+  FittedAssignment result{assignment, {}, std::abs(scale - 1) > k_most_rescaled ? scale : 1.0};
+  const std::vector<OutlinePair> pairs = pairs_of(assignment, expected, result.scale);
   result.fit = lay_on(pairs);
   result.deviation = deviation(pairs, result.fit.motion);
   return result;
 }
 
 /// P1 is below P2 as built. Seen from below the upper one is P1. The other two orders are mirror images.
-std::vector<Way> ways_of_both(const std::vector<GrooveInMesh>& grooves, const GrooveFloors& expected) {
-  std::vector<Way> ways;
-  if (expected.p1.empty() || expected.p2.empty()) return ways;
+std::vector<Assignment> assignments_of_both(const std::vector<GrooveInMesh>& grooves, const GrooveFloors& expected) {
+  std::vector<Assignment> assignments;
+  if (expected.p1.empty() || expected.p2.empty()) return assignments;
   for (std::size_t low = 0; low < grooves.size(); ++low) {
     // A part may be thinner between the grooves as well: where two prints meet, or under a hub.
     for (std::size_t high = low + 1; high < grooves.size(); ++high) {
@@ -115,51 +116,51 @@ std::vector<Way> ways_of_both(const std::vector<GrooveInMesh>& grooves, const Gr
                                        {transmission::Side::right, &grooves[high]}};
       const std::vector<Match> upside_down{{transmission::Side::left, &grooves[high]},
                                            {transmission::Side::right, &grooves[low]}};
-      ways.push_back({upright, false, false});
-      ways.push_back({upside_down, true, false});
-      ways.push_back({upright, true, true});
-      ways.push_back({upside_down, false, true});
+      assignments.push_back({upright, false, false});
+      assignments.push_back({upside_down, true, false});
+      assignments.push_back({upright, true, true});
+      assignments.push_back({upside_down, false, true});
     }
   }
-  return ways;
+  return assignments;
 }
 
-std::vector<Way> ways_of_one(const std::vector<GrooveInMesh>& grooves, const GrooveFloors& expected) {
-  std::vector<Way> ways;
+std::vector<Assignment> assignments_of_one(const std::vector<GrooveInMesh>& grooves, const GrooveFloors& expected) {
+  std::vector<Assignment> assignments;
   // With two grooves, one alone could belong to many pulleys.
-  if (grooves.size() != 1) return ways;
+  if (grooves.size() != 1) return assignments;
   for (const bool flipped : {false, true}) {
     for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
-      if (!floor_of(expected, side).empty()) ways.push_back({{{side, &grooves.front()}}, flipped, false});
+      if (!floor_of(expected, side).empty()) assignments.push_back({{{side, &grooves.front()}}, flipped, false});
     }
   }
-  return ways;
+  return assignments;
 }
 
-bool fits(const FittedWay& fitted, double radius) {
+bool fits(const FittedAssignment& fitted, double radius) {
   // Every circle is a scaled copy of every other circle.
   if (fitted.scale != 1.0 && !fitted.fit.tells_turn) return false;
-  const bool is_copy = fitted.scale != 1.0 || fitted.way.mirrored;
+  const bool is_copy = fitted.scale != 1.0 || fitted.assignment.mirrored;
   return fitted.deviation < (is_copy ? k_most_deviation_of_copy : k_most_deviation) * radius;
 }
 
 /// Complexity of a placement: scaling, then mirroring, then turning over.
-int effort(const FittedWay& fitted) {
-  return 4 * static_cast<int>(fitted.scale != 1.0) + 2 * static_cast<int>(fitted.way.mirrored) +
-         static_cast<int>(fitted.way.flipped && !fitted.way.mirrored);
+int effort(const FittedAssignment& fitted) {
+  return 4 * static_cast<int>(fitted.scale != 1.0) + 2 * static_cast<int>(fitted.assignment.mirrored) +
+         static_cast<int>(fitted.assignment.flipped && !fitted.assignment.mirrored);
 }
 
 /// Empty if no assignment fits.
-std::optional<FittedWay> best_of(const std::vector<Way>& ways, const GrooveFloors& expected) {
-  std::vector<FittedWay> all;
-  for (const Way& way : ways) {
-    FittedWay one = fitted(way, expected);
+std::optional<FittedAssignment> best_of(const std::vector<Assignment>& assignments, const GrooveFloors& expected) {
+  std::vector<FittedAssignment> all;
+  for (const Assignment& assignment : assignments) {
+    FittedAssignment one = fit_assignment(assignment, expected);
     if (fits(one, mean_radius(expected))) all.push_back(std::move(one));
   }
   std::stable_sort(all.begin(), all.end(),
-                   [](const FittedWay& a, const FittedWay& b) { return effort(a) < effort(b); });
-  std::optional<FittedWay> best;
-  for (const FittedWay& one : all) {
+                   [](const FittedAssignment& a, const FittedAssignment& b) { return effort(a) < effort(b); });
+  std::optional<FittedAssignment> best;
+  for (const FittedAssignment& one : all) {
     const double better = best && effort(one) != effort(*best) ? k_clearly_better : 1.0;
     if (!best || one.deviation < better * best->deviation) best = one;
   }
@@ -216,8 +217,8 @@ Vec2 axis_of(const PlaneMotion& motion, bool is_flipped) {
 
 double within_half_a_turn(double angle) { return angle - k_two_pi * std::round(angle / k_two_pi); }
 
-Placement placement_of(const TriangleMesh& mesh, const FittedWay& fitted) {
-  const bool upside_down = fitted.way.flipped;
+Placement placement_of(const TriangleMesh& mesh, const FittedAssignment& fitted) {
+  const bool upside_down = fitted.assignment.flipped;
   PlaneMotion motion = fitted.fit.motion;
   motion.shift *= fitted.scale;
   Placement placement;
@@ -226,7 +227,7 @@ Placement placement_of(const TriangleMesh& mesh, const FittedWay& fitted) {
   placement.deviation = fitted.deviation;
   placement.turn = within_half_a_turn(upside_down ? motion.turn : -motion.turn);
   placement.axis = axis_of(motion, upside_down);
-  if (const auto bore = bore_near(mesh, fitted.way.matches.front().groove->z, placement.axis)) {
+  if (const auto bore = bore_near(mesh, fitted.assignment.matches.front().groove->z, placement.axis)) {
     const double off = (*bore - placement.axis).norm();
     if (off > k_bore_at_axis) {
       // The bore defines the axis of rotation. A groove that is eccentric to it runs out of true on the joint.
@@ -235,7 +236,7 @@ Placement placement_of(const TriangleMesh& mesh, const FittedWay& fitted) {
       motion.shift = -turned(flipped(*bore, upside_down), motion.turn);
     }
   }
-  for (const Match& match : fitted.way.matches) {
+  for (const Match& match : fitted.assignment.matches) {
     PlacedGroove groove{match.side, match.groove->z, seen(match.groove->floor, upside_down)};
     for (Vec2& point : groove.floor) point = motion(point);
     placement.grooves.push_back(std::move(groove));
@@ -243,9 +244,9 @@ Placement placement_of(const TriangleMesh& mesh, const FittedWay& fitted) {
   return placement;
 }
 
-PlacementStatus status_of(const FittedWay& fitted) {
+PlacementStatus status_of(const FittedAssignment& fitted) {
   if (fitted.scale != 1.0) return PlacementStatus::scaled;
-  return fitted.way.mirrored ? PlacementStatus::mirrored : PlacementStatus::found;
+  return fitted.assignment.mirrored ? PlacementStatus::mirrored : PlacementStatus::found;
 }
 
 }  // namespace
@@ -289,8 +290,10 @@ PlacementResult find_placement(const TriangleMesh& mesh, const GrooveFloors& exp
   const double unit_here = (box.high - box.low).head<2>().maxCoeff() / (2.0 * radius);
   const std::vector<GrooveInMesh> grooves =
       find_grooves(mesh, k_least_groove * tendon_diameter / radius, unit_here * tendon_diameter / k_slices);
-  for (const std::vector<Way>& ways : {ways_of_both(grooves, expected), ways_of_one(grooves, expected)}) {
-    if (const auto best = best_of(ways, expected)) return {status_of(*best), placement_of(mesh, *best), best->scale};
+  for (const std::vector<Assignment>& assignments :
+       {assignments_of_both(grooves, expected), assignments_of_one(grooves, expected)}) {
+    if (const auto best = best_of(assignments, expected))
+      return {status_of(*best), placement_of(mesh, *best), best->scale};
   }
   return {};
 }

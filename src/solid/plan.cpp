@@ -70,11 +70,11 @@ class Planner {
                                !plan.layout.set_screw.present;  // as large as for the screw that it lacks
       if (best && is_needless) continue;
       const int cost = wishes_.conditions_alone ? 0 : cost_of(plan) + (is_needless ? 1 : 0);
-      const bool is_better = !best || (plan.possible() && (!best->possible() || cost < least));
+      const bool is_better = !best || (plan.is_possible() && (!best->is_possible() || cost < least));
       if (!is_better) continue;
       best = std::move(plan);
       least = cost;
-      if (best->possible() && cost == 0) break;
+      if (best->is_possible() && cost == 0) break;
       if (wishes_.conditions_alone) break;
     }
     return *std::move(best);
@@ -93,7 +93,7 @@ class Planner {
     turn_set_screw(plan);
     ceiling_pockets(plan.layout);
     plan.conditions = conditions_of(mechanism_, synthesis_, plan.layout, rims_, tie_offs_.rooms(plan.layout, wound));
-    if (wishes_.conditions_alone && !plan.possible()) return plan;
+    if (wishes_.conditions_alone && !plan.is_possible()) return plan;
     if (plan.layout.parts == Parts::two) plan.layout.dowels = choose_dowels(mechanism_, plan);
     if (wishes_.conditions_alone && find_screw(mechanism_.body.clamp_screw) == nullptr) return plan;
     const std::vector<profile::Condition> of_tails = place_tails(plan, mechanism_, wishes_.rejected);
@@ -102,8 +102,8 @@ class Planner {
     return plan;
   }
 
-  // Features that the hub leaves no space for, pockets that weaken it, and knots that too little wrap relieves. A thread
-  // in the hub does the work of a nut.
+  // Features that the hub leaves no space for, pockets that weaken it, and knots that too little wrap relieves. A
+  // thread in the hub does the work of a nut.
   int cost_of(const BodyPlan& plan) {
     const std::vector<Omission>& omissions = plan.layout.omissions;
     auto cost = std::count_if(omissions.begin(), omissions.end(),
@@ -236,7 +236,7 @@ bool is_located(const BodyLayout& layout) {
 
 }  // namespace
 
-bool BodyPlan::possible() const {
+bool BodyPlan::is_possible() const {
   return std::all_of(conditions.begin(), conditions.end(),
                      [](const profile::Condition& condition) { return condition.ok; });
 }
@@ -251,9 +251,9 @@ BodyPlan plan_body(const Mechanism& mechanism, const profile::SynthesisResult& s
   const TieOffWishes nearest_wishes{WrapChoice::nearest, wishes.rejected, wishes.entry_lean};
   const auto plan_on = [&](const BodyLayout& base) {
     BodyPlan plan = Planner(mechanism, synthesis, rims, base, wishes).plan();
-    if (plan.possible() || wishes.wrap == WrapChoice::nearest) return plan;
+    if (plan.is_possible() || wishes.wrap == WrapChoice::nearest) return plan;
     BodyPlan nearest = Planner(mechanism, synthesis, rims, base, nearest_wishes).plan();
-    if (!nearest.possible()) return plan;
+    if (!nearest.is_possible()) return plan;
     nearest.layout.notes.push_back("the tie-offs have the least wrap only: with more, another feature had no place");
     return nearest;
   };
@@ -264,12 +264,12 @@ BodyPlan plan_body(const Mechanism& mechanism, const profile::SynthesisResult& s
   if (wishes.conditions_alone) {
     // A pulley that can be one print needs no pins.
     BodyPlan one = plan_on(whole);
-    if (one.possible()) return one;
+    if (one.is_possible()) return one;
     BodyPlan two = plan_on(base_in(Parts::two));
-    return two.possible() && is_located(two.layout) ? two : one;
+    return two.is_possible() && is_located(two.layout) ? two : one;
   }
   BodyPlan two = plan_on(base_in(Parts::two));
-  if (two.possible() && is_located(two.layout)) return two;
+  if (two.is_possible() && is_located(two.layout)) return two;
   BodyPlan one = plan_on(whole);
   one.layout.notes.push_back(fmt::format(
       "a cone of {:.1f} mm remains under the middle flange: there is no space for pins to print P1 and P2 separately",

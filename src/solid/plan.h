@@ -18,7 +18,7 @@ struct BodyPlan {
   std::vector<Mark> marks;
   std::vector<profile::Condition> conditions;
 
-  bool possible() const;
+  bool is_possible() const;
 };
 
 /// Chooses the largest hub that leaves space for every other feature, or for most of them.

@@ -463,7 +463,7 @@ RatedPulley pulley_of(const Mechanism& mechanism, const profile::SynthesisResult
   Pulley& pulley = rated.pulley;
   pulley.conditions = plan.conditions;
   pulley.layout = plan.layout;
-  if (!plan.possible()) return rated;
+  if (!plan.is_possible()) return rated;
   const AnchorVariants anchors(mechanism, synthesis, plan);
   int first = 0;
   while (first < effort.variants && !anchors.may_be(first)) ++first;

@@ -40,7 +40,8 @@ RingStack scaled_to_float(RingStack stack, double scale);
 /// Keeps the stack's coordinates bit for bit. Neighbouring points that coincide become one vertex (far from the axis,
 /// floats cannot resolve a finer curve).
 TriangleMesh mesh_of(const RingStack& stack);
-/// Exact volume of that mesh. Between two rings the section's area is a quadratic in z, so Simpson's rule is exact.
+/// Exact volume of the stack's mesh. Between two rings the section's area is a quadratic in z, so Simpson's rule is
+/// exact.
 double volume_of(const RingStack& stack);
 
 }  // namespace fusee::solid

@@ -20,12 +20,12 @@ constexpr double k_entry_widths = 2.0;
 
 struct Attribution {
   double gap = std::numeric_limits<double>::infinity();
-  std::optional<Rejection> who;
+  std::optional<Rejection> rejection;
 
-  void consider(double candidate, const Rejection& rejection) {
+  void consider(double candidate, const Rejection& of) {
     if (candidate >= gap) return;
     gap = candidate;
-    who = rejection;
+    rejection = of;
   }
 };
 
@@ -50,10 +50,10 @@ Attribution attribution_of(const Vec3& place, const BodyPlan& plan) {
 
 }  // namespace
 
-std::vector<Vec3> unprintable_places(const TriangleMesh& lying, Piece piece, const BodyLayout& layout, double overhang,
+std::vector<Vec3> unprintable_places(const TriangleMesh& mesh, Piece piece, const BodyLayout& layout, double overhang,
                                      Corners corners) {
-  std::vector<Vec3> places = ledges_in_layers(lying, overhang, corners);
-  const std::vector<Vec3> regions = find_unsupported_regions(lying, PrintLimits{}.first_layer);
+  std::vector<Vec3> places = ledges_in_layers(mesh, overhang, corners);
+  const std::vector<Vec3> regions = find_unsupported_regions(mesh, PrintLimits{}.first_layer);
   places.insert(places.end(), regions.begin(), regions.end());
   for (Vec3& place : places) {
     if (piece == Piece::p1) place.tail<2>() = -place.tail<2>();
@@ -64,7 +64,7 @@ std::vector<Vec3> unprintable_places(const TriangleMesh& lying, Piece piece, con
 }
 
 profile::Condition does_not_print(const std::string& name, const std::vector<Vec3>& places,
-                                  const std::string& whatever) {
+                                  const std::string& variants) {
   profile::Condition condition;
   condition.name = k_prints;
   condition.ok = false;
@@ -72,7 +72,7 @@ profile::Condition does_not_print(const std::string& name, const std::vector<Vec
   condition.limit = 0;
   condition.unit = "1";
   condition.message = fmt::format("{} cannot be printed without supports: at {} a layer would overhang too far, {}",
-                                  name, place_of(places.front()), whatever);
+                                  name, place_of(places.front()), variants);
   return condition;
 }
 
@@ -81,9 +81,9 @@ std::vector<Rejection> attribute_supports(const std::vector<Vec3>& places, const
   std::vector<Rejection> rejections;
   for (const Vec3& place : places) {
     const Attribution attribution = attribution_of(place, plan);
-    if (!attribution.who || attribution.gap > reach) continue;
-    if (std::find(rejections.begin(), rejections.end(), *attribution.who) == rejections.end())
-      rejections.push_back(*attribution.who);
+    if (!attribution.rejection || attribution.gap > reach) continue;
+    if (std::find(rejections.begin(), rejections.end(), *attribution.rejection) == rejections.end())
+      rejections.push_back(*attribution.rejection);
   }
   return rejections;
 }

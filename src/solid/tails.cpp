@@ -43,7 +43,7 @@ class TailPlacer {
   std::optional<TailSlot> place(const PlannedAnchor& anchor) const {
     TailSlot slot;
     slot.width = layout_.channel_width;
-    const bool peaked = on_bed(layout_, anchor.side);
+    const bool peaked = is_pocket_face_on_bed(layout_, anchor.side);
     slot.ceiling = peaked ? 0.5 * slot.width * std::tan(ridge_slope(layout_)) : 0.0;
     slot.depth = std::max(k_peaked_ratio * d_, k_depth_ratio * d_ - slot.ceiling);
     const double deep = slot.depth + slot.ceiling;
@@ -83,7 +83,8 @@ class TailPlacer {
   }
   // Distance from the face to the nearest point of a channel, whose ceiling rises in printing direction.
   double to_channels(transmission::Side side) const {
-    return to_plane(side) - 0.5 * layout_.channel_width - (on_bed(layout_, side) ? 0.0 : layout_.channel_ceiling);
+    return to_plane(side) - 0.5 * layout_.channel_width -
+           (is_pocket_face_on_bed(layout_, side) ? 0.0 : layout_.channel_ceiling);
   }
 
   void add_channels_beside(const PlannedAnchor& own, std::vector<Bar>& bars) const {

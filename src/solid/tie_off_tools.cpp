@@ -169,7 +169,7 @@ ChannelEdges channel_edges(const BodyPlan& plan, transmission::Side side, const 
                       layout.entry_lean, beyond);
 }
 
-bool on_bed(const BodyLayout& layout, transmission::Side side) {
+bool is_pocket_face_on_bed(const BodyLayout& layout, transmission::Side side) {
   return layout.ceiling_slope > 0 && side == transmission::Side::left && layout.parts == Parts::one;
 }
 

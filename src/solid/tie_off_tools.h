@@ -18,8 +18,8 @@ TriangleMesh tail_slot_tool(const BodyLayout& layout, transmission::Side side, c
 /// The pilot hole of the clamp screw, open to the face. It is wider than the slot, which ends at its centre.
 TriangleMesh clamp_pilot_tool(const BodyLayout& layout, transmission::Side side, const TailSlot& slot);
 
-/// True if the face that this pulley's pockets open on lies on the bed, where nothing supports overhangs.
-bool on_bed(const BodyLayout& layout, transmission::Side side);
+/// True if the pockets of this side open at the face on the bed, where nothing supports overhangs.
+bool is_pocket_face_on_bed(const BodyLayout& layout, transmission::Side side);
 
 /// Distance from the groove's plane to a channel's floor.
 double channel_half_height(const BodyLayout& layout, int variant);

@@ -234,8 +234,8 @@ TieOffPair TieOffPlanner::wrapped_furthest(const BodyLayout& layout, const Ancho
   return nearest;
 }
 
-// A second tie-off at the other end of the arc. Its entry is beyond the part of the floor that carries the tendon of the
-// first.
+// A second tie-off at the other end of the arc. Its entry is beyond the part of the floor that carries the tendon of
+// the first.
 std::optional<TieOff> TieOffPlanner::spare_beside(const BodyLayout& layout, const AnchorGround& ground,
                                                   const TieOff& first) const {
   if (is_rejected(ground.outline().side, false, 0.0)) return std::nullopt;

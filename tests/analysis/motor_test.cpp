@@ -1,4 +1,4 @@
-// The motor's limits beside what the joint requires, on joints whose figures are known in closed form.
+// The motor's limits compared with the joint's requirements, which are known in closed form.
 #include <gmock/gmock.h>
 
 #include "fusee/analysis.h"
@@ -33,7 +33,7 @@ std::vector<std::string> failed_names(const MotorCheck& motor) {
   return names;
 }
 
-TEST(Motor, NoneIsComparedWithoutTable) {
+TEST(Motor, IsNotCheckedWithoutTable) {
   EXPECT_FALSE(under_load(linear_wrist()).motor);
   EXPECT_THAT(motor_obstacles(linear_wrist()), IsEmpty());
 }

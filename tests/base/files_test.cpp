@@ -90,10 +90,10 @@ class Files : public testing::Test {
 };
 
 /// Makes `folder` the current folder while the object lives, so that no other folder can replace it.
-class StandingIn {
+class CurrentFolder {
  public:
-  explicit StandingIn(const fs::path& folder) : before_(fs::current_path()) { fs::current_path(folder); }
-  ~StandingIn() { fs::current_path(before_); }
+  explicit CurrentFolder(const fs::path& folder) : before_(fs::current_path()) { fs::current_path(folder); }
+  ~CurrentFolder() { fs::current_path(before_); }
 
  private:
   fs::path before_;
@@ -132,7 +132,7 @@ TEST_F(Files, RejectsLargeFilesBeforeReading) {
   EXPECT_THAT(input_error([&] { read_file(root_ / "just", 6); }), HasSubstr("is larger than 6 bytes"));
 }
 
-TEST(Sha256, KnownVectors) {  // FIPS 180-2, appendix B
+TEST(Sha256, MatchesKnownVectors) {  // FIPS 180-2, appendix B
   EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
@@ -377,7 +377,7 @@ TEST_F(Files, KeepsOtherEntries) {
 TEST_F(Files, KeepsCurrentFolder) {
   publish(root_ / "out", {{"x.stl", "old"}});
   {
-    const StandingIn standing(root_ / "out");
+    const CurrentFolder standing(root_ / "out");
     publish(".", {{"x.stl", "new"}});
     EXPECT_EQ(bytes_of("x.stl"), "new");  // the current folder keeps its name
     EXPECT_TRUE(fs::equivalent(".", root_ / "out"));
@@ -398,7 +398,7 @@ TEST_F(Files, RemovesWithdrawnFiles) {
     const fs::path folder = root_ / (whole ? "whole" : "current");
     publish(folder, {{"x.stl", "old"}, {"p1.stl", "old"}, {"p2.stl", "old"}});
     put(folder / "p2.stl", "edited");
-    std::optional<StandingIn> standing;
+    std::optional<CurrentFolder> standing;
     if (!whole) standing.emplace(folder);
     OutputFolder output(folder, false);
     output.stage(manifest_of({{"x.stl", "new"}}));
@@ -418,7 +418,7 @@ TEST_F(Files, SubfolderKeepsEditedFiles) {
     put(folder / "next/run_2.csv", "filled in");
     fs::create_directories(folder / "next/mine");
     put(folder / "next/mine/notes.txt", "mine");
-    std::optional<StandingIn> standing;
+    std::optional<CurrentFolder> standing;
     if (!whole) standing.emplace(folder);
     for (const bool again : {true, false}) {
       OutputFolder output(folder, false);
@@ -438,7 +438,7 @@ TEST_F(Files, RemovesEmptiedSubfolder) {
   for (const bool whole : {true, false}) {
     const fs::path folder = root_ / (whole ? "whole" : "current");
     publish(folder, {{"x.stl", "old"}, {"next/run_1.csv", "old"}});
-    std::optional<StandingIn> standing;
+    std::optional<CurrentFolder> standing;
     if (!whole) standing.emplace(folder);
     OutputFolder output(folder, false);
     output.stage(manifest_of({{"x.stl", "new"}}));
@@ -470,7 +470,7 @@ TEST_F(Files, ConcurrentRunsBothPublish) {
   for (const bool whole : {true, false}) {
     const fs::path folder = root_ / (whole ? "whole" : "current");
     publish(folder, {{"x.stl", "old"}});
-    std::optional<StandingIn> standing;
+    std::optional<CurrentFolder> standing;
     if (!whole) standing.emplace(folder);
     OutputFolder first(folder, false), second(folder, false);
     for (OutputFolder* output : {&first, &second}) {

@@ -14,13 +14,13 @@ TEST(Plane, RotationIsCounterClockwise) {
   EXPECT_LT((turned(unit(0.3), 0.4) - unit(0.7)).norm(), 1e-15);
 }
 
-TEST(Plane, DistanceToSegment) {
+TEST(Plane, MeasuresDistanceToSegment) {
   EXPECT_DOUBLE_EQ(distance_to_segment({1, 2}, {0, 0}, {4, 0}), 2);  // beside it
   EXPECT_DOUBLE_EQ(distance_to_segment({7, 4}, {0, 0}, {4, 0}), 5);  // beyond an end
   EXPECT_DOUBLE_EQ(distance_to_segment({3, 4}, {0, 0}, {0, 0}), 5);  // degenerate segment
 }
 
-TEST(Plane, DistanceToEdgesInsideAndOutside) {
+TEST(Plane, MeasuresDistanceToEdgesOnBothSides) {
   EXPECT_DOUBLE_EQ(distance_to_edges(k_square, {0, 0}), 1);
   EXPECT_DOUBLE_EQ(distance_to_edges(k_square, {-2, 0}), 1);
   EXPECT_DOUBLE_EQ(distance_to_edges(k_square, {6, 7}), 5);

@@ -28,7 +28,7 @@ TEST(ThreadPool, LoopUsesTwoThreads) {
   pool.each(2, [&](std::size_t, std::size_t) { both.arrive_and_wait(); });
 }
 
-TEST(ThreadPool, LoopExceedsLimit) {
+TEST(ThreadPool, LoopStaysWithinLimit) {
   for (const unsigned limit : {1u, 2u, 3u}) {
     ThreadPool pool(4);
     std::atomic<unsigned> working = 0;
@@ -45,7 +45,7 @@ TEST(ThreadPool, LoopExceedsLimit) {
   }
 }
 
-TEST(ThreadPool, LoopSkipsIndex) {
+TEST(ThreadPool, LoopCallsEveryIndexOnce) {
   for (const unsigned threads : {1u, 2u, 5u}) {
     ThreadPool pool(threads);
     for (const std::size_t count : {0, 1, 3, 1000}) {
@@ -56,7 +56,7 @@ TEST(ThreadPool, LoopSkipsIndex) {
   }
 }
 
-TEST(ThreadPool, SlotIsSharedAtOnce) {
+TEST(ThreadPool, SlotIsNeverSharedAtOnce) {
   ThreadPool pool(4);
   std::vector<std::atomic<bool>> taken(pool.threads());
   pool.each(40, [&](std::size_t, std::size_t slot) {
@@ -66,7 +66,7 @@ TEST(ThreadPool, SlotIsSharedAtOnce) {
   });
 }
 
-TEST(ThreadPool, ExceptionIsNotThatOfLowestIndex) {
+TEST(ThreadPool, ExceptionOfLowestIndexIsThrown) {
   ThreadPool pool(3);
   for (const std::size_t later : {3, 4}) {
     std::latch both(2);
@@ -85,7 +85,7 @@ TEST(ThreadPool, ExceptionIsNotThatOfLowestIndex) {
   }
 }
 
-TEST(ThreadPool, LoopGoesOnAfterStop) {
+TEST(ThreadPool, LoopEndsAfterStop) {
   ThreadPool pool(2);
   std::stop_source source;
   std::atomic<int> calls = 0;
@@ -97,7 +97,7 @@ TEST(ThreadPool, LoopGoesOnAfterStop) {
   EXPECT_LE(calls, 4);
 }
 
-TEST(ThreadPool, LoopOfLastJobIsStopped) {
+TEST(ThreadPool, StopInLastJobIsIgnored) {
   ThreadPool pool(2);
   std::stop_source source;
   const auto job = [&](std::size_t i, std::size_t) {
@@ -114,7 +114,7 @@ int sum_of_tree(ThreadPool& pool, int depth) {
   return parts[0] + parts[1] + parts[2] + other.get();
 }
 
-TEST(ThreadPool, NestedJobsDeadlock) {
+TEST(ThreadPool, NestedJobsFinish) {
   for (const unsigned threads : {1u, 2u, 4u}) {
     ThreadPool pool(threads);
     EXPECT_EQ(sum_of_tree(pool, 5), 1024);
@@ -122,7 +122,7 @@ TEST(ThreadPool, NestedJobsDeadlock) {
 }
 
 // A chain of tasks, each of which awaits the one before it.
-TEST(ThreadPool, TaskThatAwaitsAnotherDeadlocks) {
+TEST(ThreadPool, TaskThatAwaitsAnotherFinishes) {
   ThreadPool pool(2);
   std::vector<Task<int>> chain;
   chain.push_back(pool.run_async([] { return 1; }));
@@ -133,13 +133,13 @@ TEST(ThreadPool, TaskThatAwaitsAnotherDeadlocks) {
 }
 
 // The caller and one thread wait for each other's work through a third: a waiting thread must not count.
-TEST(ThreadPool, WaitingThreadBlocksOthers) {
+TEST(ThreadPool, WaitingThreadDoesNotCount) {
   ThreadPool pool(2);
   std::latch begun(1);
   std::latch end(1);
   auto slow = pool.run_async([&] {
     begun.count_down();
-    const ThreadPool::Waiting waiting(pool);
+    const ThreadPool::WaitingScope waiting(pool);
     end.wait();
   });
   begun.wait();
@@ -148,7 +148,7 @@ TEST(ThreadPool, WaitingThreadBlocksOthers) {
   other.get();
 }
 
-TEST(ThreadPool, TaskLosesException) {
+TEST(ThreadPool, TaskKeepsException) {
   ThreadPool pool(2);
   for (const bool worth : {false, true}) {
     auto task = pool.run_async([]() -> int { throw InputError("joint.toml", "bad"); }, worth);
@@ -157,7 +157,7 @@ TEST(ThreadPool, TaskLosesException) {
 }
 
 // The work refers to a variable that is destroyed after the task.
-TEST(ThreadPool, TaskOutlivesItsScope) {
+TEST(ThreadPool, TaskEndsWithItsScope) {
   ThreadPool pool(2);
   for (int round = 0; round < 200; ++round) {
     std::atomic<int> state = 0;
@@ -174,7 +174,7 @@ TEST(ThreadPool, TaskOutlivesItsScope) {
   }
 }
 
-TEST(ThreadPool, WorkWithoutWorthBeginsUnasked) {
+TEST(ThreadPool, WorkWithoutWorthStaysUnstarted) {
   ThreadPool pool(2);
   bool has_begun = false;
   {
@@ -184,8 +184,9 @@ TEST(ThreadPool, WorkWithoutWorthBeginsUnasked) {
   EXPECT_FALSE(has_begun);
 }
 
-// The shared pool of the parent has threads that do not exist in the child. There, each of two jobs waits for the other.
-TEST(ThreadPool, ForkedProcessHasNoThreads) {
+// The shared pool of the parent has threads that do not exist in the child. There, each of two jobs waits for the
+// other.
+TEST(ThreadPool, ForkedProcessHasThreads) {
   if (ThreadPool::shared().threads() < 2) GTEST_SKIP() << "one processor";
   ThreadPool::shared().each(100, [](std::size_t, std::size_t) { sleep_briefly(); });
   const pid_t child = ::fork();

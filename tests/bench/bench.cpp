@@ -56,7 +56,7 @@ void synthesis(benchmark::State& state) {
 }
 BENCHMARK(synthesis)->Unit(benchmark::kMillisecond);
 
-/// With drums, attachments, sheaths and a torque law.
+/// Synthesis for joints with drums, attachments, sheaths and a torque law.
 void synthesis_of_wide_joint(benchmark::State& state, const char* profile) {
   const MechanismFile file =
       read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (std::string(profile) + ".toml"));

@@ -52,7 +52,7 @@ START, SCALE = np.array([0.0, np.radians(0.5), 0.0]), np.array([1e-3, 1e-2, 1e-3
 
 def path_length(theta):
     """Length of the free tendon on side 1 from C over pin B to the point where it leaves the pin for the pulley, mm.
-    The rest is constant."""
+    The other part is constant."""
     rho = PIN + TENDON / 2
     cx, cy = R * np.sin(theta), R * np.cos(theta)
     dx, dy = cx + EB, cy + OE
@@ -156,14 +156,14 @@ def main():
         answer = json.loads(process.stdout)
         solution, theirs = timed(lambda: fitted(runs, measured))
         fit_against_fit(bench, folder, theirs)
-    rest = np.degrees(np.sqrt(np.mean(solution.fun**2)))
+    residual = np.degrees(np.sqrt(np.mean(solution.fun**2)))
     print(f"scipy least_squares, 3 numbers of a model that is known: {theirs:.3f} s, {solution.nfev} steps, gain {100 * solution.x[0]:.3f} %, "
-          f"play {np.degrees(abs(solution.x[1])):.3f} deg, rms {rest:.4f} deg")
+          f"play {np.degrees(abs(solution.x[1])):.3f} deg, rms {residual:.4f} deg")
     effects = "; ".join(f"{effect['name']} of {{{', '.join(effect['group'])}}} {effect['parameters']}" for effect in answer["effects"])
     print(f"fusee calibrate, without such information, {len(answer['tried'])} candidates tried: {ours:.3f} s, {answer['verdict']}, rms {answer['after']['rms_deg']:.4f} deg: {effects}")
     print(f"fusee calibrate takes {ours / theirs:.1f} times as long as the one fit; for each candidate {ours / theirs / max(1, len(answer['tried'])):.2f} times")
-    if answer["after"]["rms_deg"] > 1.05 * rest:
-        sys.exit("fusee's rest is larger than scipy's")
+    if answer["after"]["rms_deg"] > 1.05 * residual:
+        sys.exit("fusee's residual is larger than scipy's")
 
 
 if __name__ == "__main__":

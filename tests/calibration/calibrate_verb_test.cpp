@@ -28,7 +28,7 @@ std::filesystem::path scratch(const std::string& name) {
   return folder;
 }
 
-void leave(const std::filesystem::path& path, const std::string& text) {
+void write_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
@@ -99,7 +99,7 @@ TEST(CalibrateVerb, ProposesPlanForUntestableRuns) {
   const std::filesystem::path folder = scratch("still");
   std::string still = "alpha_deg,theta_deg\n";
   for (int i = 0; i < 50; ++i) still += "1,2\n";
-  leave(folder / "still.csv", still);
+  write_text(folder / "still.csv", still);
   const MechanismFile file = read_mechanism(k_rig / "c_backlash/spec.toml");
   const pipeline::CalibrateResult result = pipeline::calibrate(file, {folder / "still.csv"}, into(folder / "out"));
   EXPECT_EQ(result.product.calibration.verdict, CalibrationVerdict::not_testable);
@@ -122,8 +122,8 @@ TEST(CalibrateVerb, WritesNoFolderWithoutOutputs) {
   EXPECT_FALSE(std::filesystem::exists(folder / "next"));
 }
 
-/// One of each kind, of the forearm, beside run_5.csv.
-formats::CalibrationProduct with_each_kind() {
+/// A calibration of the forearm whose runs include run_5.csv, with a next measurement of each kind.
+formats::CalibrationProduct with_each_measurement() {
   formats::CalibrationProduct product;
   product.file = read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/forearm.toml");
   product.measurement.runs.resize(2);
@@ -143,7 +143,7 @@ formats::CalibrationProduct with_each_kind() {
 }
 
 TEST(NextMeasurements, EachKindIsInTheDocument) {
-  const nlohmann::json next = nlohmann::json::parse(formats::calibration_json(with_each_kind()))["next"];
+  const nlohmann::json next = nlohmann::json::parse(formats::calibration_json(with_each_measurement()))["next"];
   ASSERT_EQ(next.size(), 4u);
   EXPECT_EQ(next[0]["kind"], "run");
   EXPECT_EQ(next[0]["file"], "next/run_6.csv");
@@ -174,7 +174,7 @@ std::string filled_in(const std::string& csv, double ratio) {
 }
 
 TEST(NextMeasurements, AreReadWhenFilledIn) {
-  const formats::CalibrationProduct product = with_each_kind();
+  const formats::CalibrationProduct product = with_each_measurement();
   const std::filesystem::path folder = scratch("filled");
   const std::vector<OutputFile> files = formats::next_files(product);
   ASSERT_THAT(names(files), ElementsAre("next/bench.html", "next/run_6.csv", "next/run_7.csv"));
@@ -183,7 +183,7 @@ TEST(NextMeasurements, AreReadWhenFilledIn) {
   std::vector<std::filesystem::path> runs;
   for (std::size_t i = 1; i < files.size(); ++i) {
     runs.push_back(folder / std::filesystem::path(files[i].name).filename());
-    leave(runs.back(), filled_in(files[i].bytes, 0.2 + 0.01 * static_cast<double>(i)));
+    write_text(runs.back(), filled_in(files[i].bytes, 0.2 + 0.01 * static_cast<double>(i)));
   }
   const measurement::Measurement read = measurement::read_measurement(runs, product.file.mechanism);
   EXPECT_THAT(read.not_testable, testing::IsEmpty());
@@ -267,7 +267,7 @@ TEST(CalibrateVerb, ConvertsTorqueToTipForce) {
     ASSERT_NE(header, std::string::npos);
     text.replace(header, 6, "tau_Nmm");
     torques.push_back(folder / run.filename());
-    leave(torques.back(), text);
+    write_text(torques.back(), text);
   }
   const measurement::Measurement measurement = measurement::read_measurement(forces, file.mechanism);
   measurement::MeasurementOptions columns;
@@ -283,14 +283,15 @@ TEST(CalibrateVerb, ConvertsTorqueToTipForce) {
 
 // ---- the table of law = "table" -------------------------------------------------------------------------------------
 
-/// The forearm with its law as a table in a separate folder. The table's name also occurs in a comment and in the joint's
-/// name.
-MechanismFile tabled(const std::filesystem::path& folder, const std::string& quoted = "\"laws/law.csv\"") {
+/// The forearm with its law as a table in a separate folder. The table's name also occurs in a comment and in the
+/// joint's name.
+MechanismFile joint_with_table(const std::filesystem::path& folder, const std::string& quoted = "\"laws/law.csv\"") {
   std::filesystem::create_directories(folder / "laws");
   std::string law = "alpha_deg,theta_deg\n";
   for (int i = -10; i <= 10; ++i) law += std::to_string(15 * i) + "," + std::to_string(3 * i) + "\n";
-  leave(folder / "laws/law.csv", law);
-  leave(folder / "arm.toml", "# \"laws/law.csv\" is measured\nschema = 1\nname = \"laws/law.csv\"\n" + std::string(R"(
+  write_text(folder / "laws/law.csv", law);
+  write_text(
+      folder / "arm.toml", "# \"laws/law.csv\" is measured\nschema = 1\nname = \"laws/law.csv\"\n" + std::string(R"(
 [joint]
 length_mm = 100
 range_deg = [-30, 30]
@@ -307,7 +308,7 @@ table = )") + quoted + "  # not \"laws/law.csv\" of last year\n[tendon]\ndiamete
 }
 
 TEST(LawTable, EditsValueOnly) {
-  const MechanismFile file = tabled(scratch("law"));
+  const MechanismFile file = joint_with_table(scratch("law"));
   const std::string text = read_file(file.path, 1 << 20);
   std::string expected = text;
   expected.replace(expected.find("table = \"laws/law.csv\""), 22, "table = \"law.csv\"");
@@ -320,7 +321,7 @@ TEST(LawTable, EditsValueOnly) {
 TEST(LawTable, FindsOtherSpellingsOfValue) {
   for (const char* quoted : {"'laws/law.csv'", "\"laws\\u002Flaw.csv\""}) {
     const std::filesystem::path folder = scratch("quoted");
-    const MechanismFile file = tabled(folder, quoted);
+    const MechanismFile file = joint_with_table(folder, quoted);
     const std::string text = pipeline::with_table_beside(read_file(file.path, 1 << 20), file, disk());
     const Mechanism read = parse_mechanism(text, "corrected.toml", folder / "laws");
     EXPECT_EQ(read.pulley.table, "law.csv") << quoted;
@@ -331,12 +332,12 @@ TEST(LawTable, FindsOtherSpellingsOfValue) {
 
 TEST(LawTable, CopiesTorqueTable) {
   const std::filesystem::path folder = scratch("torque");
-  const MechanismFile law = tabled(folder);
-  leave(folder / "laws/torque.csv", "theta_deg,motor_torque_Nmm\n-30,300\n-10,310\n10,320\n30,330\n");
+  const MechanismFile law = joint_with_table(folder);
+  write_text(folder / "laws/torque.csv", "theta_deg,motor_torque_Nmm\n-30,300\n-10,310\n10,320\n30,330\n");
   std::string text = read_file(law.path, 1 << 20);
   text.replace(text.find("law = \"table\""), 13, "law = \"torque\"");
   text.replace(text.find("table = \"laws/law.csv\""), 22, "torque_table = \"laws/torque.csv\"");
-  leave(folder / "arm.toml", text);
+  write_text(folder / "arm.toml", text);
   const MechanismFile file = read_mechanism(folder / "arm.toml");
   EXPECT_EQ(pipeline::law_table_copy(file, disk()).name, "torque.csv");
   const Mechanism read =
@@ -347,7 +348,7 @@ TEST(LawTable, CopiesTorqueTable) {
 
 TEST(LawTable, StaysUnchangedBesideItsFile) {
   const std::filesystem::path folder = scratch("beside");
-  MechanismFile file = tabled(folder);
+  MechanismFile file = joint_with_table(folder);
   file.mechanism.pulley.table = "law.csv";
   EXPECT_EQ(pipeline::with_table_beside("anything \"law.csv\"", file, disk()), "anything \"law.csv\"");
 }
@@ -393,7 +394,7 @@ TEST(CalibrationPage, ReportsAdditionalMembers) {
       HasSubstr("Perhaps joint sensor gain (gain = 1.25 % (95 %: 1 … 1.5)) acts too: with both, as in corrected.toml"));
 }
 
-TEST(CalibrationPage, OmitsBothIfEmpty) {
+TEST(CalibrationPage, OmitsEmptyFields) {
   const std::string json = formats::calibration_json(explained());
   EXPECT_THAT(json, Not(HasSubstr("infeasible")));
   EXPECT_THAT(json, Not(HasSubstr("tied_at_deg")));

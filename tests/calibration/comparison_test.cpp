@@ -114,7 +114,7 @@ TEST(Changes, MayRemoveEarlierEffect) {
   EXPECT_THAT(play->starts, ::testing::Not(::testing::Contains(std::vector<double>{radians(-5)})));
 }
 
-TEST(Comparison, ReportsNothingOfOneState) {
+TEST(Comparison, ReportsNoChangeWithinOneState) {
   const Comparison comparison = compare_states(geared(), two_states(with_play(radians(2)), with_play(radians(2))));
   EXPECT_EQ(comparison.verdict, ComparisonVerdict::no_change);
   EXPECT_TRUE(comparison.found.empty());

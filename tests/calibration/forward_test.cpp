@@ -8,7 +8,7 @@
 namespace fusee::calibration::linear {
 namespace {
 
-class Geared : public testing::Test {
+class GearedJoint : public testing::Test {
  protected:
   measurement::Measurement measurement = measured({0, 5}, [](const measurement::Sample&) { return 0.0; });
   joint::BenchLog log = measurement::bench_log(measurement);
@@ -33,26 +33,26 @@ class Geared : public testing::Test {
 
 double declared(const fusee::measurement::Run& run, std::size_t i) { return run.samples[i].alpha / k_ratio; }
 
-TEST_F(Geared, FollowsDeclaredRatio) { expect({}, declared); }
+TEST_F(GearedJoint, FollowsDeclaredRatio) { expect({}, declared); }
 
-TEST_F(Geared, AddsZero) {
+TEST_F(GearedJoint, AddsZero) {
   Imperfections at;
   set_value(at, *calibration::free_offset(joint()), 0.02);
   expect(at, [](const fusee::measurement::Run& run, std::size_t i) { return declared(run, i) + 0.02; });
 }
 
-TEST_F(Geared, GainIsProportionalToAngle) {
+TEST_F(GearedJoint, GainIsProportionalToAngle) {
   expect(with("joint_sensor_gain", 0.01),
          [](const fusee::measurement::Run& run, std::size_t i) { return 1.01 * declared(run, i); });
 }
 
-TEST_F(Geared, LoadTurnsJointDown) {
+TEST_F(GearedJoint, LoadTurnsJointDown) {
   expect(with("tendon_stretch", 1e-3), [](const fusee::measurement::Run& run, std::size_t i) {
     return declared(run, i) - 1e-3 * run.samples[i].load;
   });
 }
 
-TEST_F(Geared, PlayFollowsAtHalfItsWidth) {
+TEST_F(GearedJoint, PlayFollowsAtHalfItsWidth) {
   constexpr double width = 0.3;
   expect(with("backlash", width), [play = 0.0](const fusee::measurement::Run& run, std::size_t i) mutable {
     if (i == 0) play = run.samples[0].alpha + 0.5 * width;  // reached from home, by falling α
@@ -62,14 +62,14 @@ TEST_F(Geared, PlayFollowsAtHalfItsWidth) {
   });
 }
 
-TEST_F(Geared, DelayShowsEarlierAngle) {
+TEST_F(GearedJoint, DelayShowsEarlierAngle) {
   const Imperfections late = with("sensor_lag", 0.25);  // a quarter of the time between rows
   expect(late, [](const fusee::measurement::Run& run, std::size_t i) {
     return i == 0 ? declared(run, 0) : 0.25 * declared(run, i - 1) + 0.75 * declared(run, i);
   });
 }
 
-TEST_F(Geared, FilterShowsRoundedReversal) {
+TEST_F(GearedJoint, FilterShowsRoundedReversal) {
   constexpr double tau = 0.8;
   Imperfections late;
   late.sensor.lag = tau;
@@ -86,7 +86,7 @@ TEST_F(Geared, FilterShowsRoundedReversal) {
   }
 }
 
-TEST_F(Geared, SensorHarmonicsHaveTheirOrders) {
+TEST_F(GearedJoint, SensorHarmonicsHaveTheirOrders) {
   Imperfections at;
   at.sensor.wave_sin = 0.01;
   at.sensor.wave_cos = -0.02;
@@ -103,7 +103,7 @@ TEST_F(Geared, SensorHarmonicsHaveTheirOrders) {
   });
 }
 
-TEST_F(Geared, LoadTakesUpSlack) {
+TEST_F(GearedJoint, LoadTakesUpSlack) {
   Imperfections at;
   at.ratio_joint.slack = 0.3;
   at.ratio_joint.slack_taken_up = 0.2;
@@ -116,7 +116,7 @@ TEST_F(Geared, LoadTakesUpSlack) {
   });
 }
 
-TEST_F(Geared, CreepFollowsLogarithmOfTime) {
+TEST_F(GearedJoint, CreepFollowsLogarithmOfTime) {
   const joint::Readings found = forward(with("creep", 1e-3));
   const fusee::measurement::Run& loaded = measurement.runs[1];
   for (std::size_t i = 0; i < loaded.samples.size(); ++i) {
@@ -138,7 +138,7 @@ TEST(Creep, IsRememberedInTheNextRun) {
   EXPECT_NEAR(declared(measurement.runs[2], 20) - found[2][20], remaining, 0.1 * 5e-3);
 }
 
-TEST_F(Geared, IsNeverLoose) {
+TEST_F(GearedJoint, IsNeverLoose) {
   for (const std::vector<double>& run : forward.looseness({})) EXPECT_THAT(run, testing::Each(0.0));
 }
 

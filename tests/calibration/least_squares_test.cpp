@@ -346,15 +346,15 @@ measurement::Measurement shrinking_hysteresis(double gain = 0) {
 }
 
 /// Stretch and a slack that a load takes up are identified, and explain a part of the error.
-class HandedOver : public testing::Test {
+class ReportedEffects : public testing::Test {
  protected:
-  explicit HandedOver(double gain = 0) : evidence(evidence_of(shrinking_hysteresis(gain))) {}
+  explicit ReportedEffects(double gain = 0) : evidence(evidence_of(shrinking_hysteresis(gain))) {}
 
   calibration::Evidence evidence;
   calibration::FitterPool pool{evidence};
   calibration::Selection selection;
 
-  calibration::ReportedParameters handed_over() {
+  calibration::ReportedParameters reported_parameters() {
     const Effect& stretch = named("tendon_stretch");
     const Effect& slack = named("slack");
     Imperfections start;
@@ -373,15 +373,15 @@ class HandedOver : public testing::Test {
   }
 };
 
-TEST_F(HandedOver, ReportsLeastSquaresThatPredictBetter) {
-  const calibration::ReportedParameters made = handed_over();
+TEST_F(ReportedEffects, ReportsLeastSquaresThatPredictBetter) {
+  const calibration::ReportedParameters made = reported_parameters();
   EXPECT_LT(made.estimate.fit.mean_square, 0.7 * selection.best.mean_square);
   EXPECT_LT(made.estimate.fit.by_run.mean_square, std::pow(radians(0.22), 2));
   EXPECT_FALSE(made.curve.used);
 }
 
-TEST_F(HandedOver, IntervalsCoverReplacedParameters) {
-  const calibration::ReportedParameters made = handed_over();
+TEST_F(ReportedEffects, IntervalsCoverReplacedParameters) {
+  const calibration::ReportedParameters made = reported_parameters();
   selection.groups = {{{&named("tendon_stretch")}, 0}, {{&named("slack")}, 0}};
   selection.without.resize(2);
   for (auto& [parameter, variance] : selection.variance) variance = {1e-12, 1e-12};  // the mode alone
@@ -396,9 +396,9 @@ TEST_F(HandedOver, IntervalsCoverReplacedParameters) {
 }
 
 /// The joint's sensor also has a gain, which is a member of a group.
-class HandedOverBeside : public HandedOver {
+class ReportedGroup : public ReportedEffects {
  protected:
-  explicit HandedOverBeside(double gain = 0.05) : HandedOver(gain) {
+  explicit ReportedGroup(double gain = 0.05) : ReportedEffects(gain) {
     selection.groups = {{{&named("tendon_stretch"), &named("joint_sensor_gain")}, 0}, {{&named("slack")}, 0}};
   }
 
@@ -407,8 +407,8 @@ class HandedOverBeside : public HandedOver {
   }
 };
 
-TEST_F(HandedOverBeside, BetterPredictingMemberIsAdded) {
-  const calibration::ReportedParameters made = handed_over();
+TEST_F(ReportedGroup, BetterPredictingMemberIsAdded) {
+  const calibration::ReportedParameters made = reported_parameters();
   ASSERT_TRUE(holds_gain(made));
   EXPECT_LT(made.estimate.fit.by_run.mean_square, std::pow(radians(0.25), 2));
   selection.without.resize(2);
@@ -420,17 +420,17 @@ TEST_F(HandedOverBeside, BetterPredictingMemberIsAdded) {
   EXPECT_NEAR(found[0].beside[0].parameters[0].value, 5.0, 0.5);
 }
 
-TEST_F(HandedOverBeside, EffectOutsideGroupsStaysOut) {
+TEST_F(ReportedGroup, EffectOutsideGroupsStaysOut) {
   selection.groups[0].members.pop_back();
-  EXPECT_FALSE(holds_gain(handed_over()));
+  EXPECT_FALSE(holds_gain(reported_parameters()));
 }
 
-class NothingBeside : public HandedOverBeside {
+class UselessGroupMember : public ReportedGroup {
  protected:
-  NothingBeside() : HandedOverBeside(0) {}
+  UselessGroupMember() : ReportedGroup(0) {}
 };
 
-TEST_F(NothingBeside, ExcludesMemberThatPredictsNothing) { EXPECT_FALSE(holds_gain(handed_over())); }
+TEST_F(UselessGroupMember, ExcludesMemberThatPredictsNothing) { EXPECT_FALSE(holds_gain(reported_parameters())); }
 
 TEST_F(LinearFit, ModeIsReportedWithoutDiscrepancy) {
   calibration::FitterPool pool(evidence);

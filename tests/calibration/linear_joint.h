@@ -42,14 +42,14 @@ inline measurement::Run run_of(const std::string& name, double load, std::size_t
   return run;
 }
 
-/// A run of four strokes for each load. `beside`: added to the declared θ of a row, rad.
+/// A run of four strokes for each load. `added`: added to the declared θ of a row, rad.
 inline measurement::Measurement measured(const std::vector<double>& loads,
-                                         const std::function<double(const measurement::Sample&)>& beside) {
+                                         const std::function<double(const measurement::Sample&)>& added) {
   measurement::Measurement measurement;
   measurement.load_unit = "N";
   for (std::size_t i = 0; i < loads.size(); ++i) {
     measurement.runs.push_back(run_of("run_" + std::to_string(i + 1), loads[i], 4));
-    for (measurement::Sample& sample : measurement.runs.back().samples) sample.theta += beside(sample);
+    for (measurement::Sample& sample : measurement.runs.back().samples) sample.theta += added(sample);
   }
   return measurement;
 }
@@ -87,7 +87,7 @@ inline std::function<double(const measurement::Sample&)> white_noise(double size
   };
 }
 
-/// Fit of straight lines without simulation: given slopes and residuals, summed normal equations.
+/// Fit of given slopes and residuals by normal equations, without simulation.
 inline calibration::Fit hand_made(const calibration::Evidence& evidence, const Eigen::MatrixXd& J,
                                   const Eigen::VectorXd& residual) {
   calibration::Fit fit;

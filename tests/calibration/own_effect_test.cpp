@@ -13,8 +13,8 @@ namespace {
 
 constexpr double k_noise = radians(0.01);
 
-/// A pulley with seven lobes, from the teeth of the wheel that turned the printer's table. No effect of the catalogue and
-/// no combination acts like it. (Five lobes would be ambiguous with waves of both sensors.)
+/// A pulley with seven lobes, from the teeth of the wheel that turned the printer's table. No effect of the catalogue
+/// and no combination acts like it. (Five lobes would be ambiguous with waves of both sensors.)
 fusee::Effect seven_lobes() {
   fusee::Effect effect;
   effect.name = "seven_lobes";

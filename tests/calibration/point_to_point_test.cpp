@@ -81,7 +81,7 @@ Stops few_repeats(int rows) { return cycles_at(2, rows); }
 Stops no_repeats(int rows) { return cycles_at(6, rows); }
 
 /// Log of the bench; between stops it moves and loads in small steps that are not logged.
-std::string log_of(const Stops& stops, const rig::Hidden& hidden, std::uint64_t seed, double noise = 0.02) {
+std::string log_of(const Stops& stops, const rig::HiddenFaults& hidden, std::uint64_t seed, double noise = 0.02) {
   constexpr int between = 30;
   rig::Bench bench(joint(), hidden);
   rig::Random random(seed);
@@ -125,14 +125,14 @@ std::vector<std::string> names_of(const Calibration& found) {
   return names;
 }
 
-rig::Hidden soft() {
-  rig::Hidden hidden;
+rig::HiddenFaults soft() {
+  rig::HiddenFaults hidden;
   hidden.modulus = 0.3 * joint().declared.tendon.modulus;
   return hidden;
 }
 
-rig::Hidden loose() {
-  rig::Hidden hidden;
+rig::HiddenFaults loose() {
+  rig::HiddenFaults hidden;
   hidden.backlash = radians(1.5);
   return hidden;
 }
@@ -192,7 +192,7 @@ TEST(PointToPoint, DetectsPlayBetweenApproachDirections) {
 }
 
 struct Ends {
-  rig::Hidden (*hidden)();
+  rig::HiddenFaults (*hidden)();
   const char* name;
   const char* factor;  ///< first word of the factor on which the discrepancy depends
 };

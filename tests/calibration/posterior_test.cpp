@@ -124,8 +124,8 @@ TEST(ExpectedSizes, LimitReadingToObservedError) {
   evidence.sizes = calibration::expected_sizes(all, evidence, pool);
   const calibration::Fit none = pool.one().fit({}, {});
   const double seen = calibration::k_thresholds.most_expected * rms(calibration::tangent_of(evidence, none).residual);
-  // The prior of the stretch, five degrees at the largest load, exceeds the observed error and is reduced to it. That of
-  // the gain is smaller already.
+  // The prior of the stretch, five degrees at the largest load, exceeds the observed error and is reduced to it. That
+  // of the gain is smaller already.
   for (const Effect* effect : all) {
     const calibration::Tangent wider = calibration::tangent_of(evidence, pool.one().add_chords(none, *effect));
     const Eigen::Index k = wider.x.size() - 1;

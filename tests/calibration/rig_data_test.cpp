@@ -1,5 +1,5 @@
-// Six joints measured on a rig that shares no code with the fit, and a real one. With default options, calibration finds
-// the true cause of each.
+// Six joints measured on a rig that shares no code with the fit, and a real one. With default options, calibration
+// finds the true cause of each.
 #include <gmock/gmock.h>
 
 #include <algorithm>

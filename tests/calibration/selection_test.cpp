@@ -265,8 +265,8 @@ TEST(Selection, CaliperReadingSplitsGroup) {
   EXPECT_THAT(all_groups(with), Not(Contains("radius_offset")));
 }
 
-// Only an unmodelled path of the tendons changes the moment arms of a load. Without this alternative, displaced pins led
-// by 57 nats.
+// Only an unmodelled path of the tendons changes the moment arms of a load. Without this alternative, displaced pins
+// led by 57 nats.
 TEST(Selection, UnmodelledGeometryIsNoCertainEffect) {
   const DeclaredMechanism declared = bench_joint();
   Imperfections truth;

@@ -105,9 +105,9 @@ TEST(AsGood, EndsAtThreshold) {
   calibration::Fit best, rival;
   best.log_evidence = 100;
   rival.log_evidence = 100 - 0.99 * calibration::k_thresholds.as_good;
-  EXPECT_TRUE(calibration::as_good(evidence, rival, best));
+  EXPECT_TRUE(calibration::is_as_good(evidence, rival, best));
   rival.log_evidence = 100 - 1.01 * calibration::k_thresholds.as_good;
-  EXPECT_FALSE(calibration::as_good(evidence, rival, best));
+  EXPECT_FALSE(calibration::is_as_good(evidence, rival, best));
 }
 
 }  // namespace

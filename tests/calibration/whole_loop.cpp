@@ -24,7 +24,7 @@ std::vector<RunPlan> about_zero(double load) {
   return {{0.0, k_slow, 3, 0.0}, {load, k_slow, 2, 0.0}, {0.0, k_fast, 3, 0.0}, {-load, k_slow, 2, 0.0}};
 }
 
-Log one_run(const MadeJoint& joint, const Hidden& hidden, double load) {
+Log one_run(const MadeJoint& joint, const HiddenFaults& hidden, double load) {
   SensorPlan silent;
   silent.noise = 0;
   return log_runs(joint, hidden, {{load, k_slow, 2, 0.0}}, silent).front();
@@ -175,7 +175,7 @@ measurement::Measurement measured(const MadeJoint& joint, const LoopCase& hidden
 }
 
 double joint_error(const MadeJoint& joint, const LoopCase& hidden, double assembly_angle) {
-  Hidden mounted = hidden.hidden;
+  HiddenFaults mounted = hidden.hidden;
   mounted.motor_offset -= assembly_angle;
   return miss(one_run(joint, mounted, hidden.load), transmission::Transmission(joint.declared));
 }

@@ -16,12 +16,12 @@ namespace fusee::rig {
 /// A fault that a pulley can correct.
 struct LoopCase {
   std::string name;  ///< of the effect
-  Hidden hidden;
+  HiddenFaults hidden;
   std::vector<RunPlan> plans;
   double load = 0;  ///< load of the compared runs, N: where stretch matters, the mean of the plans' loads
 };
 
-/// One of each kind, on the forearm-sized joint and on others.
+/// A case of each kind of fault, on the forearm-sized joint and on others.
 std::vector<LoopCase> loop_cases(const DeclaredMechanism& declared, double load);
 
 /// Result of one turn of the loop. rad, rms of θ − θ(α) as declared, one unloaded or evenly loaded run without noise.

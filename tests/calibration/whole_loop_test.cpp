@@ -34,7 +34,7 @@ Joint joint_of(const std::string& file, bool friction = true) {
 }
 
 /// The identified numbers of a perfect calibration.
-Imperfections truth_of(const Hidden& hidden, const DeclaredMechanism& declared) {
+Imperfections truth_of(const HiddenFaults& hidden, const DeclaredMechanism& declared) {
   Imperfections at;
   at.pulley.outline.offset = hidden.radius_offset;
   at.pulley.scale = hidden.pulley_scale;
@@ -75,9 +75,9 @@ MadeJoint corrected_joint(const Joint& joint, const correction::Correction& corr
   return with_corrected_pulley(joint.made, corrected);
 }
 
-class Known : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
+class KnownFault : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
-TEST_P(Known, PulleyCorrectsFault) {
+TEST_P(KnownFault, PulleyCorrectsFault) {
   const auto [file, name] = GetParam();
   // Without friction, because no pulley corrects its hysteresis under load.
   const Joint joint = joint_of(file, false);
@@ -92,13 +92,13 @@ TEST_P(Known, PulleyCorrectsFault) {
 }
 
 // The rig winds strings in space on the spirals of both pulleys, before and after the correction.
-INSTANTIATE_TEST_SUITE_P(WoundSeveralTimes, Known,
+INSTANTIATE_TEST_SUITE_P(MultiTurn, KnownFault,
                          testing::Combine(testing::Values("profiles/wrist_turns.toml"),
                                           testing::Values("radius_offset", "pulley_runout", "guide_position",
                                                           "tendon_stretch")),
                          [](const auto& each) { return std::string(std::get<1>(each.param)); });
 
-INSTANTIATE_TEST_SUITE_P(WholeLoop, Known,
+INSTANTIATE_TEST_SUITE_P(WholeLoop, KnownFault,
                          testing::Combine(testing::Values("profiles/forearm.toml", "profiles/unsymmetric.toml",
                                                           "tests/data/rig/d_guide_radius/spec.toml"),
                                           testing::Values("radius_offset", "pulley_scale", "pulley_runout",
@@ -122,7 +122,7 @@ pipeline::BuildResult built(const DeclaredMechanism& corrected, double tolerance
   return pipeline::build(file, options);
 }
 
-TEST_P(Known, CorrectedPulleyPassesAllChecks) {
+TEST_P(KnownFault, CorrectedPulleyPassesAllChecks) {
   const auto [file, name] = GetParam();
   const Joint joint = joint_of(file);
   DeclaredMechanism corrected = joint.made.declared;
@@ -230,9 +230,9 @@ TEST(WholeLoop, LaterFindingIsAdded) {
 }
 
 /// From the log to the corrected pulley, with nothing but the log known.
-class Found : public testing::TestWithParam<const char*> {};
+class FoundFault : public testing::TestWithParam<const char*> {};
 
-TEST_P(Found, PulleyCorrectsFault) {
+TEST_P(FoundFault, PulleyCorrectsFault) {
   const Joint joint = joint_of("profiles/forearm.toml");
   const LoopOutcome outcome =
       turn_loop(joint.made, joint.spec, case_of(joint, GetParam()), scratch(std::string("found_") + GetParam()));
@@ -240,7 +240,7 @@ TEST_P(Found, PulleyCorrectsFault) {
   EXPECT_NE(outcome.corrected_toml.find(joint.spec), std::string::npos);
 }
 
-INSTANTIATE_TEST_SUITE_P(WholeLoop, Found, testing::Values("pulley_scale", "tendon_stretch"),
+INSTANTIATE_TEST_SUITE_P(WholeLoop, FoundFault, testing::Values("pulley_scale", "tendon_stretch"),
                          [](const auto& each) { return each.param; });
 
 }  // namespace

@@ -9,8 +9,8 @@ import xml.etree.ElementTree
 
 import harness
 
-# Difficult inputs: rough pins, rubber, no tension, loads in both directions, a hanging link, other laws.
-STRAINS = [
+# Rough pins, rubber, no tension, loads in both directions, a hanging link, other laws.
+DIFFICULT_OPTIONS = [
     "",
     "--set load.tip_force_N=10",
     "--set load.tip_force_N=-10 --set guides.friction=0.5",
@@ -27,9 +27,9 @@ class Analyze(harness.Scratch):
         return list(csv.DictReader(io.StringIO(self.expect(f"analyze arm.toml --csv {arguments}", 0).stdout.decode())))
 
     def test_all_numbers_are_finite(self):
-        for strain in STRAINS:
-            with self.subTest(strain):
-                rows = self.rows(f"{strain} --samples 10 --steps 20")
+        for options in DIFFICULT_OPTIONS:
+            with self.subTest(options):
+                rows = self.rows(f"{options} --samples 10 --steps 20")
                 self.assertEqual(len({row["alpha_deg"] for row in rows}), len(rows))
                 for row in rows:
                     for name, value in row.items():
@@ -39,11 +39,11 @@ class Analyze(harness.Scratch):
                             self.assertTrue(math.isfinite(float(value)), f"{name}: {value}")
 
     def test_cells_without_equilibrium_are_empty(self):
-        strain = "--set tendon.modulus_MPa=30 --set load.tip_force_N=300 --samples 10"
-        text = self.expect(f"analyze arm.toml --csv {strain}", 5, "no_equilibrium,,,", "past its dead centre at alpha").stdout.decode()
+        options = "--set tendon.modulus_MPa=30 --set load.tip_force_N=300 --samples 10"
+        text = self.expect(f"analyze arm.toml --csv {options}", 5, "no_equilibrium,,,", "past its dead centre at alpha").stdout.decode()
         self.assertNotIn("nan", text)
         self.assertNotIn("inf", text)
-        rows = self.expect_json(f"analyze arm.toml {strain}", 5)["rows"]
+        rows = self.expect_json(f"analyze arm.toml {options}", 5)["rows"]
         self.assertTrue(any(row["rising_theta_deg"] is None for row in rows))
 
     def test_csv_and_json_agree(self):
@@ -60,12 +60,12 @@ class Analyze(harness.Scratch):
 
     def test_build_summary_agrees_with_analysis(self):
         """The summary, banner and manifest of build have the figures of analyze, to every printed digit."""
-        for strain in ("--set load.tip_force_N=10", "--set load.tip_force_N=-12 --set guides.friction=0.3", "--set tendon.pretension_N=40",
+        for options in ("--set load.tip_force_N=10", "--set load.tip_force_N=-12 --set guides.friction=0.3", "--set tendon.pretension_N=40",
                        "--set load.torque_Nmm=700 --set motor.travel_deg=180 --set motor.stall_torque_Nmm=300"):
-            with self.subTest(strain):
-                document = self.expect_json(f"analyze arm.toml --samples 10 {strain}", 0)
+            with self.subTest(options):
+                document = self.expect_json(f"analyze arm.toml --samples 10 {options}", 0)
                 summary, motor = document["summary"], document.get("motor")
-                built = self.expect_json(f"build arm.toml --force -o out/arm {strain}", 0)
+                built = self.expect_json(f"build arm.toml --force -o out/arm {options}", 0)
                 manifest = json.loads((self.folder / "out/arm/manifest.json").read_bytes())
                 for load in (built["under_load"], manifest["under_load"]):
                     self.assertEqual(load["max_theta_error_deg"], summary["theta_error"]["value_deg"])
@@ -75,7 +75,7 @@ class Analyze(harness.Scratch):
                     self.assertEqual(load["safety_factor"], summary["safety_factor"])
                 self.assertEqual(built.get("motor"), motor)
                 self.assertEqual(manifest.get("motor"), motor)
-                text = self.expect(f"build arm.toml --dry-run {strain}", 0).stdout.decode()
+                text = self.expect(f"build arm.toml --dry-run {options}", 0).stdout.decode()
                 error = re.search(r"theta up to ([\d.e-]+) deg off, alpha = (-?[\d.]+) deg", text)
                 self.assertEqual(error[1], f"{summary['theta_error']['value_deg']:.3g}")
                 self.assertEqual(error[2], f"{summary['theta_error']['alpha_deg']:.1f}")
@@ -153,10 +153,10 @@ class Analyze(harness.Scratch):
         self.assertEqual(self.fusee("analyze arm.toml").stdout, self.fusee("analyze arm.toml").stdout)
 
     def test_fits_terminal(self):
-        for strain in STRAINS + ["--set load.tip_force_N=500 --set joint.length_mm=1000 --set guides.EB_mm=500 --set guides.ED_mm=500 "
+        for options in DIFFICULT_OPTIONS + ["--set load.tip_force_N=500 --set joint.length_mm=1000 --set guides.EB_mm=500 --set guides.ED_mm=500 "
                                  "--set guides.OE_mm=-400 --set pulley.EF_mm=800 --set pulley.r1_mm=160 --set tendon.diameter_mm=5"]:
-            for line in self.fusee(f"analyze arm.toml --samples 10 {strain}").stdout.decode().splitlines():
-                self.assertLessEqual(len(line), 80, f"{strain}: {line}")
+            for line in self.fusee(f"analyze arm.toml --samples 10 {options}").stdout.decode().splitlines():
+                self.assertLessEqual(len(line), 80, f"{options}: {line}")
 
 
 if __name__ == "__main__":

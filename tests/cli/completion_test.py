@@ -18,7 +18,7 @@ class Candidates(harness.Scratch):
     def offered(self, line):
         return [word.split("\t")[0] for word in self.fusee(["completion", "candidates", line]).stdout.decode().splitlines()]
 
-    def test_commands(self):
+    def test_offers_commands(self):
         self.assertEqual(self.offered("fusee "), commands())
         self.assertEqual(self.offered("fusee bu"), ["build"])
         self.assertEqual(self.offered("fusee -q bu"), ["build"])

@@ -14,7 +14,7 @@ class Examples(harness.Scratch):
         self.assertGreaterEqual(len(lines), 2, f"'{command}' needs examples")
         return lines
 
-    def test_all(self):
+    def test_examples_succeed(self):
         self.fusee("build arm.toml -o earlier")
         (self.folder / "earlier/pulley.3mf").rename(self.folder / "pulley.3mf")
         (self.folder / "arm.toml").unlink()  # the examples create their own
@@ -24,7 +24,7 @@ class Examples(harness.Scratch):
                     # Enter takes each proposal of --ask.
                     done = subprocess.run(["bash", "-c", line], cwd=self.folder, env=harness.ENVIRONMENT, input=b"\n" * 7, capture_output=True, timeout=120)
                     self.assertEqual(done.returncode, 0, done.stderr.decode())
-                    if command == "reproduce":  # tested below, since it takes long
+                    if command == "reproduce":  # its width is tested here only: it takes long
                         self.assertLessEqual(max(map(len, done.stdout.decode().splitlines()), default=0), 80)
 
     def test_help_fits_terminal(self):

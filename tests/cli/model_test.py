@@ -66,7 +66,7 @@ class Model(harness.Scratch):
     def test_header_matches_transmission_csv(self):
         self.header_against_transmission_csv("arm.toml", "arm", "m")
 
-    def test_header_matches_several_turns(self):
+    def test_header_matches_multi_turn(self):
         shutil.copy(harness.SOURCE / "profiles/elbow_capstan.toml", self.folder)
         self.header_against_transmission_csv("elbow_capstan.toml", "elbow_capstan", "turns")
 

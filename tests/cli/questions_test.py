@@ -68,7 +68,7 @@ class Questions(harness.Scratch):
             self.assertIn("drum_radius_mm", text)
             self.builds(text, 60)
 
-    def test_heavy_load_in_small_room_gets_several_turns(self):
+    def test_heavy_load_gets_multi_turn_pulley(self):
         text, asked = self.ask(answers(length="250", span="±60", room="40", load="50 N", motor="nema17-d5", tendon="1"))
         self.assertIn("several turns", asked)
         self.assertIn('kind = "idler"', text)

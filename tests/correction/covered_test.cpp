@@ -131,7 +131,7 @@ std::vector<std::string> names_of(const calibration::Calibration& calibration) {
   return names;
 }
 
-TEST(Covered, CoversBumpAsPredicted) {
+TEST(EmpiricalCurve, CoversBumpAsPredicted) {
   const Answer found = answer({"lump"}, 1);
   const calibration::EmpiricalCurve& curve = found.calibration.curve;
   ASSERT_TRUE(curve.used) << curve.why;
@@ -144,7 +144,7 @@ TEST(Covered, CoversBumpAsPredicted) {
   EXPECT_GE(found.correction.by_table, found.correction.by_curve);
 }
 
-TEST(Covered, TableReducesControllerError) {
+TEST(EmpiricalCurve, TableReducesControllerError) {
   const Answer found = answer({"lump"}, 1);
   const std::vector<Line> table = lines_of(correction::compensation_csv(found.correction));
   const Case again = measured_again(found.made);
@@ -156,7 +156,7 @@ TEST(Covered, TableReducesControllerError) {
               0.1 * degrees(found.calibration.curve.gain));
 }
 
-TEST(Covered, DistinguishesDirections) {
+TEST(EmpiricalCurve, DistinguishesDirections) {
   const Answer found = answer({"climbing_flank"}, 3);  // acts only while tendon 2 is wound in
   const calibration::EmpiricalCurve& curve = found.calibration.curve;
   ASSERT_TRUE(curve.used) << curve.why;
@@ -169,7 +169,7 @@ TEST(Covered, DistinguishesDirections) {
   EXPECT_GT(error_on_new_runs(found).gain(), 0.9 * curve.gain);
 }
 
-TEST(Covered, KeepsKnownCause) {
+TEST(EmpiricalCurve, KeepsKnownCause) {
   const Answer found = answer({"backlash", "lump"}, 1);
   EXPECT_THAT(names_of(found.calibration), Contains("backlash"));
   ASSERT_TRUE(found.calibration.curve.used) << found.calibration.curve.why;
@@ -181,7 +181,7 @@ struct UncorrectableFault {
   std::uint64_t seed;
 };
 
-TEST(Covered, RejectsLoadOrTimeDependence) {
+TEST(EmpiricalCurve, RejectsLoadOrTimeDependence) {
   // A flat under a compliant tendon, and knots that have settled by the second run.
   for (const UncorrectableFault& one : {UncorrectableFault{"flat_on_pin", 2}, {"tightening_knots", 1}}) {
     const Answer found = answer({one.fault}, one.seed);
@@ -193,13 +193,13 @@ TEST(Covered, RejectsLoadOrTimeDependence) {
   }
 }
 
-TEST(Covered, RejectsWaveFinerThanRows) {
+TEST(EmpiricalCurve, RejectsWaveFinerThanRows) {
   const Answer found = answer({"jumping_hub"}, 3);
   EXPECT_FALSE(found.calibration.curve.used);
   EXPECT_NE(found.calibration.curve.why, "");
 }
 
-TEST(Covered, IsEmptyWithoutDiscrepancy) {
+TEST(EmpiricalCurve, IsEmptyWithoutDiscrepancy) {
   const Answer found = answer({"backlash"}, 1);
   EXPECT_EQ(found.calibration.curve.why, "");
   EXPECT_TRUE(found.calibration.curve.alpha.empty());
@@ -207,7 +207,7 @@ TEST(Covered, IsEmptyWithoutDiscrepancy) {
 }
 
 // Long: the figures of the empirical curve in docs/background/calibration-results.md.
-TEST(Covered, PredictedGainHoldsOnRandomJoints) {
+TEST(EmpiricalCurve, PredictedGainHoldsOnRandomJoints) {
   if (std::getenv("FUSEE_LONG_TESTS") == nullptr) GTEST_SKIP() << "FUSEE_LONG_TESTS is not set";
   constexpr std::uint64_t joints = 4;
   for (const Protocol protocol : {Protocol::full, Protocol::random}) {

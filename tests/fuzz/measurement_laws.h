@@ -24,8 +24,9 @@ inline std::string broken_law(const measurement::Run& run) {
   for (const measurement::Stroke& stroke : run.strokes) {
     if (stroke.first < next || stroke.last < stroke.first || stroke.last >= run.samples.size())
       return "strokes overlap or leave the run";
-    const bool stands = run.strokes.size() == 1 && stroke.first == 0 && stroke.last + 1 == run.samples.size();
-    if (std::abs(stroke.direction) != 1 && !(stroke.direction == 0 && stands)) return "a stroke has no direction";
+    const bool is_standstill = run.strokes.size() == 1 && stroke.first == 0 && stroke.last + 1 == run.samples.size();
+    if (std::abs(stroke.direction) != 1 && !(stroke.direction == 0 && is_standstill))
+      return "a stroke has no direction";
     next = stroke.last + 1;
   }
   return {};

@@ -47,7 +47,7 @@ RunOutSizes sizes_of(const Sizes& wanted) {
   return sizes;
 }
 
-/// Angle of the flattest upward face of the cut volume, except its faces and ends.
+/// Angle of the flattest ceiling of the channel inside the part.
 double flattest_ceiling(const solid::TriangleMesh& tool, const GrooveEnd& end) {
   double flattest = 0.5 * k_pi;
   for (const auto& [ia, ib, ic] : tool.triangles) {

@@ -41,13 +41,13 @@ UpperLine upper_line(double R, double theta, const Vec2& pin, double rho) {
 }
 
 /// A tendon below its pin, in its right-hand image: from the pin's tangent point to the contact on the pulley.
-struct Lower {
+struct LowerPart {
   double reach = 0;
   double normal = 0;
 };
 
 /// The contact is the intersection of neighbouring lines in the pulley's frame.
-Lower free_below(const transmission::Transmission& law, transmission::Side side, double image_alpha) {
+LowerPart free_below(const transmission::Transmission& law, transmission::Side side, double image_alpha) {
   struct Line {
     double p, reach, normal;
   };
@@ -77,7 +77,7 @@ struct TendonInputs {
         EA(mechanism.tendon.modulus * k_pi / 4 * mechanism.tendon.diameter * mechanism.tendon.diameter) {}
 
   UpperLine upper(double image_theta) const { return upper_line(R, image_theta, pin, rho); }
-  Lower lower(double image_alpha) const { return free_below(law, side, image_alpha); }
+  LowerPart lower(double image_alpha) const { return free_below(law, side, image_alpha); }
   /// Moment arm about the pulley's axis.
   double arm(double image_alpha) const {
     const transmission::TransmissionPoint at = law.at_alpha(transmission::mirror_sign(side) * image_alpha);
@@ -169,7 +169,7 @@ class Chain {
 
   /// Splits the end pieces at new friction points, joins them at abandoned ones, and then updates the lengths.
   void fit(std::vector<Piece>& pieces, std::size_t& first, std::size_t& last, const UpperLine& upper,
-           const Lower& lower) const {
+           const LowerPart& lower) const {
     const std::size_t new_first = index_above(lower.normal);
     const std::size_t new_last = index_above(upper.normal);
     while (last > new_last) {
@@ -284,7 +284,7 @@ class Chain {
   std::vector<double> rim_;    ///< normals of the friction points, fixed on the rim
   std::vector<Piece> pieces_;  ///< from the pulley upwards
   std::size_t first_, last_;   ///< first and last rim points that the tendon touches
-  Lower lower_, next_;
+  LowerPart lower_, next_;
   double alpha_ = 0, alpha_next_ = 0, winding_ = 0;
   std::vector<WoundPiece> pile_;
   double pile_density_ = 1;
@@ -354,13 +354,13 @@ class Elements {
     const double to = right ? inputs_.law.alpha_max() : -inputs_.law.alpha_min();
     constexpr int count = 4000;
     double over = 0;
-    Lower first;
+    LowerPart first;
     for (int i = 0; i <= count; ++i) {
       const double alpha = from + (to - from) * i / count;
       const double step = (to - from) / count;
       if (i > 0)
         over += step / 6 * (inputs_.arm(alpha - step) + 4 * inputs_.arm(alpha - 0.5 * step) + inputs_.arm(alpha));
-      const Lower here = inputs_.lower(alpha);
+      const LowerPart here = inputs_.lower(alpha);
       if (i == 0) first = here;
       alphas_.push_back(alpha);
       arcs_.push_back(5.0 + over - (here.reach - first.reach) + inputs_.rho * (here.normal - first.normal));
@@ -404,10 +404,10 @@ class Elements {
   std::vector<double> strain_;
   double material_ = 0, total_ = 0;
   double arc_now_ = 0, turn_now_ = 0;
-  Lower lower_;
+  LowerPart lower_;
 };
 
-struct Simulated {
+struct SimulatedState {
   double theta = 0;
   Chain::Pull t1, t2;
 };
@@ -419,7 +419,7 @@ struct Row {
 
 /// Moves from home through `rows`.
 template <typename Tendon>
-std::vector<Simulated> simulate(const Mechanism& mechanism, const std::vector<Row>& rows, int points) {
+std::vector<SimulatedState> simulate(const Mechanism& mechanism, const std::vector<Row>& rows, int points) {
   const Vec2 left_pin(mechanism.guides.EB, -mechanism.guides.OE);
   const Vec2 right_pin(mechanism.guides.ED, -mechanism.guides.OE);
   const double rho = mechanism.guide_pitch_radius();
@@ -428,7 +428,7 @@ std::vector<Simulated> simulate(const Mechanism& mechanism, const std::vector<Ro
       T1 * upper_line(mechanism.joint.R, 0, left_pin, rho).arm / upper_line(mechanism.joint.R, 0, right_pin, rho).arm;
   Tendon left(mechanism, transmission::Side::left, T1, points);
   Tendon right(mechanism, transmission::Side::right, T2, points);
-  std::vector<Simulated> results;
+  std::vector<SimulatedState> results;
   double theta = 0;
   for (const auto& [alpha, load] : rows) {
     left.turn(-alpha);
@@ -480,7 +480,7 @@ struct Disagreement {
 };
 
 Disagreement disagreement(const Mechanism& mechanism, const std::vector<Row>& rows,
-                          const std::vector<Simulated>& other) {
+                          const std::vector<SimulatedState>& other) {
   JointMotion motion(joint_model(mechanism));
   const transmission::Transmission law(mechanism);
   double theta = 0;
@@ -542,7 +542,7 @@ TEST(Elements, AgreeWithGrooveSliding) {
     std::vector<Row> rows = up_and_down(mechanism, 500.0, 30);
     for (int i = 1; i <= 20; ++i) rows.push_back({0.0, 500.0 - 50.0 * i});  // to −500 N·mm
     for (const Row& row : up_and_down(mechanism, -500.0, 20)) rows.push_back(row);
-    const std::vector<Simulated> elements = simulate<Elements>(mechanism, rows, 500);
+    const std::vector<SimulatedState> elements = simulate<Elements>(mechanism, rows, 500);
     const Disagreement off = disagreement(mechanism, rows, elements);
     EXPECT_LT(off.theta, 1e-3) << friction;
     EXPECT_LT(off.tension, 2e-4) << friction;

@@ -193,7 +193,7 @@ TEST(Bearing, ConservesEnergy) {
   EXPECT_NEAR(work_missing(points), 0, 1e-3 * points.back().friction);
 }
 
-// ---- nothing holds it -----------------------------------------------------------------------------------------------
+// ---- loose joints -----------------------------------------------------------------------------------------------------
 
 TEST(Loose, RestsWhereLastPushed) {
   Mechanism mechanism = forearm();

@@ -1,5 +1,5 @@
-// Friction on a joint's drum, [d1] to [d3] of docs/background/physics.md: compared with a string of links that shares no
-// equation with the model, with the energy balance of a cycle, and with its limits.
+// Friction on a joint's drum, [d1] to [d3] of docs/background/physics.md: compared with a string of links that shares
+// no equation with the model, with the energy balance of a cycle, and with its limits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -80,8 +80,8 @@ Mechanism rubbing(Mechanism mechanism, double friction, double modulus) {
   return mechanism;
 }
 
-/// Difference between model and string. With infinite groove friction and without pin friction, span and wound part of a
-/// tendon follow from the span's tension. The string must contain all other material at every angle.
+/// Difference between model and string. With infinite groove friction and without pin friction, span and wound part of
+/// a tendon follow from the span's tension. The string must contain all other material at every angle.
 struct Difference {
   double slides = 0;    ///< largest excess or deficit of material on the drum relative to the span's tension, mm
   double material = 0;  ///< difference in the tendon's material, mm

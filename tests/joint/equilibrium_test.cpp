@@ -291,7 +291,7 @@ Mechanism wound_twice() {
   return mechanism;
 }
 
-TEST(SeveralTurns, AreOneSpringWithoutFriction) {
+TEST(MultiTurn, AreOneSpringWithoutFriction) {
   // Round and on a drum: free upper length, wrap of the pin and the lower span stand still, both arcs are r times an
   // angle. From the end on the joint to the knot: straight, round the pin, to the pulley, and all that lies on it.
   Mechanism mechanism = wound_twice();
@@ -317,14 +317,14 @@ TEST(SeveralTurns, AreOneSpringWithoutFriction) {
   }
 }
 
-TEST(SeveralTurns, ConserveEnergy) {
+TEST(MultiTurn, ConserveEnergy) {
   double scale = 0;
   const double missing = work_missing(wound_twice(), {2.0, 8000, 2}, &scale);
   EXPECT_GT(scale, 10.0);
   EXPECT_LT(std::abs(missing), 1e-5 * scale);
 }
 
-TEST(SeveralTurns, FirstSpareTurnHoldsMost) {
+TEST(MultiTurn, FirstSpareTurnHoldsMost) {
   // A wrap of 2π leaves e^(−2πμ) of a change of tension to what lies behind it: 4 % at 0.5.
   Mechanism mechanism = wound_twice();
   mechanism.pulley.mu = 0.5;

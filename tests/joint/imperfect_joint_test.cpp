@@ -109,7 +109,7 @@ TEST(Paths, SatisfyVirtualWork) {
     EXPECT_NEAR(left + right, 0.0, 1e-6 * std::abs(left)) << state.theta;
     most = std::max(most, std::abs(state.t1.upper - state.t2.upper));
   }
-  EXPECT_GT(most, 1.0) << "N: both arms are not alike";
+  EXPECT_GT(most, 1.0) << "the tensions differ, N";
 }
 
 // Virtual work of both tensions and the load over a small rotation, with lengths by differences.
@@ -151,7 +151,7 @@ TEST(Rubbing, FollowsFrictionLaws) {
     }
     EXPECT_GT(moved, 100);
     EXPECT_GT(held, 5) << "behind its reversals";
-    EXPECT_GT(most, 1.02 * least) << "it goes by what is pulled";
+    EXPECT_GT(most, 1.02 * least) << "friction grows with the tensions";
   }
 }
 

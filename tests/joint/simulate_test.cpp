@@ -22,7 +22,7 @@ BenchLog swept(double load) {
   return {run};
 }
 
-Imperfections several() {
+Imperfections several_imperfections() {
   Imperfections at;
   at.shaft.backlash = 0.02;
   at.tendon.stretch = 0.5;
@@ -33,7 +33,7 @@ Imperfections several() {
 
 TEST(Simulate, AgreesWithPrediction) {
   const DeclaredMechanism joint = testing::forearm();
-  for (const Imperfections& at : {Imperfections{}, several()}) {
+  for (const Imperfections& at : {Imperfections{}, several_imperfections()}) {
     for (const double load : {0.0, 12.0}) {
       const Readings predicted = predict(joint, at, swept(load));
       const auto states = joint::simulate(joint, at, swept(load));
@@ -44,7 +44,7 @@ TEST(Simulate, AgreesWithPrediction) {
 }
 
 TEST(Simulate, DistinguishesAngleAndReading) {
-  const Imperfections at = several();
+  const Imperfections at = several_imperfections();
   const auto states = joint::simulate(testing::forearm(), at, swept(5));
   for (const JointState& state : states.front())
     EXPECT_NEAR(state.shown, at.sensor.zero + (1 + at.sensor.gain) * state.theta, 1e-14);
@@ -160,7 +160,7 @@ BenchLog swept_while_warming() {
   return log;
 }
 
-TEST(Simulate, EveryEffectOfARatioMovesTheJoint) {
+TEST(Simulate, EveryRatioJointEffectMovesJoint) {
   const Readings declared = predict(geared(2), {}, swept_while_warming());
   for (const Effect& effect : effects(JointKind::ratio)) {
     Imperfections at;

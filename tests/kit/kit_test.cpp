@@ -200,7 +200,7 @@ TEST_P(Kit, PostStandsAtC) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Kit, ::testing::Values("forearm", "finger", "wrist_exo"));
+INSTANTIATE_TEST_SUITE_P(Profiles, Kit, ::testing::Values("forearm", "finger", "wrist_exo"));
 
 // ---- advice of rejected kits ----------------------------------------------------------------------------------------
 
@@ -387,7 +387,7 @@ TEST_P(Template, HasAHoleAtEveryAxis) {
   EXPECT_NEAR(most, mechanism.joint.drum_radius, 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Template,
+INSTANTIATE_TEST_SUITE_P(Profiles, Template,
                          ::testing::Values("finger_mcp", "finger_pip", "ankle_exo", "elbow_idlers", "wrist_sheath",
                                            "gravity_arm"),
                          [](const auto& tested) { return tested.param; });

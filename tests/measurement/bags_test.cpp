@@ -560,10 +560,10 @@ std::string repeated_zeros(int blocks) {
 
 TEST(Unpacking, StopsAtItsLimit) {
   const std::string packed = repeated_zeros(100);
-  const Unpacked all = unpack(Packing::zstd, packed, std::size_t{1} << 30);
+  const UnpackedBytes all = unpack(Packing::zstd, packed, std::size_t{1} << 30);
   EXPECT_TRUE(all.whole);
   EXPECT_EQ(all.bytes.size(), std::size_t{100} * 128 * 1024);
-  const Unpacked some = unpack(Packing::zstd, packed, 1'000'000);
+  const UnpackedBytes some = unpack(Packing::zstd, packed, 1'000'000);
   EXPECT_FALSE(some.whole);
   EXPECT_EQ(some.bytes.size(), 1'000'000u);
   UnpackingLimit limit;

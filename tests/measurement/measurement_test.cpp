@@ -44,13 +44,13 @@ std::string csv(const std::vector<double>& alphas, const std::function<double(do
 
 double quarter(double alpha) { return 0.25 * alpha; }
 
-struct Parsed {
+struct ParsedRun {
   Measurement measurement;
   fusee::measurement::Run run;
 };
 
-Parsed parsed(const std::string& text, const MeasurementOptions& options = {}) {
-  Parsed result;
+ParsedRun parsed(const std::string& text, const MeasurementOptions& options = {}) {
+  ParsedRun result;
   result.run = parse_run(text, "run.csv", options, result.measurement);
   return result;
 }
@@ -100,7 +100,7 @@ class Scratch {
 };
 
 TEST(Measurement, ReadsBenchLog) {
-  const Parsed p = parsed(csv(triangle(40, 50, 4), quarter));
+  const ParsedRun p = parsed(csv(triangle(40, 50, 4), quarter));
   EXPECT_THAT(p.measurement.not_testable, IsEmpty());
   EXPECT_THAT(p.measurement.notes, IsEmpty());
   ASSERT_THAT(p.run.samples, SizeIs(201));
@@ -112,7 +112,7 @@ TEST(Measurement, ReadsBenchLog) {
 }
 
 TEST(Measurement, CutsStrokesAtReversals) {
-  const Parsed p = parsed(csv(triangle(40, 50, 4), quarter));
+  const ParsedRun p = parsed(csv(triangle(40, 50, 4), quarter));
   ASSERT_THAT(p.run.strokes, SizeIs(4));
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(p.run.strokes[i].direction, i % 2 == 0 ? 1 : -1);
@@ -133,7 +133,7 @@ TEST(Measurement, NoiseMakesNoStrokes) {
 TEST(Measurement, FirstStrokeFromMiddleIsPartial) {
   std::vector<double> alphas = triangle(40, 50, 4);
   alphas.erase(alphas.begin(), alphas.begin() + 25);
-  const Parsed p = parsed(csv(alphas, quarter));
+  const ParsedRun p = parsed(csv(alphas, quarter));
   ASSERT_THAT(p.run.strokes, SizeIs(4));
   EXPECT_TRUE(p.run.strokes[0].partial);
   EXPECT_FALSE(p.run.strokes[1].partial);
@@ -144,7 +144,7 @@ TEST(Measurement, AcceptsCommentsMarksAndLineEnds) {
   std::string text = csv(triangle(40, 50, 4), quarter);
   std::string windows = "\xEF\xBB\xBF# a log\r\n";
   for (const char c : text) windows += c == '\n' ? std::string("\r\n  # said\r\n") : std::string(1, c);
-  const Parsed plain = parsed(text), strange = parsed(windows);
+  const ParsedRun plain = parsed(text), strange = parsed(windows);
   ASSERT_EQ(plain.run.samples.size(), strange.run.samples.size());
   for (std::size_t i = 0; i < plain.run.samples.size(); ++i)
     EXPECT_EQ(plain.run.samples[i].theta, strange.run.samples[i].theta);
@@ -158,14 +158,14 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 TEST(Measurement, ReadsEverySeparator) {
   const std::string text = csv(triangle(40, 50, 4), quarter);
-  const Parsed plain = parsed(text);
+  const ParsedRun plain = parsed(text);
   const std::string padded = replaced(replaced(text, ",", " , "), "\n", "\t\n");
   const std::string quoted =
       "\"" + replaced(replaced(text.substr(0, text.size() - 1), ",", "\",\""), "\n", "\"\n\"") + "\"";
   for (const std::string& other :
        {replaced(text, ",", ";"), replaced(text, ",", "\t"), replaced(text, ",", "  "), replaced(text, "\n", "\r"),
         replaced(text, "\n", "\r\n"), replaced(text, "\n", ",\n"), text.substr(0, text.size() - 1), padded, quoted}) {
-    const Parsed p = parsed(replaced(other, "theta_deg,\n", "theta_deg\n"));
+    const ParsedRun p = parsed(replaced(other, "theta_deg,\n", "theta_deg\n"));
     ASSERT_EQ(p.run.samples.size(), plain.run.samples.size()) << other.substr(0, 80);
     for (std::size_t i = 0; i < p.run.samples.size(); ++i)
       EXPECT_EQ(p.run.samples[i].theta, plain.run.samples[i].theta);
@@ -175,7 +175,7 @@ TEST(Measurement, ReadsEverySeparator) {
 
 TEST(Measurement, TakesUnitFromColumnName) {
   const std::string text = "clock_ms,motor_rad,joint_rad\n500,0.5,0.1\n";
-  const Parsed p = parsed(text, named({{"time", "clock_ms"}, {"alpha", "motor_rad"}, {"theta", "joint_rad"}}));
+  const ParsedRun p = parsed(text, named({{"time", "clock_ms"}, {"alpha", "motor_rad"}, {"theta", "joint_rad"}}));
   EXPECT_DOUBLE_EQ(p.run.samples.at(0).time, 0.5);
   EXPECT_DOUBLE_EQ(p.run.samples.at(0).alpha, 0.5);
   EXPECT_DOUBLE_EQ(p.run.samples.at(0).theta, 0.1);
@@ -224,14 +224,14 @@ TEST(Measurement, ReportsFaultOfManyRowsOnce) {
 }
 
 TEST(Measurement, OmitsTruncatedLastRow) {
-  const Parsed p = parsed(csv(triangle(40, 50, 4), quarter) + "20.1,-39");
+  const ParsedRun p = parsed(csv(triangle(40, 50, 4), quarter) + "20.1,-39");
   EXPECT_THAT(p.run.samples, SizeIs(201));
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("the last row (line 203) is truncated"));
 }
 
 TEST(Measurement, AssignsRolesToColumns) {
   const std::string text = "alpha_deg,theta_deg,tau_out_Nm\n1,2,3\n";
-  const Parsed p = parsed(text, named({{"load", "tau_out_Nm"}}));
+  const ParsedRun p = parsed(text, named({{"load", "tau_out_Nm"}}));
   EXPECT_TRUE(p.run.has_load);
   EXPECT_EQ(p.run.samples.at(0).load, 3);
   EXPECT_EQ(p.measurement.load_unit, "Nm");
@@ -258,7 +258,7 @@ TEST(Measurement, ReportsLineOfInvalidNumber) {
 TEST(Measurement, CountsRowsWithoutAngle) {
   std::string text = csv(triangle(40, 50, 4), quarter);
   text.replace(text.find("\n0,") + 1, 2, "0.0,nan,inf\n0,");
-  const Parsed p = parsed(text);
+  const ParsedRun p = parsed(text);
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("1 row without alpha or theta, the first in line 2"));
   EXPECT_THAT(p.run.samples, SizeIs(201));
 }
@@ -268,7 +268,7 @@ TEST(Measurement, UnwrapsEncoder) {
   std::vector<double> alphas = triangle(300, 100, 4);
   std::string text = "alpha_deg,theta_deg\n";
   for (const double alpha : alphas) text += shortest(wrapped(alpha)) + "," + shortest(quarter(alpha)) + "\n";
-  const Parsed p = parsed(text);
+  const ParsedRun p = parsed(text);
   // The first value determines the turn on which the log begins.
   const double shift = degrees(p.run.samples[0].alpha) - alphas[0];
   for (std::size_t i = 0; i < alphas.size(); ++i) EXPECT_NEAR(degrees(p.run.samples[i].alpha), alphas[i] + shift, 1e-9);
@@ -280,7 +280,7 @@ TEST(Measurement, MovesLateRowBack) {
   std::string text = csv(triangle(40, 50, 4), quarter);
   const std::size_t a = text.find("\n3,") + 1, b = text.find('\n', a) + 1, c = text.find('\n', b) + 1;
   text = text.substr(0, a) + text.substr(b, c - b) + text.substr(a, b - a) + text.substr(a, b - a) + text.substr(c);
-  const Parsed p = parsed(text);
+  const ParsedRun p = parsed(text);
   ASSERT_THAT(p.run.samples, SizeIs(201));
   for (std::size_t i = 1; i < 201; ++i) EXPECT_GT(p.run.samples[i].time, p.run.samples[i - 1].time);
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("delivered late"));
@@ -299,32 +299,32 @@ std::string timed(const std::function<std::string(int)>& time) {
 }
 
 TEST(Measurement, InterpolatesFewMissingTimes) {
-  const Parsed few = parsed(timed([](int i) { return i == 7 || i == 8 ? "" : shortest(0.1 * i); }));
+  const ParsedRun few = parsed(timed([](int i) { return i == 7 || i == 8 ? "" : shortest(0.1 * i); }));
   EXPECT_NEAR(few.run.samples[7].time, 0.7, 1e-12);
   EXPECT_NEAR(few.run.samples[8].time, 0.8, 1e-12);
   EXPECT_THAT(notes_of(few.measurement), HasSubstr("2 rows without a time"));
-  const Parsed many = parsed(timed([](int i) { return i % 2 == 0 ? "nan" : shortest(0.1 * i); }));
+  const ParsedRun many = parsed(timed([](int i) { return i % 2 == 0 ? "nan" : shortest(0.1 * i); }));
   EXPECT_FALSE(many.run.has_time);
   EXPECT_THAT(many.run.samples, SizeIs(201));
   EXPECT_THAT(notes_of(many.measurement), HasSubstr("time is not used"));
 }
 
 TEST(Measurement, SpreadsCoarseClock) {
-  const Parsed p = parsed(timed([](int i) { return std::to_string(i / 10); }));
+  const ParsedRun p = parsed(timed([](int i) { return std::to_string(i / 10); }));
   ASSERT_THAT(p.run.samples, SizeIs(201));
   for (std::size_t i = 0; i < 200; ++i) EXPECT_NEAR(p.run.samples[i].time, 0.1 * static_cast<double>(i), 1e-12);
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("coarser than the log"));
 }
 
 TEST(Measurement, DropsConstantClock) {
-  const Parsed p = parsed(timed([](int) { return "1.0"; }));
+  const ParsedRun p = parsed(timed([](int) { return "1.0"; }));
   EXPECT_FALSE(p.run.has_time);
   EXPECT_THAT(p.run.samples, SizeIs(201));
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("the clock stands still"));
 }
 
 TEST(Measurement, ContinuesRestartedClock) {
-  const Parsed p = parsed(timed([](int i) { return shortest(0.1 * (i % 100)); }));
+  const ParsedRun p = parsed(timed([](int i) { return shortest(0.1 * (i % 100)); }));
   ASSERT_THAT(p.run.samples, SizeIs(201));
   for (std::size_t i = 0; i < 201; ++i) EXPECT_NEAR(p.run.samples[i].time, 0.1 * static_cast<double>(i), 1e-9);
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("the clock goes back 2 times, first from 9.9 to 0 s"));
@@ -333,7 +333,7 @@ TEST(Measurement, ContinuesRestartedClock) {
 TEST(Measurement, KeepsOrderOfSwappedHalves) {
   const std::string text = timed([](int i) { return shortest(0.1 * i); });
   const std::size_t body = text.find('\n') + 1, middle = text.find("\n13,") + 1;
-  const Parsed p = parsed(text.substr(0, body) + text.substr(middle) + text.substr(body, middle - body));
+  const ParsedRun p = parsed(text.substr(0, body) + text.substr(middle) + text.substr(body, middle - body));
   ASSERT_THAT(p.run.samples, SizeIs(201));
   for (std::size_t i = 0; i < 201; ++i) {
     EXPECT_NEAR(degrees(p.run.samples[i].alpha), triangle(40, 50, 4)[(i + 130) % 201], 1e-9);
@@ -373,7 +373,7 @@ std::string directions_of(const fusee::measurement::Run& run) {
 
 TEST(Strokes, SineBeginsWithPartialStroke) {
   for (const double noise : {0.0, 0.05, 0.5}) {
-    const Parsed p = parsed(csv(jittered(sine(40, 2000, 3), noise), quarter));
+    const ParsedRun p = parsed(csv(jittered(sine(40, 2000, 3), noise), quarter));
     EXPECT_EQ(directions_of(p.run), "(+)-+-+-+") << noise;
     // A quarter sine is partial; cycles count from the first complete stroke.
     for (std::size_t i = 1; i < p.run.strokes.size(); ++i)
@@ -393,7 +393,7 @@ std::string directions_behind_play(double behind) {
                        })).run);
 }
 
-TEST(Strokes, UnlikeItsRepeatsAtTheBeginningIsPartial) {
+TEST(Strokes, BeginningUnlikeItsRepeatsIsPartial) {
   EXPECT_EQ(directions_behind_play(-38.0), "+-+-+-");  // as after every reversal
   EXPECT_EQ(directions_behind_play(-42.0), "(+)-+-+-");
 }
@@ -403,8 +403,8 @@ TEST(Strokes, DwellsDoNotCutStrokes) {
   for (const std::size_t every :
        {std::size_t{50}, std::size_t{25}, std::size_t{10}}) {  // at the reversals, in the middle, staircases
     for (const double noise : {0.0, 0.02}) {
-      const Parsed p = parsed(csv(jittered(dwelling(alphas, every, 40), noise),
-                                  [](double alpha) { return 0.25 * alpha + 1e-4 * std::sin(1e5 * alpha); }));
+      const ParsedRun p = parsed(csv(jittered(dwelling(alphas, every, 40), noise),
+                                     [](double alpha) { return 0.25 * alpha + 1e-4 * std::sin(1e5 * alpha); }));
       EXPECT_EQ(directions_of(p.run), "+-+-+-") << every << " " << noise;
     }
   }
@@ -421,13 +421,13 @@ TEST(Strokes, TinyMotionMakesStrokes) {
 }
 
 TEST(Strokes, JitterMakesNoStroke) {
-  const Parsed p = parsed(csv(jittered(std::vector<double>(300, 3.0), 0.01), quarter));
+  const ParsedRun p = parsed(csv(jittered(std::vector<double>(300, 3.0), 0.01), quarter));
   EXPECT_EQ(directions_of(p.run), "");
   EXPECT_THAT(reasons_of(p.measurement), HasSubstr("alpha only jitters (by 0.02 deg)"));
 }
 
 TEST(Strokes, FindsManyCycles) {
-  const Parsed p = parsed(csv(jittered(triangle(40, 20, 400), 0.02), quarter));
+  const ParsedRun p = parsed(csv(jittered(triangle(40, 20, 400), 0.02), quarter));
   ASSERT_THAT(p.run.strokes, SizeIs(400));
   EXPECT_EQ(p.run.strokes.back().cycle, 199);
 }
@@ -436,7 +436,7 @@ TEST(Strokes, GapCutsStroke) {
   std::string text = csv(triangle(40, 50, 6), quarter);
   text.erase(text.find("\n7,") + 1, text.find("\n14,") - text.find("\n7,"));
   for (const char* const name : {"time_s", "frame"}) {
-    const Parsed p = parsed(replaced(text, "time_s", name));
+    const ParsedRun p = parsed(replaced(text, "time_s", name));
     EXPECT_EQ(directions_of(p.run), "+-(+)-+-") << name;
     EXPECT_THAT(notes_of(p.measurement), HasSubstr("over which alpha moves 14.4 deg"));
   }
@@ -449,7 +449,7 @@ TEST(Strokes, LoadStepsDoNotCutStrokes) {
     const double load = 5.0 * static_cast<double>(i / 100);
     text += shortest(alphas[i]) + "," + shortest(quarter(alphas[i]) - 0.1 * load) + "," + shortest(load) + "\n";
   }
-  const Parsed p = parsed(text);
+  const ParsedRun p = parsed(text);
   EXPECT_EQ(directions_of(p.run), "+-+-+-+-");
   EXPECT_THAT(p.measurement.not_testable, IsEmpty());
   EXPECT_THAT(p.measurement.notes, IsEmpty());
@@ -462,11 +462,12 @@ TEST(Measurement, DropsOutliersAndKeepsMotion) {
   const std::size_t at = text.find("\n7,");
   const std::size_t end = text.find('\n', at + 1);
   text.replace(at, end - at, "\n7,16,77");
-  const Parsed p = parsed(text);
+  const ParsedRun p = parsed(text);
   EXPECT_THAT(p.run.samples, SizeIs(200));
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("dropped as outliers"));
   // A lasting step is not an outlier.
-  const Parsed step = parsed(csv(triangle(40, 50, 4), [](double alpha) { return 0.25 * alpha + (alpha > 3 ? 2 : 0); }));
+  const ParsedRun step =
+      parsed(csv(triangle(40, 50, 4), [](double alpha) { return 0.25 * alpha + (alpha > 3 ? 2 : 0); }));
   EXPECT_THAT(step.run.samples, SizeIs(201));
 }
 
@@ -491,7 +492,7 @@ TEST(Measurement, FindsSmallOutliersInLargeMotion) {
     text += shortest(alphas[i]) + "," +
             shortest(10 * std::sin(radians(alphas[i])) + noise + (i % 90 == 17 ? 0.8 : 0.0)) + "\n";
   }
-  const Parsed p = parsed(text);
+  const ParsedRun p = parsed(text);
   EXPECT_THAT(p.run.samples, SizeIs(198));
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("3 rows with theta more than"));
 }
@@ -501,7 +502,7 @@ TEST(Measurement, KeepsManyOutliers) {
   std::string text = "alpha_deg,theta_deg\n";
   for (std::size_t i = 0; i < alphas.size(); ++i)
     text += shortest(alphas[i]) + "," + shortest(quarter(alphas[i]) + (i % 30 == 7 ? 60 : 0)) + "\n";
-  const Parsed p = parsed(text);
+  const ParsedRun p = parsed(text);
   EXPECT_THAT(p.run.samples, SizeIs(201));
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("too many to be outliers, kept"));
 }
@@ -597,7 +598,7 @@ TEST(Measurement, ThinsLongLog) {
     const int alpha = step < 100'000 ? step : 200'000 - step;
     text += std::to_string(alpha) + "e-3," + std::to_string(alpha) + "e-4\n";
   }
-  const Parsed p = parsed(text);
+  const ParsedRun p = parsed(text);
   EXPECT_LT(p.run.samples.size(), std::size_t{1} << 20);
   EXPECT_GT(p.run.samples.size(), 500'000u);
   EXPECT_THAT(p.run.strokes, SizeIs(12));
@@ -727,7 +728,7 @@ TEST(Driving, RequiresAlpha) {
 }
 
 TEST(UnfilledRuns, AreReported) {
-  const Parsed run = parsed("time_s,alpha_deg,load_N,theta_deg\n0,1,5,\n1,2,5,\n2,3,5,\n");
+  const ParsedRun run = parsed("time_s,alpha_deg,load_N,theta_deg\n0,1,5,\n1,2,5,\n2,3,5,\n");
   ASSERT_THAT(run.measurement.not_testable, SizeIs(1));
   EXPECT_THAT(run.measurement.not_testable[0], HasSubstr("no measured rows: theta is empty in all 3 rows"));
 }

@@ -248,8 +248,8 @@ TEST(NoiseFloor, ComparesDwells) {
   EXPECT_LT(apart.degrees_of_freedom, 0.5 * noise_floor(dwells_at_ends(1e-3, 0, 12)).degrees_of_freedom);
 }
 
-/// Dwells of one row at five uneven angles on each stroke, each cycle under another load. θ is quadratic in α and depends
-/// on the load.
+/// Dwells of one row at five uneven angles on each stroke, each cycle under another load. θ is quadratic in α and
+/// depends on the load.
 Measurement dwells_without_repeats(double noise, unsigned seed) {
   constexpr int cycles = 8;
   std::mt19937 random(seed);

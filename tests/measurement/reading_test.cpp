@@ -308,15 +308,15 @@ Value scaled(const std::function<double(int)>& angle, double per_degree, int dec
 }
 
 TEST(LoggedAngles, TakeUnitFromName) {
-  struct Written {
+  struct AngleNames {
     const char *alpha, *theta;
     double per_degree;
   };
-  for (const Written& written :
-       {Written{"alpha [rad]", "theta [rad]", radians(1.0)}, Written{"alpha_rad", "theta_rad", radians(1.0)},
-        Written{"Alpha (deg)", "Theta (deg)", 1}, Written{"alpha [\xC2\xB0]", "theta in \xC2\xB0", 1},
-        Written{"alpha_mdeg", "theta_mdeg", 1000}, Written{"alpha_turns", "theta [rev]", 1.0 / 360},
-        Written{"alphaMrad", "theta mrad", 1000 * radians(1.0)}}) {
+  for (const AngleNames& written :
+       {AngleNames{"alpha [rad]", "theta [rad]", radians(1.0)}, AngleNames{"alpha_rad", "theta_rad", radians(1.0)},
+        AngleNames{"Alpha (deg)", "Theta (deg)", 1}, AngleNames{"alpha [\xC2\xB0]", "theta in \xC2\xB0", 1},
+        AngleNames{"alpha_mdeg", "theta_mdeg", 1000}, AngleNames{"alpha_turns", "theta [rev]", 1.0 / 360},
+        AngleNames{"alphaMrad", "theta mrad", 1000 * radians(1.0)}}) {
     const std::string header = std::string("time_s,") + written.alpha + "," + written.theta;
     expect_motion(read(table(header, {seconds(), scaled(alpha_of, written.per_degree, 9),
                                       scaled(theta_of, written.per_degree, 9)}))
@@ -412,19 +412,19 @@ TEST(LoggedAngles, InferUnitFromDeclaredRange) {
 // ---- loads ----------------------------------------------------------------------------------------------------------
 
 TEST(LoggedLoads, ConvertUnits) {
-  struct Written {
+  struct LoadName {
     const char* name;
     double load;  // of 1 in its unit
     const char* in;
   };
-  for (const Written& written :
-       {Written{"load_N", 1, "N"}, Written{"load_kg", 9.80665, "N"}, Written{"load [g]", 9.80665e-3, "N"},
-        Written{"load [lbf]", 4.4482216152605, "N"}, Written{"load_lb", 4.4482216152605, "N"},
-        Written{"load (kN)", 1000, "N"}, Written{"load_oz", 0.27801385095378125, "N"}, Written{"load_Nm", 1, "Nm"},
-        Written{"load_Nmm", 1, "Nmm"}, Written{"load [N\xC2\xB7m]", 1, "Nm"}, Written{"load [N*mm]", 1, "Nmm"},
-        Written{"load_Ncm", 10, "Nmm"}, Written{"load_mNm", 1, "Nmm"}, Written{"load [kgf*cm]", 98.0665, "Nmm"},
-        Written{"load_kg_cm", 98.0665, "Nmm"}, Written{"load [oz-in]", 7.061551814226043, "Nmm"},
-        Written{"load (lb in)", 112.9848290276167, "Nmm"}, Written{"load [ft.lbf]", 1355.8179483314, "Nmm"}}) {
+  for (const LoadName& written :
+       {LoadName{"load_N", 1, "N"}, LoadName{"load_kg", 9.80665, "N"}, LoadName{"load [g]", 9.80665e-3, "N"},
+        LoadName{"load [lbf]", 4.4482216152605, "N"}, LoadName{"load_lb", 4.4482216152605, "N"},
+        LoadName{"load (kN)", 1000, "N"}, LoadName{"load_oz", 0.27801385095378125, "N"}, LoadName{"load_Nm", 1, "Nm"},
+        LoadName{"load_Nmm", 1, "Nmm"}, LoadName{"load [N\xC2\xB7m]", 1, "Nm"}, LoadName{"load [N*mm]", 1, "Nmm"},
+        LoadName{"load_Ncm", 10, "Nmm"}, LoadName{"load_mNm", 1, "Nmm"}, LoadName{"load [kgf*cm]", 98.0665, "Nmm"},
+        LoadName{"load_kg_cm", 98.0665, "Nmm"}, LoadName{"load [oz-in]", 7.061551814226043, "Nmm"},
+        LoadName{"load (lb in)", 112.9848290276167, "Nmm"}, LoadName{"load [ft.lbf]", 1355.8179483314, "Nmm"}}) {
     for (const MeasurementOptions& options : {MeasurementOptions{}, named({{"load", written.name}})}) {
       const ReadRun found = read(table(std::string("time_s,alpha_deg,theta_deg,") + written.name,
                                        {seconds(), alpha(), theta(), [](int) { return "2"; }}),

@@ -178,12 +178,12 @@ TEST(Segments, ConstantMotorIsOneStroke) {
 
 TEST(Segments, LoadLevelsCutStroke) {
   // Loads applied in the middle of strokes, at different places each time.
-  std::vector<Row> stepped, ramped, bound;
+  std::vector<Row> stepped, ramped, by_spring;
   const std::vector<double> alphas = triangle(40, 60, 6);
   for (std::size_t i = 0; i < alphas.size(); ++i) {
     stepped.push_back({alphas[i], static_cast<double>(i / 47 % 3) * 5});
     ramped.push_back({alphas[i], 15.0 * static_cast<double>(i) / static_cast<double>(alphas.size())});
-    bound.push_back({alphas[i], 5 + 0.1 * alphas[i]});
+    by_spring.push_back({alphas[i], 5 + 0.1 * alphas[i]});
   }
   const fusee::measurement::Run run = read(stepped).runs[0];
   EXPECT_EQ(run.strokes.size(), 6u);
@@ -196,7 +196,7 @@ TEST(Segments, LoadLevelsCutStroke) {
     }
     EXPECT_LT(segment.last - segment.first < 12 ? 0 : most - least, 1) << segment.first;
   }
-  EXPECT_EQ(read(bound).runs[0].segments.size(), 6u) << "a spring's load is a function of place";
+  EXPECT_EQ(read(by_spring).runs[0].segments.size(), 6u) << "a spring's load is a function of place";
   EXPECT_EQ(read(ramped).runs[0].segments.size(), 6u) << "it hardly changes within a stroke";
   std::vector<Row> waves;
   for (std::size_t i = 0; i < alphas.size(); ++i)

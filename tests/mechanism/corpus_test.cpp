@@ -1,5 +1,5 @@
-// Replays the fuzzing corpus: for any bytes, reading returns a mechanism or throws InputError; a mechanism whose numbers
-// are written again stays the same.
+// Replays the fuzzing corpus: for any bytes, reading returns a mechanism or throws InputError; a mechanism whose
+// numbers are written again stays the same.
 #include <gtest/gtest.h>
 
 #include <filesystem>

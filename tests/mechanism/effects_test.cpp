@@ -56,9 +56,10 @@ TEST_P(EveryKind, HasKeyInFile) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, EveryKind, ::testing::Values(JointKind::tendons, JointKind::ratio), [](const auto& one) {
-  return std::string(one.param == JointKind::tendons ? "tendons" : "ratio");
-});
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind, ::testing::Values(JointKind::tendons, JointKind::ratio),
+                         [](const auto& one) {
+                           return std::string(one.param == JointKind::tendons ? "tendons" : "ratio");
+                         });
 
 TEST(Identified, HasOnlyKeysOfEffects) {
   std::set<std::string> keys{"mean_load_N"};
@@ -75,7 +76,7 @@ TEST(Identified, HasOnlyKeysOfEffects) {
   EXPECT_EQ(rows, keys);
 }
 
-TEST(FoundAgain, AddsCompoundsOrReplaces) {
+TEST(MergeFindings, AddsCompoundsOrReplaces) {
   Imperfections before, found;
   before.pins.radius = 1;
   found.pins.radius = 0.5;
@@ -87,13 +88,13 @@ TEST(FoundAgain, AddsCompoundsOrReplaces) {
   EXPECT_EQ(total.pins.radius, 1.5);
   EXPECT_EQ(total.tendon.stretch, 2);
   EXPECT_EQ(total.shaft.backlash, 0.02);
-  const Imperfections rest = beyond_mechanism(total, JointKind::tendons);
-  EXPECT_EQ(rest.pins, PinError{});
-  EXPECT_EQ(rest.tendon, TendonError{});
-  EXPECT_EQ(rest.shaft.backlash, 0.02);
+  const Imperfections beyond = beyond_mechanism(total, JointKind::tendons);
+  EXPECT_EQ(beyond.pins, PinError{});
+  EXPECT_EQ(beyond.tendon, TendonError{});
+  EXPECT_EQ(beyond.shaft.backlash, 0.02);
 }
 
-TEST(FoundAgain, KeepsLargerOfTwoHarmonics) {
+TEST(MergeFindings, KeepsLargerOfTwoHarmonics) {
   Imperfections before, found;
   before.pulley.outline.wave_sin = 0.2;
   found.pulley.outline.wave_sin = 0.1;

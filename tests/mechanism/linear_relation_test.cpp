@@ -33,23 +33,24 @@ TEST(LinearRelation, AddsTermsOfOneKey) {
   EXPECT_EQ(relation.left.terms[0].key, "guides.ED_mm");
 }
 
-struct Faulty {
+struct FaultyText {
   const char* text;
   std::size_t at;
   const char* message;
 };
 
 TEST(LinearRelation, ReportsPlaceOfFaults) {
-  for (const Faulty& faulty :
-       {Faulty{"", 0, "ends where a number or a key"}, Faulty{"guides.EB_mm", 12, "ends before its ="},
-        Faulty{"guides.EB_mm < 3", 13, "expected =, <= or >="}, Faulty{"guides.EB_mm == 3", 13, "expected ="},
-        Faulty{"guides.EB_mm <= 0.5 * joint.lenght_mm", 22, "is not a key"},
-        Faulty{"guides.EB_mm * guides.ED_mm <= 3", 13, "multiplies keys"},
-        Faulty{"1 / guides.EB_mm <= 3", 2, "divides"}, Faulty{"guides.EB_mm / 0 <= 3", 13, "divides"},
-        Faulty{"(guides.EB_mm <= 3", 0, "not closed"}, Faulty{"guides.EB_mm <= 3)", 17, "unexpected"},
-        Faulty{"3 <= 4", 0, "names no key"}, Faulty{"guides.EB_mm <= ", 16, "ends where"},
-        Faulty{"pulley.law = 3", 0, "holds no single number"}, Faulty{"guides.EB_mm <= 1e999", 16, "not a number"},
-        Faulty{"guides.EB_mm <= #", 16, "expected a number or a key"}}) {
+  for (const FaultyText& faulty :
+       {FaultyText{"", 0, "ends where a number or a key"}, FaultyText{"guides.EB_mm", 12, "ends before its ="},
+        FaultyText{"guides.EB_mm < 3", 13, "expected =, <= or >="}, FaultyText{"guides.EB_mm == 3", 13, "expected ="},
+        FaultyText{"guides.EB_mm <= 0.5 * joint.lenght_mm", 22, "is not a key"},
+        FaultyText{"guides.EB_mm * guides.ED_mm <= 3", 13, "multiplies keys"},
+        FaultyText{"1 / guides.EB_mm <= 3", 2, "divides"}, FaultyText{"guides.EB_mm / 0 <= 3", 13, "divides"},
+        FaultyText{"(guides.EB_mm <= 3", 0, "not closed"}, FaultyText{"guides.EB_mm <= 3)", 17, "unexpected"},
+        FaultyText{"3 <= 4", 0, "names no key"}, FaultyText{"guides.EB_mm <= ", 16, "ends where"},
+        FaultyText{"pulley.law = 3", 0, "holds no single number"},
+        FaultyText{"guides.EB_mm <= 1e999", 16, "not a number"},
+        FaultyText{"guides.EB_mm <= #", 16, "expected a number or a key"}}) {
     const ParsedRelation parsed = parse_relation(faulty.text);
     ASSERT_TRUE(parsed.fault) << faulty.text;
     EXPECT_EQ(parsed.fault->at, faulty.at) << faulty.text;

@@ -56,14 +56,14 @@ void set_random(const Field& field, DeclaredMechanism& mechanism) {
 /// Random values for every field, made consistent.
 DeclaredMechanism random_mechanism() {
   DeclaredMechanism mechanism;
-  const bool other_joint = *rc::gen::inRange(0, 5) == 0;
+  const bool is_ratio_joint = *rc::gen::inRange(0, 5) == 0;
   for (const Field& field : fields()) {
-    const bool of_mechanism =
+    const bool is_of_tendons =
         field.table == "joint" || field.table == "guides" || field.table == "sheath" || field.table == "pulley";
-    if (other_joint ? of_mechanism : field.table == "transmission") continue;
+    if (is_ratio_joint ? is_of_tendons : field.table == "transmission") continue;
     set_random(field, mechanism);
   }
-  if (other_joint) {
+  if (is_ratio_joint) {
     // Undeclared parts have their defaults.
     const DeclaredMechanism defaults = default_mechanism();
     mechanism.joint = defaults.joint;
@@ -79,7 +79,7 @@ DeclaredMechanism random_mechanism() {
   } else {
     guides.bearing_radius = std::min(guides.bearing_radius, guides.radius);
   }
-  if (other_joint || *rc::gen::element(true, false)) mechanism.sheath = default_mechanism().sheath;
+  if (is_ratio_joint || *rc::gen::element(true, false)) mechanism.sheath = default_mechanism().sheath;
   if (!mechanism.joint.is_plain() || mechanism.sheath.is_there()) mechanism.pulley.method = Method::exact;
   mechanism.body.horn = "lynxmotion-ses";
   mechanism.horn = {};

@@ -81,9 +81,9 @@ double theta_of(const model::EqualityFit& fit, double alpha) {
   return low;
 }
 
-class OfProfile : public ::testing::TestWithParam<std::string> {};
+class ModelOfProfile : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(OfProfile, EqualityErrorsAreTrue) {
+TEST_P(ModelOfProfile, EqualityErrorsAreTrue) {
   const MechanismFile file = profile(GetParam());
   const model::AngleMap map = model::joint_curves(file.mechanism)->physical.middle;
   for (const model::EqualityFit& fit : {model::fit_equality(map), model::fit_line(map)}) {
@@ -130,9 +130,9 @@ double taut(const model::WrappedTendon& tendon, const Vec2& C) {
   return length;
 }
 
-class Taut : public ::testing::TestWithParam<std::string> {};
+class TautString : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(Taut, LengthsMatchTautString) {
+TEST_P(TautString, LengthsMatchTautString) {
   const pipeline::ModelResult made = dry(profile(GetParam()));
   ASSERT_TRUE(made.product.tendons);
   const model::TendonModel& tendons = *made.product.tendons;
@@ -151,7 +151,7 @@ TEST_P(Taut, LengthsMatchTautString) {
   }
 }
 
-TEST_P(OfProfile, RoundP1HasItsRadius) {
+TEST_P(ModelOfProfile, RoundP1HasItsRadius) {
   const MechanismFile file = profile(GetParam());
   const model::TendonModel tendons = *dry(file).product.tendons;
   if (file.mechanism.pulley.law == Law::compensate) {
@@ -165,12 +165,12 @@ TEST_P(OfProfile, RoundP1HasItsRadius) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, OfProfile,
+INSTANTIATE_TEST_SUITE_P(Profiles, ModelOfProfile,
                          ::testing::Values("paper_optimum", "forearm", "finger", "gripper", "linear_wrist",
                                            "unsymmetric", "wrist_exo"),
                          [](const auto& tested) { return tested.param; });
 
-INSTANTIATE_TEST_SUITE_P(Of, Taut,
+INSTANTIATE_TEST_SUITE_P(Profiles, TautString,
                          ::testing::Values("paper_optimum", "forearm", "finger", "gripper", "linear_wrist",
                                            "unsymmetric", "wrist_exo", "ankle_exo", "wrist_sheath"),
                          [](const auto& tested) { return tested.param; });
@@ -338,7 +338,7 @@ double value_of(const std::vector<Check>& checks, const std::string& name, bool 
   return 0;
 }
 
-struct Broken {
+struct Damage {
   std::string file;
   std::string from, to;
   std::string check;
@@ -347,8 +347,8 @@ struct Broken {
 TEST(Files, DetectsDamagedFiles) {
   const pipeline::ModelResult made = dry(profile("forearm"));
   ASSERT_EQ(made.ending, pipeline::ModelEnding::done);
-  for (const Broken& broken :
-       std::vector<Broken>{{"joint.xml", "polycoef=\"0.0003", "polycoef=\"0.0303", "joint_xml_theta_error"},
+  for (const Damage& broken :
+       std::vector<Damage>{{"joint.xml", "polycoef=\"0.0003", "polycoef=\"0.0303", "joint_xml_theta_error"},
                            {"joint.xml", "joint2=\"theta\"", "joint2=\"alpha\"", "joint_xml_theta_error"},
                            {"joint_tendons.xml", "<geom name=\"pin_B\" type=\"cylinder\" pos=\"-0.05 ",
                             "<geom name=\"pin_B\" type=\"cylinder\" pos=\"-0.052 ", "joint_tendons_xml_theta_error"},

@@ -194,7 +194,7 @@ BREAK = {
     "a duplicate facet": lambda faces: faces + faces[:1],
 }
 # None of these programs detects a mesh that crosses itself; fusee's own check does.
-UNSEEN = {"openscad": ["an inverted mesh", "a duplicate facet"]}
+UNDETECTED = {"openscad": ["an inverted mesh", "a duplicate facet"]}
 
 
 def self_test(judge):
@@ -213,7 +213,7 @@ def self_test(judge):
         if complaints:
             faults.append(f"{judge} rejects a good mesh: {complaints}")
         for name, break_it in BREAK.items():
-            if name not in UNSEEN.get(judge, []) and not verdict(name, break_it(faces)):
+            if name not in UNDETECTED.get(judge, []) and not verdict(name, break_it(faces)):
                 faults.append(f"{judge} accepts {name}")
     return faults
 

@@ -28,14 +28,14 @@ def packages_of(build, folder):
     return found
 
 
-def what_lintian_says(packages):
+def lintian_faults(packages):
     # As root it warns only of that.
     code, output = run("lintian", "--allow-root", "--fail-on", "error,warning", *packages.values())
     if code:
         yield f"lintian:\n{output}"
 
 
-def what_is_unpacked(packages, root):
+def unpacking_faults(packages, root):
     for package in packages.values():
         code, output = run("dpkg-deb", "-x", package, root)
         if code:
@@ -57,7 +57,7 @@ def what_is_unpacked(packages, root):
         yield f"man does not show {page.name}: {output[:200]}"
 
 
-def what_python_imports(packages, root):
+def python_faults(packages, root):
     if "python3-fusee" not in packages:
         return
     code, output = run("dpkg-deb", "-f", packages["python3-fusee"], "Depends")
@@ -70,10 +70,10 @@ def what_python_imports(packages, root):
         yield f"the Python module from the package: exit {code}: {output}"
 
 
-def what_compiles(root, source):
+def compiler_faults(root, source):
     found = sorted(root.glob("usr/lib/**/fusee.pc"))
     if len(found) != 1:
-        yield f"fusee.pc stands in {found}"
+        yield f"fusee.pc is in {found}"
         return
     code, flags = run("pkg-config", "--cflags", "--libs", found[0])
     if code:
@@ -81,7 +81,7 @@ def what_compiles(root, source):
         return
     code, output = run("c++", source, "-o", root / "consumer", *flags.split())
     if code:
-        yield f"pkg-config's flags do not do: {output[-2000:]}"
+        yield f"a program with pkg-config's flags does not compile: {output[-2000:]}"
         return
     code, output = run(root / "consumer", root / "usr/share/fusee/profiles/paper_optimum.toml")
     if code or "r2 " not in output:
@@ -98,7 +98,7 @@ def main():
         folder = pathlib.Path(folder)
         packages = packages_of(build, folder / "made")
         root = folder / "root"
-        faults = [*what_lintian_says(packages), *what_is_unpacked(packages, root), *what_python_imports(packages, root), *what_compiles(root, source)]
+        faults = [*lintian_faults(packages), *unpacking_faults(packages, root), *python_faults(packages, root), *compiler_faults(root, source)]
     for fault in faults:
         print(fault)
     return 1 if faults else 0

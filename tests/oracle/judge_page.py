@@ -2,7 +2,7 @@
 """Chromium judges pages with a moving joint: their scripts and their drawings.
 
     judge_page.py build/forearm [page.html …]   a folder of `fusee build`, and other pages of the same joint
-    judge_page.py build/forearm --self-test     the judge must detect broken pages (also of several turns)
+    judge_page.py build/forearm --self-test     the judge must detect broken pages (also of multi-turn pulleys)
     judge_page.py --narrow page.html …          any pages at 400 and 320 px: nothing cut, no text below 11 px, no broken word
     judge_page.py --still page.html …           pages without scripts: no requests, no overflow, visible pictures
 
@@ -58,7 +58,7 @@ LEVER = """
     };
   };
 """
-# For a pulley of several turns seen from the side, x right and y up, in mm, scaled by the lines at its lower and
+# For a multi-turn pulley seen from the side, x right and y up, in mm, scaled by the lines at its lower and
 # upper face.
 HELIX = """
   const scene = document.querySelector(".helix-scene");
@@ -248,7 +248,7 @@ def faults_of_motion(found, rows, lever):
 
 @dataclasses.dataclass
 class Helix:
-    """A pulley of several turns: the grooves of profile.csv, and the tendons."""
+    """A multi-turn pulley: the grooves of profile.csv, and the tendons."""
     height: float   # mm, of the grooves' part
     spirals: list   # of P1 and P2: turn_deg, x_mm, y_mm, z_mm, in order
     pins: list      # in the pulley's plane, mm, joint above
@@ -408,7 +408,7 @@ def helix_of(folder, mechanism, page):
     guides, pulley = mechanism["guides"], mechanism["pulley"]
     pins = [(-guides["EB_mm"], pulley["EF_mm"]), (guides["ED_mm"], pulley["EF_mm"])]
     radius = guides["radius_mm"] + (0.5 * mechanism["tendon"]["diameter_mm"] if guides["radius_mm"] > 0 else 0.0)
-    height = json.loads(page.split('id="climb">', 1)[1].split("</script>")[0])["top"]
+    height = json.loads(page.split('id="helix">', 1)[1].split("</script>")[0])["top"]
     return Helix(height, spirals, pins, radius)
 
 
@@ -418,7 +418,7 @@ def read(folder):
     rows = rows[:: max(1, len(rows) // 24)]
     page = (folder / "report.html").read_text(encoding="utf-8")
     mechanism = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["mechanism"]
-    return page, rows, helix_of(folder, mechanism, page) if 'id="climb">' in page else lever_of(mechanism)
+    return page, rows, helix_of(folder, mechanism, page) if 'id="helix">' in page else lever_of(mechanism)
 
 
 # Changes that break a page, with a word of the expected fault.
@@ -442,7 +442,7 @@ LEVER_ALONE = ("angle", "tendon", "error")
 HELIX_BREAKS = {
     "turned back": ("px(row[1] * c - row[0] * s, row[2])", "px(row[1] * c + row[0] * s, row[2])", "to the right, not"),
     "height": ("const z = between(side.z, place), {", "const z = between(side.z, place) + 2, {", "beside its pin"),
-    "slope": ("z + climb * (data.pin", "z - climb * (data.pin", "is drawn rising by"),
+    "slope": ("z + slope * (data.pin", "z - slope * (data.pin", "is drawn rising by"),
     "angle": ("number(between(data.theta, place), 2)", "number(0.9 * between(data.theta, place), 2)", "the page says"),
 }
 

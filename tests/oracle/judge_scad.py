@@ -108,10 +108,10 @@ def printed_faults(folder, scratch):
 def part_faults(folder, scratch):
     scad = folder / "pulley.scad"
     volume, box = render(scad, scratch / "as_it_is.stl")
-    climbs = "\ncolumns = " in scad.read_text()
+    is_helical = "\ncolumns = " in scad.read_text()
     # A helix has no fixed extreme points: its corners are within the program's sagitta of the mesh's.
-    yield from unlike("assembled", (volume, box), measure(folder / "pulley.stl"), 0.025 if climbs else 0.01)
-    if not climbs:
+    yield from unlike("assembled", (volume, box), measure(folder / "pulley.stl"), 0.025 if is_helical else 0.01)
+    if not is_helical:
         yield from printed_faults(folder, scratch)
     if 'bore_shape = "round"' in scad.read_text():
         yield from changed_bore(scad, scratch, volume)

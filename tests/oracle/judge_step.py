@@ -85,8 +85,8 @@ def faults_of(step, folder, part_module):
         yield "FreeCAD finds it invalid"
     if not shape.isClosed():
         yield "it is not closed"
-    climbs = not (folder / "plates.dxf").exists()
-    mine = list(triangles_of_shape(shape, SAGITTA_OF_TURNS if climbs else SAGITTA))
+    is_helical = not (folder / "plates.dxf").exists()
+    mine = list(triangles_of_shape(shape, SAGITTA_OF_TURNS if is_helical else SAGITTA))
     surface = area_of(mesh)
     difference = abs(volume_of(mine) - volume_of(mesh))
     # A print's holes are circumscribed polygons, and circles in CAD.

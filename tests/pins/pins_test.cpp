@@ -19,8 +19,9 @@ namespace fs = std::filesystem;
 
 const fs::path k_pins = fs::path(FUSEE_SOURCE_DIR) / "tests/pins";
 constexpr std::size_t k_largest_list = 1 << 20;
-constexpr const char* k_what_now =
-    "\nTo look: `build/release/tests/pins/pins now` here, the same with `before` at the last commit that passed, then"
+constexpr const char* k_next_steps =
+    "\nTo compare: run `build/release/tests/pins/pins now` here, the same with `before` at the last commit that "
+    "passed, then"
     " `diff -r before now`."
     "\nWhere the change is meant: `build/release/tests/pins/pins now && cp now/*.sha256 tests/pins/`, and the commit"
     " says why the bytes moved.";
@@ -53,9 +54,9 @@ TEST_P(Outputs, MatchPins) {
   }
   const std::vector<OutputFile> outputs = run.outputs();
   const std::vector<std::string> words = differences(pinned_of(run.name), hashes_of(run.name, outputs));
-  EXPECT_TRUE(words.empty()) << list(words) << k_what_now;
+  EXPECT_TRUE(words.empty()) << list(words) << k_next_steps;
   for (const OutputFile& file : outputs)
-    EXPECT_EQ(file.bytes.find(FUSEE_SOURCE_DIR), std::string::npos) << file.name << " says where the tree lies";
+    EXPECT_EQ(file.bytes.find(FUSEE_SOURCE_DIR), std::string::npos) << file.name << " contains the path of the sources";
 }
 
 std::string test_name(const ::testing::TestParamInfo<PinnedRun>& info) {
@@ -64,7 +65,7 @@ std::string test_name(const ::testing::TestParamInfo<PinnedRun>& info) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Outputs, ::testing::ValuesIn(runs()), test_name);
+INSTANTIATE_TEST_SUITE_P(Commands, Outputs, ::testing::ValuesIn(runs()), test_name);
 
 // Eigen would block its products by the cache sizes, which changes the last digits of sums.
 TEST(Pins, IgnoreProcessorCaches) {

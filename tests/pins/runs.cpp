@@ -93,7 +93,7 @@ Outputs optimum_outputs(const fs::path& spec) {
                               std::to_string(result.boxes) + "\nevaluations " + std::to_string(result.evaluations) +
                               "\n";
   return {{"new.toml", edit_values(read_file(spec, k_largest_spec), optimize::edits_of(problem, result.best))},
-          {"said.txt", figures}};
+          {"report.txt", figures}};
 }
 
 // ---- inputs ---------------------------------------------------------------------------------------------------------

@@ -171,7 +171,7 @@ End end_of(Read read, double tolerance) {
   pipeline::BuildOptions options;
   options.chord_error_mm = tolerance;
   options.dry_run = true;
-  options.advice = false;  // tested elsewhere, and takes longer than the rest
+  options.advice = false;  // tested elsewhere, and slower than all other checks
   try {
     const pipeline::BuildResult built = pipeline::build(read(), options);
     for (const Check& check : built.product.checks)
@@ -347,6 +347,6 @@ TEST_P(Choices, AreBuiltOrRefused) {
               ends[End::refused]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Choices, ::testing::Values("forearm.toml", "gripper.toml", "wrist_exo.toml"));
+INSTANTIATE_TEST_SUITE_P(Profiles, Choices, ::testing::Values("forearm.toml", "gripper.toml", "wrist_exo.toml"));
 
 }  // namespace

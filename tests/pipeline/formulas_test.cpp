@@ -59,7 +59,7 @@ TEST_P(Formulas, OccurOnce) {
   EXPECT_THAT(places.front(), ::testing::StartsWith(GetParam().home));
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Formulas, ::testing::ValuesIn(k_formulas),
+INSTANTIATE_TEST_SUITE_P(Symbols, Formulas, ::testing::ValuesIn(k_formulas),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(FormulaText, IgnoresComments) {

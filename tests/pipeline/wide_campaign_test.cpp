@@ -189,7 +189,7 @@ WideEnd wide_end(const std::string& text) {
       EXPECT_TRUE(check.ok) << check.name << " " << check.value << ", limit " << check.limit << "; " << check.where;
     if (built.status == pipeline::BuildStatus::infeasible) return WideEnd::refused;
     const profile::RewindResult& wound = built.product.as_built;
-    // Pulleys of several turns are tested in random_turns_test.cpp.
+    // Multi-turn pulleys are tested in random_turns_test.cpp.
     if (!built.product.helix) {
       EXPECT_LT(degrees(wound.max_theta_error), rewinding_limit(built.product.synthesis))
           << "at alpha " << degrees(wound.max_theta_error_at);

@@ -25,7 +25,7 @@ TEST(PlannedRun, DurationFollowsStrokes) {
   EXPECT_DOUBLE_EQ(minutes_of(held), minutes_of(k_run) + 3 * 2 * 30 / 60.0);
 }
 
-TEST(PlannedRun, RowsCoverStrokesInThatTime) {
+TEST(PlannedRun, RowsCoverStrokesInTheirTime) {
   for (const double dwell : {0.0, 30.0}) {
     PlannedRun run = k_run;
     run.dwell = dwell;
@@ -109,7 +109,7 @@ TEST(NextMeasurement, DescribesEachKind) {
 }
 
 // A reading that is written into the file is not requested again.
-TEST(UnreadNumbers, WritesToItsKey) {
+TEST(UnreadNumbers, WriteToTheirKeys) {
   for (const fusee::EffectParameter* number : unread_numbers(testing::forearm())) {
     DeclaredMechanism joint = testing::forearm();
     const Field* field = find_field(number->by_hand.key);

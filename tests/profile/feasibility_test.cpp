@@ -48,7 +48,7 @@ void expect_refused(const Mechanism& mechanism, const std::string& condition, co
   }
 }
 
-TEST(Feasibility, ReferenceTurnsInward) {
+TEST(Feasibility, ReferenceWouldBeConcave) {
   Mechanism mechanism = testing::reference();
   mechanism.tendon.diameter = 0.01;
   expect_refused(mechanism, "convex_floor_P2", "P2 would be concave at α = 92");

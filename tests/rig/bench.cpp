@@ -72,14 +72,14 @@ double find_root(double guess, double at_zero, Function function) {
 }
 
 /// A point of the printed curve with all errors of the print, in the right-hand image.
-Vec2 print_point(const profile::OutlinePoint& point, std::size_t side, const Hidden& hidden) {
+Vec2 print_point(const profile::OutlinePoint& point, std::size_t side, const HiddenFaults& hidden) {
   const double wave = hidden.profile_error * std::cos(hidden.profile_harmonic * point.psi + hidden.profile_phase);
   const Vec2 moved = (1.0 + hidden.pulley_scale) * point.position + (hidden.radius_offset + wave) * point.normal +
                      Vec2(hidden.runout_x, hidden.runout_y);
   return in_image(side, moved);
 }
 
-Hull print_outline(const profile::Outline& outline, std::size_t side, const Hidden& hidden) {
+Hull print_outline(const profile::Outline& outline, std::size_t side, const HiddenFaults& hidden) {
   Polygon corners;
   corners.reserve(outline.points.size());
   for (const profile::OutlinePoint& point : outline.points) corners.push_back(print_point(point, side, hidden));
@@ -87,7 +87,7 @@ Hull print_outline(const profile::Outline& outline, std::size_t side, const Hidd
 }
 
 /// A printed helical groove with the same errors.
-Hull print_spiral(const MadeSpiral& made, std::size_t side, const Hidden& hidden) {
+Hull print_spiral(const MadeSpiral& made, std::size_t side, const HiddenFaults& hidden) {
   Polygon corners;
   std::vector<double> heights;
   for (const helix::SpiralRow& row : made.rows) {
@@ -150,7 +150,7 @@ UpperString find_upper_string(const BenchTendon& tendon, const Circle& pin, doub
 
 // ---- at home --------------------------------------------------------------------------------------------------------
 
-Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
+Bench::Bench(const MadeJoint& joint, const HiddenFaults& hidden)
     : hidden_(hidden),
       longer_{Actors(hidden.longer[0], 0), Actors(hidden.longer[1], 1)},
       torque_(hidden.torque),
@@ -233,10 +233,10 @@ void Bench::add_sheath(BenchTendon& tendon, const DeclaredMechanism& declared) c
   tendon.guide = {tendon.axis + Vec2(sheath.exit_across, sheath.exit_above), 0.0};
   const double compliance =
       std::max(0.0, (sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0) + hidden_.sheath_compliance);
-  const double holds = std::max(0.0, sheath.mu * sheath.bend + hidden_.sheath_friction);
+  const double log_ratio = std::max(0.0, sheath.mu * sheath.bend + hidden_.sheath_friction);
   for (int i = 0; i <= k_sheath_bends; ++i) {
     const double share = (i == 0 || i == k_sheath_bends ? 0.5 : 1.0) / k_sheath_bends;
-    tendon.sheath.push_back({share * sheath.length, share * compliance, i == 0 ? 0.0 : holds / k_sheath_bends});
+    tendon.sheath.push_back({share * sheath.length, share * compliance, i == 0 ? 0.0 : log_ratio / k_sheath_bends});
   }
 }
 
@@ -249,7 +249,7 @@ double Bench::pull_through(std::vector<SheathPiece>& sheath, const Cord& cord, d
                            double& slipped) {
   for (SheathPiece& piece : sheath) {
     piece.bristle = bend_bristle(piece.bristle, slipped);
-    tension *= std::exp(-piece.holds * piece.bristle);
+    tension *= std::exp(-piece.log_ratio * piece.bristle);
     const double material = cord.material(piece.length - piece.compliance * (tension - home), tension);
     slipped += material - piece.material;
     piece.material = material;
@@ -274,7 +274,7 @@ double Bench::level_arm_at_home(BenchTendon& tendon) const {
   const UpperString up = find_upper_string(tendon, tendon.pin, 0.0, tendon.over);
   if (collar_ || !tendon.hull.is_helical()) return up.arm;
   const Circle seen = seen_guide(tendon, tendon.pin);
-  const LowerString low = lower_string(tendon.hull, seen, first_look(tendon.hull, seen));
+  const LowerString low = lower_string(tendon.hull, seen, initial_corner(tendon.hull, seen));
   const double level = up.length + low.length + tendon.pin.radius * (direction(up.normal) - direction(low.normal));
   return up.arm / length_ratio(level, rise_of(tendon, low));
 }
@@ -308,7 +308,7 @@ double Bench::knot_of(const BenchTendon& tendon, const Circle& seen, const Lower
 Vec2 Bench::cut_to_length(BenchTendon& tendon, double tension, double slack, double unwound) {
   const UpperString up = find_upper_string(tendon, tendon.pin, 0.0, tendon.over);
   const Circle seen = seen_guide(tendon, tendon.pin);
-  const LowerString low = lower_string(tendon.hull, seen, first_look(tendon.hull, seen));
+  const LowerString low = lower_string(tendon.hull, seen, initial_corner(tendon.hull, seen));
   const Cord cord{EA_, hidden_.hardening, 1.0};
   // A sheath starts vertically.
   const double off_pin = tendon.sheath.empty() ? direction(low.normal) : 0.0;

@@ -21,7 +21,7 @@ struct Conditions : Moment {
 struct SheathPiece {
   double length = 0;      ///< at home, mm
   double compliance = 0;  ///< mm/N
-  double holds = 0;       ///< ln of the largest ratio of tensions across the bend: μφ
+  double log_ratio = 0;   ///< ln of the largest ratio of tensions across the bend: μφ
   double bristle = 0;     ///< as BenchTendon::bristle
   double material = 0;
 };
@@ -58,7 +58,7 @@ struct BenchTendon {
 class Bench {
  public:
   /// At home, unloaded, θ = 0.
-  Bench(const MadeJoint& joint, const Hidden& hidden);
+  Bench(const MadeJoint& joint, const HiddenFaults& hidden);
 
   /// θ with the pulley at `pulley` and the motor's sensor at `alpha`. NaN without equilibrium.
   double to(double pulley, double alpha, const Conditions& conditions);
@@ -123,7 +123,7 @@ class Bench {
   template <typename Answer>
   bool solve_displacements(Answer answer, Displacements there);
 
-  Hidden hidden_;
+  HiddenFaults hidden_;
   bool collar_ = false;
   double R_ = 0;
   double EA_ = 0;

@@ -19,9 +19,9 @@ namespace fusee::rig {
 namespace {
 
 constexpr std::size_t k_rows_of_run = 200;
-/// Times at which a slip may have happened: the fits search among as many.
+/// Number of times at which a slip may have happened: as many as the fits search.
 constexpr int k_slip_times = 24;
-/// A column that moves no row by more shows nothing, rad.
+/// Smaller changes than this are invisible, rad.
 constexpr double k_nothing = 1e-9;
 
 using Values = std::vector<double>;
@@ -46,7 +46,7 @@ class SampledJoint {
     return angles;
   }
 
-  /// Evenly over the session.
+  /// Times spread evenly over the session.
   Values slip_times() const {
     const Values clock = joint::bench_clock(log_);
     const double first = clock.front() + log_.front().rows.front().time;
@@ -79,7 +79,7 @@ std::vector<Values> starts_of(const Effect& effect, const SampledJoint& joint) {
   return starts;
 }
 
-/// (b − a) `factor`; empty if that shows nothing, or if the joint has no equilibrium at a row.
+/// (b − a) `factor`; empty if no change is visible, or if the joint has no equilibrium at a row.
 Values scaled_difference(const Values& a, const Values& b, double factor) {
   Values difference;
   double most = 0;
@@ -171,7 +171,7 @@ Json truth_of(const Case& made, const std::string& kind) {
   return {{"kind", kind},
           {"seed", made.seed},
           {"faults", faults},
-          {"groove_friction_differs", made.hidden.groove_friction != Hidden{}.groove_friction},
+          {"groove_friction_differs", made.hidden.groove_friction != HiddenFaults{}.groove_friction},
           {"sensor_noise_deg", angle_json(made.sensors.noise)}};
 }
 

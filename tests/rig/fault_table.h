@@ -14,7 +14,7 @@
 
 namespace fusee::rig::fault_table {
 
-using H = Hidden;
+using H = HiddenFaults;
 using C = Character;
 using D = Draw;
 using J = MadeJoint;

@@ -9,7 +9,7 @@
 
 namespace fusee::rig {
 
-void Fault::apply(Hidden& hidden, double size, const Character& character, const MadeJoint& joint) const {
+void Fault::apply(HiddenFaults& hidden, double size, const Character& character, const MadeJoint& joint) const {
   if (set != nullptr) return set(hidden, size, character, joint);
   const Action action{name, parameters != nullptr ? parameters({character, size, joint}) : std::vector{size}, act};
   const auto add = [&action](std::vector<Action>& list) { list.push_back(action); };

@@ -39,7 +39,7 @@ struct Draw : Character {
   double within(double low, double high) const { return low + (0.2 + 0.6 * share) * (high - low); }
 };
 
-/// The list of Hidden to which an action belongs.
+/// The list of HiddenFaults to which an action belongs.
 enum class Place {
   shaft,
   one_tendon,  ///< tendon 2; tendon 1 if the character's sign is negative
@@ -54,23 +54,23 @@ enum class Place {
 /// Reported parameters, (name, value in its unit).
 using Numbers = std::vector<std::pair<std::string, double>>;
 
-/// Either sets members of Hidden (`set`) or adds an action (`act`) at `place`.
+/// Either sets members of HiddenFaults (`set`) or adds an action (`act`) at `place`.
 struct Fault {
   std::string split;
   std::string name;
   double first = 0;  ///< initial size of the search, in the fault's own unit
   double most = 0;   ///< largest plausible size
-  void (*set)(Hidden&, double size, const Character&, const MadeJoint&) = nullptr;
+  void (*set)(HiddenFaults&, double size, const Character&, const MadeJoint&) = nullptr;
   /// Catalogue effects that are physically almost the same. If the fault is unmodelled or left out of the catalogue, a
   /// report of one of them is no false positive.
   std::vector<std::string> kin = {};
-  Numbers (*numbers)(const Hidden&, const MadeJoint&) = nullptr;  ///< true values of the report; null: none
-  double least_seen = 3;                                          ///< smallest change of the reading, rms per noise rms
+  Numbers (*numbers)(const HiddenFaults&, const MadeJoint&) = nullptr;  ///< true values of the report; null: none
+  double least_seen = 3;  ///< smallest change of the reading, rms per noise rms
   Place place = Place::shaft;
   std::vector<double> (*parameters)(const Draw&) = nullptr;  ///< numbers of the action; null: the size
   double (*act)(const Moment&, const std::vector<double>& numbers, std::vector<double>& memory) = nullptr;
 
-  void apply(Hidden& hidden, double size, const Character& character, const MadeJoint& joint) const;
+  void apply(HiddenFaults& hidden, double size, const Character& character, const MadeJoint& joint) const;
 };
 
 /// All rows in the order of the chain, names being unique.

@@ -1,5 +1,5 @@
 // Each row of the table of faults acts as its comment says: by examples, random ones by their statistics. Each list of
-// Hidden acts at its place in the chain.
+// HiddenFaults acts at its place in the chain.
 #include "rig/faults.h"
 
 #include <gmock/gmock.h>
@@ -27,9 +27,9 @@ using ::testing::Not;
 
 constexpr Character k_middle{1.0, 1.0, 0.5};
 
-Hidden with(const std::string& fault, double size, const Character& character = k_middle,
-            const MadeJoint& joint = soft()) {
-  Hidden hidden;
+HiddenFaults with(const std::string& fault, double size, const Character& character = k_middle,
+                  const MadeJoint& joint = soft()) {
+  HiddenFaults hidden;
   find_fault(fault).apply(hidden, size, character, joint);
   return hidden;
 }
@@ -163,7 +163,7 @@ void expect_rows(const Example& example, const Action& action, std::size_t side,
 }
 
 /// All actions with the index of their tendon, 1 at other places.
-std::vector<std::pair<const Action*, std::size_t>> actions_of(const Hidden& hidden) {
+std::vector<std::pair<const Action*, std::size_t>> actions_of(const HiddenFaults& hidden) {
   std::vector<std::pair<const Action*, std::size_t>> all;
   for (const auto* list :
        {&hidden.shaft, &hidden.torque, &hidden.dry, &hidden.load, &hidden.reading, &hidden.longer[1]})
@@ -178,7 +178,7 @@ TEST(FaultExamples, ActAsDescribed) {
     for (const double sign : {1.0, -1.0}) {
       if (sign < 0 && example.sign == Sign::nothing && find_fault(example.fault).place != Place::one_tendon) continue;
       const Character character{sign * example.character.sign, example.character.angle, example.character.share};
-      const Hidden hidden = with(example.fault, example.size, character);
+      const HiddenFaults hidden = with(example.fault, example.size, character);
       if (find_fault(example.fault).place == Place::one_tendon) {
         EXPECT_TRUE(hidden.longer[sign > 0 ? 0 : 1].empty());
       }
@@ -200,7 +200,7 @@ TEST(FaultExamples, CoverEveryAction) {
 }
 
 /// Displacement of the link's end across and along after these moments.
-std::array<double, 2> across_and_along(const Hidden& hidden, const std::vector<Moment>& moments) {
+std::array<double, 2> across_and_along(const HiddenFaults& hidden, const std::vector<Moment>& moments) {
   std::array<double, 2> acts{};
   for (const std::size_t axis : {0u, 1u}) {
     const Action& action = hidden.longer[1].at(0);
@@ -229,7 +229,7 @@ TEST(Displaced, LinkEndMoves) {
 
 TEST(Displaced, LooseAxisShortensLink) {
   // Forces at the link's end that balance about its axis pull along the link.
-  const Hidden shorter{.guide_down = 0.4, .joint_length = -0.4};
+  const HiddenFaults shorter{.guide_down = 0.4, .joint_length = -0.4};
   Bench loose(soft(), with("loose_axis", 0.4)), short_link(soft(), shorter), plain(soft(), {});
   Conditions at;
   double most_moved = 0;
@@ -251,7 +251,7 @@ double act(const Action& action, const Moment& now, std::vector<double>& memory)
 }
 
 TEST(Chance, GustsAreSquaredNormal) {
-  const Hidden hidden = with("gusts_through_a_window", 200.0);
+  const HiddenFaults hidden = with("gusts_through_a_window", 200.0);
   std::vector<double> memory;
   Moment now;
   const auto after = [&](double step) {
@@ -271,7 +271,7 @@ TEST(Chance, GustsAreSquaredNormal) {
 }
 
 TEST(Chance, PopcornHasTwoStates) {
-  const Hidden hidden = with("popcorn_in_amplifier", 0.008);
+  const HiddenFaults hidden = with("popcorn_in_amplifier", 0.008);
   for (const auto& [step, jumps] : {std::pair{0.0, 0.0}, {0.55, 0.5 * (1.0 - std::exp(-0.2))}, {1e4, 0.5}}) {
     std::vector<double> memory;
     Moment now;
@@ -288,7 +288,7 @@ TEST(Chance, PopcornHasTwoStates) {
 }
 
 TEST(Chance, RimIsSameInEachPass) {
-  const Hidden hidden = with("laser_on_grainy_rim", 0.003);
+  const HiddenFaults hidden = with("laser_on_grainy_rim", 0.003);
   std::vector<double> none;
   Moment now;
   const auto shown = [&](double points) {
@@ -307,7 +307,7 @@ TEST(Chance, RimIsSameInEachPass) {
 }
 
 TEST(Chance, SpanDiffersFromRunToRun) {
-  const Hidden hidden = with("span_set_before_each_run", 0.005);
+  const HiddenFaults hidden = with("span_set_before_each_run", 0.005);
   std::vector<double> none;
   double sum = 0, squares = 0;
   Moment now;
@@ -322,7 +322,7 @@ TEST(Chance, SpanDiffersFromRunToRun) {
   EXPECT_NEAR(squares / 1000.0, 1.0, 0.2);
 }
 
-// ---- places: an action in a list of Hidden reaches the log ----------------------------------------------------------
+// ---- places: an action in a list of HiddenFaults reaches the log -----------------------------------------------------
 
 TEST(Place, ShaftTurnsPulley) {
   const transmission::Transmission law(stiff().declared);
@@ -362,7 +362,7 @@ TEST(Place, LoadPullsMoreThanLogged) {
 // ---- every fault ----------------------------------------------------------------------------------------------------
 
 /// Both loads, fast and slow, rest under load, and no load again after it.
-std::vector<Log> short_logs_of(const Hidden& hidden) {
+std::vector<Log> short_logs_of(const HiddenFaults& hidden) {
   MotionPlan few_rows;
   few_rows.rows_per_stroke = 40;
   const double slow = radians(12.0), fast = radians(90.0), between = radians(25.0);
@@ -372,7 +372,7 @@ std::vector<Log> short_logs_of(const Hidden& hidden) {
 }
 
 class EveryFault : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Of, EveryFault, ::testing::Values("named", "tuning", "regression", "heldout_13"),
+INSTANTIATE_TEST_SUITE_P(Tables, EveryFault, ::testing::Values("named", "tuning", "regression", "heldout_13"),
                          [](const auto& split) { return split.param; });
 
 TEST_P(EveryFault, MovesReadingWithSize) {
@@ -385,7 +385,7 @@ TEST_P(EveryFault, MovesReadingWithSize) {
 }
 
 TEST_P(EveryFault, ActionOfSizeZeroIsNothing) {
-  Hidden all;
+  HiddenFaults all;
   for (const Fault& fault : faults_in(GetParam())) {
     if (fault.act != nullptr && fault.name != "jumping_hub") fault.apply(all, 0.0, k_middle, soft());
   }

@@ -10,7 +10,7 @@
 namespace fusee::rig {
 namespace {
 
-Case case_of(const Hidden& hidden) {
+Case case_of(const HiddenFaults& hidden) {
   Case made;
   made.joint = soft();
   made.hidden = hidden;

@@ -15,7 +15,7 @@ namespace {
 
 struct SameFault {
   const char* name;
-  void (*hide)(Hidden&);
+  void (*hide)(HiddenFaults&);
   void (*imitate)(Imperfections&);
   double share;  ///< largest difference per effect, rms: the measured one with a margin
 };
@@ -27,38 +27,38 @@ constexpr double k_wave = radians(0.4), k_phase = 0.7;
 
 // clang-format off
 const std::vector<SameFault> k_faults{
-    {"as_declared_but_for_stretch", [](Hidden& h) { h.modulus = 5000; }, [](Imperfections& at) { at.tendon.stretch = 8000.0 / 5000.0 - 1; }, 0.004},
-    {"motor_sensor", [](Hidden& h) { h.motor_offset = 0.01, h.motor_eccentricity = 0.02, h.motor_eccentricity_phase = k_phase; },
+    {"as_declared_but_for_stretch", [](HiddenFaults& h) { h.modulus = 5000; }, [](Imperfections& at) { at.tendon.stretch = 8000.0 / 5000.0 - 1; }, 0.004},
+    {"motor_sensor", [](HiddenFaults& h) { h.motor_offset = 0.01, h.motor_eccentricity = 0.02, h.motor_eccentricity_phase = k_phase; },
      [](Imperfections& at) { at.motor = {0.01, 0.02 * std::cos(k_phase), 0.02 * std::sin(k_phase)}; }, 0.001},
-    {"motor_sensor_harmonic", [](Hidden& h) { h.motor_harmonic = k_wave, h.motor_harmonic_phase = k_phase, h.motor_harmonic_order = 3; },
+    {"motor_sensor_harmonic", [](HiddenFaults& h) { h.motor_harmonic = k_wave, h.motor_harmonic_phase = k_phase, h.motor_harmonic_order = 3; },
      [](Imperfections& at) { at.motor = {0, 0, 0, k_wave * std::cos(k_phase), k_wave * std::sin(k_phase), 3}; }, 0.001},
-    {"backlash", [](Hidden& h) { h.backlash = 0.03; }, [](Imperfections& at) { at.shaft.backlash = 0.03; }, 0.004},
-    {"joint_sensor", [](Hidden& h) { h.zero = 0.01, h.gain = 0.02, h.joint_eccentricity = 0.003, h.joint_eccentricity_phase = 0.4; },
+    {"backlash", [](HiddenFaults& h) { h.backlash = 0.03; }, [](Imperfections& at) { at.shaft.backlash = 0.03; }, 0.004},
+    {"joint_sensor", [](HiddenFaults& h) { h.zero = 0.01, h.gain = 0.02, h.joint_eccentricity = 0.003, h.joint_eccentricity_phase = 0.4; },
      [](Imperfections& at) {
        at.sensor.zero = 0.01, at.sensor.gain = 0.02;
        at.sensor.eccentricity_sin = 0.003 * std::cos(0.4), at.sensor.eccentricity_cos = 0.003 * std::sin(0.4);
      }, 0.001},
-    {"joint_sensor_harmonic", [](Hidden& h) { h.joint_harmonic = k_wave, h.joint_harmonic_phase = k_phase, h.joint_harmonic_order = 2; },
+    {"joint_sensor_harmonic", [](HiddenFaults& h) { h.joint_harmonic = k_wave, h.joint_harmonic_phase = k_phase, h.joint_harmonic_order = 2; },
      [](Imperfections& at) { at.sensor.wave_sin = k_wave * std::cos(k_phase), at.sensor.wave_cos = k_wave * std::sin(k_phase); }, 0.001},
-    {"delay", [](Hidden& h) { h.lag = 0.05; }, [](Imperfections& at) { at.sensor.lag = 0.05; }, 0.004},
-    {"filter", [](Hidden& h) { h.lag_filter = 0.05; }, [](Imperfections& at) { at.sensor.lag = 0.05, at.sensor.first_order = 1; }, 0.004},
-    {"radius_offset", [](Hidden& h) { h.radius_offset = 0.3; }, [](Imperfections& at) { at.pulley.outline.offset = 0.3; }, 0.01},
-    {"pulley_scale", [](Hidden& h) { h.pulley_scale = -0.02; }, [](Imperfections& at) { at.pulley.scale = -0.02; }, 0.01},
-    {"pulley_runout", [](Hidden& h) { h.runout_x = 0.3, h.runout_y = -0.2; },
+    {"delay", [](HiddenFaults& h) { h.lag = 0.05; }, [](Imperfections& at) { at.sensor.lag = 0.05; }, 0.004},
+    {"filter", [](HiddenFaults& h) { h.lag_filter = 0.05; }, [](Imperfections& at) { at.sensor.lag = 0.05, at.sensor.first_order = 1; }, 0.004},
+    {"radius_offset", [](HiddenFaults& h) { h.radius_offset = 0.3; }, [](Imperfections& at) { at.pulley.outline.offset = 0.3; }, 0.01},
+    {"pulley_scale", [](HiddenFaults& h) { h.pulley_scale = -0.02; }, [](Imperfections& at) { at.pulley.scale = -0.02; }, 0.01},
+    {"pulley_runout", [](HiddenFaults& h) { h.runout_x = 0.3, h.runout_y = -0.2; },
      [](Imperfections& at) { at.pulley.outline.runout_x = 0.3, at.pulley.outline.runout_y = -0.2; }, 0.01},
-    {"profile_error", [](Hidden& h) { h.profile_error = 0.2, h.profile_harmonic = 3, h.profile_phase = 0.5; },
+    {"profile_error", [](HiddenFaults& h) { h.profile_error = 0.2, h.profile_harmonic = 3, h.profile_phase = 0.5; },
      [](Imperfections& at) { at.pulley.outline = {0, 0, 0, -0.2 * std::sin(0.5), 0.2 * std::cos(0.5), 3}; }, 0.01},
-    {"guide_radius", [](Hidden& h) { h.guide_radius = 1.0; }, [](Imperfections& at) { at.pins.radius = 1.0; }, 0.01},
-    {"left_pin", [](Hidden& h) { h.pin_outward[0] = 1.2, h.pin_down[0] = -0.6; }, [](Imperfections& at) { at.pins.left = {1.2, -0.6}; }, 0.012},
-    {"right_pin", [](Hidden& h) { h.pin_outward[1] = -0.8, h.pin_down[1] = 1.0; }, [](Imperfections& at) { at.pins.right = {-0.8, 1.0}; }, 0.004},
-    {"frame_compliance", [](Hidden& h) { h.frame_compliance = 5e-3; }, [](Imperfections& at) { at.pins.compliance = 5e-3; }, 0.01},
-    {"soft_frame", [](Hidden& h) { h.frame_compliance = 0.04; }, [](Imperfections& at) { at.pins.compliance = 0.04; }, 0.01},
-    {"joint_length", [](Hidden& h) { h.joint_length = 1.5; }, [](Imperfections& at) { at.joint.length = 1.5; }, 0.01},
-    {"joint_friction", [](Hidden& h) { h.bearing = 60; }, [](Imperfections& at) { at.joint.friction = 60; }, 0.015},
-    {"gravity", [](Hidden& h) { h.gravity = 300, h.gravity_direction = 0.8; }, [](Imperfections& at) { at.joint.weight = {300 * std::sin(0.8), -300 * std::cos(0.8)}; }, 0.01},
-    {"thermal_expansion", [](Hidden& h) { h.expansion = 1e-4; }, [](Imperfections& at) { at.tendon.thermal1 = 0.3e-4, at.tendon.thermal2 = 1e-4; }, 0.02},
-    {"creep", [](Hidden& h) { h.creep = 0.15; }, [](Imperfections& at) { at.tendon.creep = 0.15; }, 0.08},
-    {"slack", [](Hidden& h) { h.slack = 1.0; }, [](Imperfections& at) { at.tendon.slack = 1.0, at.tendon.pretension = -5; }, 0.002},
+    {"guide_radius", [](HiddenFaults& h) { h.guide_radius = 1.0; }, [](Imperfections& at) { at.pins.radius = 1.0; }, 0.01},
+    {"left_pin", [](HiddenFaults& h) { h.pin_outward[0] = 1.2, h.pin_down[0] = -0.6; }, [](Imperfections& at) { at.pins.left = {1.2, -0.6}; }, 0.012},
+    {"right_pin", [](HiddenFaults& h) { h.pin_outward[1] = -0.8, h.pin_down[1] = 1.0; }, [](Imperfections& at) { at.pins.right = {-0.8, 1.0}; }, 0.004},
+    {"frame_compliance", [](HiddenFaults& h) { h.frame_compliance = 5e-3; }, [](Imperfections& at) { at.pins.compliance = 5e-3; }, 0.01},
+    {"soft_frame", [](HiddenFaults& h) { h.frame_compliance = 0.04; }, [](Imperfections& at) { at.pins.compliance = 0.04; }, 0.01},
+    {"joint_length", [](HiddenFaults& h) { h.joint_length = 1.5; }, [](Imperfections& at) { at.joint.length = 1.5; }, 0.01},
+    {"joint_friction", [](HiddenFaults& h) { h.bearing = 60; }, [](Imperfections& at) { at.joint.friction = 60; }, 0.015},
+    {"gravity", [](HiddenFaults& h) { h.gravity = 300, h.gravity_direction = 0.8; }, [](Imperfections& at) { at.joint.weight = {300 * std::sin(0.8), -300 * std::cos(0.8)}; }, 0.01},
+    {"thermal_expansion", [](HiddenFaults& h) { h.expansion = 1e-4; }, [](Imperfections& at) { at.tendon.thermal1 = 0.3e-4, at.tendon.thermal2 = 1e-4; }, 0.02},
+    {"creep", [](HiddenFaults& h) { h.creep = 0.15; }, [](Imperfections& at) { at.tendon.creep = 0.15; }, 0.08},
+    {"slack", [](HiddenFaults& h) { h.slack = 1.0; }, [](Imperfections& at) { at.tendon.slack = 1.0, at.tendon.pretension = -5; }, 0.002},
 };
 // clang-format on
 
@@ -92,7 +92,7 @@ std::vector<double> less(std::vector<double> one, const std::vector<double>& oth
 /// Compares a fault's effect on the reading, and the whole reading, of rig and model.
 void expect_same(const DeclaredMechanism& declared, const SameFault& fault, double load) {
   const MadeJoint joint = make_joint(declared);
-  Hidden hidden;
+  HiddenFaults hidden;
   fault.hide(hidden);
   SensorPlan silent;
   silent.noise = 0;
@@ -135,23 +135,23 @@ struct WideFault {
 void PrintTo(const WideFault& fault, std::ostream* out) { *out << fault.profile << " " << fault.fault.name; }
 
 // clang-format off
-const SameFault k_larger_drum{"drum_radius", [](Hidden& h) { h.drum_radius = 0.15; }, [](Imperfections& at) { at.joint.drum.radius = 0.15; }, 0.02};
-const SameFault k_drum_off{"drum_runout", [](Hidden& h) { h.drum_runout = 0.12, h.drum_runout_phase = 0.8; },
+const SameFault k_larger_drum{"drum_radius", [](HiddenFaults& h) { h.drum_radius = 0.15; }, [](Imperfections& at) { at.joint.drum.radius = 0.15; }, 0.02};
+const SameFault k_drum_off{"drum_runout", [](HiddenFaults& h) { h.drum_runout = 0.12, h.drum_runout_phase = 0.8; },
                            [](Imperfections& at) { at.joint.drum = {0, 0.12 * std::cos(0.8), 0.12 * std::sin(0.8)}; }, 0.02};
-const SameFault k_drum_further_off{"drum_further_off", [](Hidden& h) { h.drum_runout = 0.4, h.drum_runout_phase = 4.5; },
+const SameFault k_drum_further_off{"drum_further_off", [](HiddenFaults& h) { h.drum_runout = 0.4, h.drum_runout_phase = 4.5; },
                                    [](Imperfections& at) { at.joint.drum = {0, 0.4 * std::cos(4.5), 0.4 * std::sin(4.5)}; }, 0.02};
-const SameFault k_moved_ends{"attachments", [](Hidden& h) { h.end_moved = {Vec2(1.0, -0.7), Vec2(-0.6, 0.9)}; },
+const SameFault k_moved_ends{"attachments", [](HiddenFaults& h) { h.end_moved = {Vec2(1.0, -0.7), Vec2(-0.6, 0.9)}; },
                              [](Imperfections& at) { at.joint.end1 = {1.0, -0.7}, at.joint.end2 = {-0.6, 0.9}; }, 0.02};
 
 const std::vector<WideFault> k_wide_faults{
     {"finger_mcp", 0.7, k_larger_drum}, {"finger_mcp", 0.7, k_drum_off}, {"finger_mcp", 0.7, k_drum_further_off},
     {"finger_pip", 0.8, k_larger_drum}, {"finger_pip", 0.8, k_drum_off}, {"finger_pip", 0.8, k_moved_ends},
     {"elbow_idlers", 2.5, k_larger_drum}, {"elbow_idlers", 2.5, k_drum_off}, {"elbow_idlers", 2.5, k_moved_ends}, {"ankle_exo", 20, k_moved_ends},
-    {"elbow_idlers", 2.5, {"idler_friction", [](Hidden& h) { h.bearing_friction = 0.8; }, [](Imperfections& at) { at.pins.bearing_friction = 0.8; }, 0.05}},
-    {"wrist_sheath", 2, {"sheath_friction", [](Hidden& h) { h.sheath_friction = 0.2; }, [](Imperfections& at) { at.sheath.friction = 0.2; }, 0.05}},
-    {"wrist_sheath", 2, {"sheath_slippery", [](Hidden& h) { h.sheath_friction = -0.15; }, [](Imperfections& at) { at.sheath.friction = -0.15; }, 0.05}},
-    {"wrist_sheath", 2, {"sheath_stiffness", [](Hidden& h) { h.sheath_compliance = 0.015; }, [](Imperfections& at) { at.sheath.compliance = 0.015; }, 0.05}},
-    {"wrist_sheath", 2, {"pulley_scale", [](Hidden& h) { h.pulley_scale = 0.01; }, [](Imperfections& at) { at.pulley.scale = 0.01; }, 0.02}},
+    {"elbow_idlers", 2.5, {"idler_friction", [](HiddenFaults& h) { h.bearing_friction = 0.8; }, [](Imperfections& at) { at.pins.bearing_friction = 0.8; }, 0.05}},
+    {"wrist_sheath", 2, {"sheath_friction", [](HiddenFaults& h) { h.sheath_friction = 0.2; }, [](Imperfections& at) { at.sheath.friction = 0.2; }, 0.05}},
+    {"wrist_sheath", 2, {"sheath_slippery", [](HiddenFaults& h) { h.sheath_friction = -0.15; }, [](Imperfections& at) { at.sheath.friction = -0.15; }, 0.05}},
+    {"wrist_sheath", 2, {"sheath_stiffness", [](HiddenFaults& h) { h.sheath_compliance = 0.015; }, [](Imperfections& at) { at.sheath.compliance = 0.015; }, 0.05}},
+    {"wrist_sheath", 2, {"pulley_scale", [](HiddenFaults& h) { h.pulley_scale = 0.01; }, [](Imperfections& at) { at.pulley.scale = 0.01; }, 0.02}},
 };
 // clang-format on
 

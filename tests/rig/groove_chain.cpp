@@ -20,7 +20,7 @@ double hold_of(double friction, double turn) { return std::exp(std::min(k_most_h
 
 }  // namespace
 
-Turning::Turning(const Hull& hull) : around_(hull.around), is_helical_(hull.is_helical()) {
+TurningAngle::TurningAngle(const Hull& hull) : around_(hull.around), is_helical_(hull.is_helical()) {
   const std::size_t count = hull.corners.size();
   // Half of a corner's turn belongs to each of its edges, so that the turning is even along a smooth curve. Before a
   // spiral begins, and past its end, it goes straight on.
@@ -50,7 +50,7 @@ Turning::Turning(const Hull& hull) : around_(hull.around), is_helical_(hull.is_h
   }
 }
 
-double Turning::at(double arc) const {
+double TurningAngle::at(double arc) const {
   const double turns = is_helical_ ? 0.0 : std::floor(arc / around_);
   const double place = (arc / around_ - turns) * k_table;
   const auto i = std::min(k_table - 1, static_cast<std::size_t>(place));
@@ -59,7 +59,7 @@ double Turning::at(double arc) const {
 
 GrooveChain::GrooveChain(const Hull& hull, double knot, double take_off, double tension, double friction,
                          const Cord& cord)
-    : turning_(std::make_shared<Turning>(hull)),
+    : turning_(std::make_shared<TurningAngle>(hull)),
       cord_(cord),
       friction_(friction),
       knot_(knot),
@@ -115,8 +115,8 @@ void GrooveChain::reach(double take_off, double before, const Cord& cord) {
   measure();
 }
 
-// Released tendon slides outwards: each tension falls to the most that friction holds against its inner neighbour, while
-// the total length is constant.
+// Released tendon slides outwards: each tension falls to the most that friction holds against its inner neighbour,
+// while the total length is constant.
 void GrooveChain::let_go(double material) {
   if (springs_.empty() || material == 0) return;
   double whole = 0;

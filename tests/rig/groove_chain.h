@@ -33,9 +33,9 @@ struct Cord {
 };
 
 /// Direction of a convex polygon at an arc along it, continuous over turns.
-class Turning {
+class TurningAngle {
  public:
-  explicit Turning(const Hull& hull);
+  explicit TurningAngle(const Hull& hull);
   double at(double arc) const;
 
  private:
@@ -85,7 +85,7 @@ class GrooveChain {
 
   double turn_to(double arc) const { return turning_->at(arc); }
 
-  std::shared_ptr<const Turning> turning_;
+  std::shared_ptr<const TurningAngle> turning_;
   Cord cord_;
   double friction_ = 0;
   double knot_ = 0;

@@ -35,8 +35,8 @@ double given(GrooveChain& chain, double turn, double before, double tension) {
   return -chain.settle(tension);
 }
 
-TEST(Turning, IsArcOverRadius) {
-  const Turning turning(disc());
+TEST(TurningAngle, IsArcOverRadius) {
+  const TurningAngle turning(disc());
   for (const double angle : {-7.0, -0.3, 0.0, 1.0, 3.0, 6.2, 9.9})
     EXPECT_NEAR(turning.at(k_radius * angle) - turning.at(0.0), angle, 2e-6) << angle;
 }

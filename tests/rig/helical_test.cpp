@@ -49,7 +49,7 @@ TEST(HelicalJoint, FollowsTargetMotionWithCollars) {
   EXPECT_LT(furthest_off(declared), 5e-4);
 }
 
-// Otherwise the groove would end at the knot of a pulley of one turn.
+// A rig without spare turns would tie the tendons as on a pulley of one turn.
 TEST(HelicalJoint, TiesTendonsBehindSpareTurns) {
   const MadeJoint joint = make_joint(wrist_turns());
   const Bench bench(joint, {});

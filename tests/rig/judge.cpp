@@ -37,7 +37,7 @@ bool is_outside(const std::string& fault, const std::vector<std::string>& withou
 }
 
 /// The friction of the groove differs from the file.
-bool has_other_groove(const Case& made) { return made.hidden.groove_friction != Hidden{}.groove_friction; }
+bool has_other_groove(const Case& made) { return made.hidden.groove_friction != HiddenFaults{}.groove_friction; }
 
 bool holds_truth(const std::vector<std::string>& group, const Case& made, const std::vector<std::string>& without) {
   if (has_other_groove(made) && holds(group, "groove_friction")) return true;
@@ -74,7 +74,7 @@ void check_intervals(const std::string& fault, const calibration::FoundEffect& e
 void write(const std::filesystem::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
   file << text;
-  if (!file.flush()) throw OutputError("cannot write " + path.string(), "is there room, and permission?");
+  if (!file.flush()) throw OutputError("cannot write " + path.string(), "check free space and permissions");
 }
 
 std::string percent(double value) { return fixed(100.0 * value, 1) + " %"; }
@@ -82,7 +82,7 @@ std::string percent(double value) { return fixed(100.0 * value, 1) + " %"; }
 /// Counts of one truth.
 struct MatrixRow {
   std::string truth;
-  std::size_t joints = 0, named = 0, held = 0, alone = 0, empty = 0, wrong_alone = 0;
+  std::size_t joints = 0, named = 0, held = 0, alone = 0, with_false_group = 0, wrong_alone = 0;
   std::array<std::size_t, k_verdicts.size()> verdicts{};
 };
 
@@ -91,7 +91,7 @@ void add(MatrixRow& row, const Judgement& one) {
   row.named += one.named;
   row.held += one.held;
   row.alone += one.alone;
-  row.empty += one.false_groups > 0 ? 1 : 0;
+  row.with_false_group += one.false_groups > 0 ? 1 : 0;
   row.wrong_alone += one.wrong_alone > 0 ? 1 : 0;
   for (std::size_t i = 0; i < k_verdicts.size(); ++i) row.verdicts[i] += one.verdict == k_verdicts[i] ? 1 : 0;
 }
@@ -101,7 +101,7 @@ std::string row_text(const MatrixRow& row) {
   std::string text = "| " + row.truth + " | " + std::to_string(row.joints) + " | ";
   text += row.named == 0 ? "– | – | – | "
                          : count(row.held) + " | " + count(row.alone) + " | " + count(row.named - row.held) + " | ";
-  text += count(row.empty) + " | " + count(row.wrong_alone);
+  text += count(row.with_false_group) + " | " + count(row.wrong_alone);
   for (const std::size_t verdict : row.verdicts) text += " | " + count(verdict);
   return text + " |\n";
 }
@@ -219,7 +219,7 @@ Rates rates(const std::vector<Judgement>& judgements) {
   const auto count = [&](Rate& rate, bool is) { add_to(rate, is ? 1 : 0, 1); };
   for (const Judgement& one : judgements) {
     const bool is_modelled = one.outside.empty();
-    count(is_modelled ? all.empty_groups : all.empty_groups_outside, one.false_groups > 0);
+    count(is_modelled ? all.false_groups : all.false_groups_outside, one.false_groups > 0);
     count(is_modelled ? all.false_names : all.false_names_outside, one.false_names > 0);
     add_to(all.held_by_names, one.held_by_names, one.named);
     add_to(all.alone, one.alone, one.named);
@@ -234,7 +234,7 @@ Rates rates(const std::vector<Judgement>& judgements) {
                                          one.verdict == calibration::CalibrationVerdict::not_repeatable);
     }
     if (one.nothing) {
-      count(all.empty_groups_nothing, one.false_groups > 0);
+      count(all.false_groups_nothing, one.false_groups > 0);
       count(all.quiet, one.verdict == calibration::CalibrationVerdict::no_effect);
     }
     for (const IntervalCheck& number : one.numbers) count(all.covered, number.within);
@@ -250,9 +250,9 @@ std::string rate_table(const std::vector<Judgement>& judgements) {
   const std::pair<const char*, Rate> rows[] = {
       {"false positive: a false group without `unmodelled`, per modelled joint", found.false_names},
       {"false positive, per joint with an unmodelled fault", found.false_names_outside},
-      {"false group, with or without `unmodelled`, per modelled joint", found.empty_groups},
-      {"false group, per joint as declared", found.empty_groups_nothing},
-      {"false group, per joint with an unmodelled fault", found.empty_groups_outside},
+      {"false group, with or without `unmodelled`, per modelled joint", found.false_groups},
+      {"false group, per joint as declared", found.false_groups_nothing},
+      {"false group, per joint with an unmodelled fault", found.false_groups_outside},
       {"false group of one member, per joint", found.wrong_alone},
       {"alone: named fault alone in a group, all joints", found.alone},
       {"named fault in a group without `unmodelled`, all joints", found.held_by_names},

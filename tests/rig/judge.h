@@ -75,9 +75,9 @@ struct Rates {
   std::size_t beyond = 0;  ///< of `miss`: larger than `detectable`
   Rate held_by_names;      ///< named faults in a group without `unmodelled`, all joints
   Rate alone;              ///< named faults alone in a group, all joints
-  Rate empty_groups;       ///< modelled joints with a false group
-  Rate empty_groups_outside;
-  Rate empty_groups_nothing;  ///< joints as declared with a false group
+  Rate false_groups;       ///< modelled joints with a false group
+  Rate false_groups_outside;
+  Rate false_groups_nothing;  ///< joints as declared with a false group
   Rate false_names;           ///< modelled joints with a false group without `unmodelled`
   Rate false_names_outside;
   Rate wrong_alone;          ///< joints with a false group of one member

@@ -61,7 +61,7 @@ TEST(Judge, UnmodelledGroupIsNoFalsePositive) {
   EXPECT_EQ(one.false_names, 0u);
   EXPECT_EQ(one.wrong_alone, 0u);
   const Rates found = rates({one});
-  EXPECT_EQ(found.empty_groups.part, 1u);
+  EXPECT_EQ(found.false_groups.part, 1u);
   EXPECT_EQ(found.false_names.part, 0u);
   EXPECT_EQ(found.held_by_names.part, 1u);
   EXPECT_EQ(found.alone.all, 2u);
@@ -103,9 +103,9 @@ TEST(Judge, RatesAreShares) {
   };
   const Rates found = rates(all);
   EXPECT_DOUBLE_EQ(found.miss.share(), 0.5);
-  EXPECT_DOUBLE_EQ(found.empty_groups.share(), 0.25);
-  EXPECT_DOUBLE_EQ(found.empty_groups_nothing.share(), 0.5);
-  EXPECT_DOUBLE_EQ(found.empty_groups_outside.share(), 0.5);
+  EXPECT_DOUBLE_EQ(found.false_groups.share(), 0.25);
+  EXPECT_DOUBLE_EQ(found.false_groups_nothing.share(), 0.5);
+  EXPECT_DOUBLE_EQ(found.false_groups_outside.share(), 0.5);
   EXPECT_DOUBLE_EQ(found.wrong_alone.share(), 1.0 / 6.0);
   EXPECT_DOUBLE_EQ(found.unexplained_outside.share(), 0.5);
   EXPECT_DOUBLE_EQ(found.quiet.share(), 0.5);
@@ -164,7 +164,7 @@ TEST(Judge, ComparesNumbersWithIntervals) {
 }
 
 /// Wilson's interval as Newcombe (1998) prints it for his examples.
-TEST(Judge, WilsonBounds) {
+TEST(Judge, ComputesWilsonBounds) {
   EXPECT_NEAR(wilson({81, 263}).low, 0.2553, 5e-5);
   EXPECT_NEAR(wilson({81, 263}).high, 0.3662, 5e-5);
   EXPECT_NEAR(wilson({0, 20}).low, 0.0, 5e-5);
@@ -195,7 +195,7 @@ TEST(Truths, FaultsAreWellSeen) {
       EXPECT_GT(times, 2.5) << truth.name;
       EXPECT_LT(times, 20.0) << truth.name;
     }
-    EXPECT_EQ(made.hidden == Hidden{}, truth.faults.empty()) << truth.name;
+    EXPECT_EQ(made.hidden == HiddenFaults{}, truth.faults.empty()) << truth.name;
   }
 }
 

@@ -51,8 +51,8 @@ std::vector<Fault> motor_faults() { return {
   {.split = "tuning", .name = "bedding_in", .first = 0.02, .most = 0.3,
    .set = [](H& h, double s, const C& c, const J&) { h.bedding = c.sign * s; }},
 
-  // A magnetic coupling lags by the arc sine of its load over n[1] N, the load at which it slips; n[0] rad times that
-  // (one over the pole pairs: 1/20 … 1/4).
+  // A magnetic coupling lags by n[0] asin(load / n[1]) rad. n[0]: one over the pole pairs, 1/20 … 1/4. n[1]: load at
+  // which it slips, N.
   {.split = "heldout_13", .name = "magnets_for_coupling_leaning", .first = 0.02, .most = 0.25,
    .kin = {"tendon_stretch"},  // small loads
    .place = Place::shaft, .parameters = [](const D& d) -> N { return {d.size, (2.0 + 2.0 * d.share) * d.pretension()}; },

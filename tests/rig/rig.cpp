@@ -15,9 +15,9 @@ namespace {
 
 constexpr double k_approach = radians(2.5);  // steps of α between home and the start of the sweep, and between far rows
 constexpr int k_loading = 8;                 // steps in which the load comes on
-constexpr int k_lag_steps = 4;               // between rows, where a late sensor shows what was there between them
+constexpr int k_lag_steps = 4;               // steps between rows, for a sensor that shows an earlier angle
 constexpr double k_warm = 31.0;              // °C, when the session begins
-constexpr double k_cooling = 11.0;           // K, in the end
+constexpr double k_cooling = 11.0;           // K, after a long time
 constexpr double k_cooling_time = 150.0;     // s
 
 double temperature_at(double time) { return k_warm - k_cooling * (1.0 - std::exp(-time / k_cooling_time)); }
@@ -30,7 +30,7 @@ double wave(double amplitude, int order, double angle, double phase) {
 /// From the motor's sensor to the pulley, including play.
 class Drive {
  public:
-  Drive(const Hidden& hidden, double stroke)
+  Drive(const HiddenFaults& hidden, double stroke)
       : hidden_(hidden), added_(hidden.shaft), seat_(0.5 * stroke), shaft_(shaft(0.0)), pulley_(shaft_) {}
 
   double to(double alpha, const Moment& now) {
@@ -50,7 +50,7 @@ class Drive {
            hidden_.cogging * std::sin(hidden_.cogging_per_turn * alpha);
   }
 
-  const Hidden& hidden_;
+  const HiddenFaults& hidden_;
   Actors added_;
   double seat_;
   double shaft_;
@@ -108,7 +108,7 @@ class Noise {
 /// The state of joint, drive and sensors over all runs.
 class Session {
  public:
-  Session(const MadeJoint& joint, const Hidden& hidden, const SensorPlan& sensors, const MotionPlan& motion)
+  Session(const MadeJoint& joint, const HiddenFaults& hidden, const SensorPlan& sensors, const MotionPlan& motion)
       : as_mounted_(hidden),
         hidden_(hidden),
         sensors_(sensors),
@@ -146,18 +146,18 @@ class Session {
     pulled.load += load_(at_);
     return bench_.to(drive_.to(alpha, at_), alpha, pulled);
   }
-  /// In even steps of time and α.
+  /// Moves in even steps of time, α and load.
   void go(double alpha, double load, double seconds) {
     const double from = at_.alpha;
-    const double hung = at_.load;
-    const int steps =
-        std::max(load != hung ? k_loading : 1, static_cast<int>(std::ceil(std::abs(alpha - from) / k_approach - 1e-9)));
+    const double load_before = at_.load;
+    const int steps = std::max(load != load_before ? k_loading : 1,
+                               static_cast<int>(std::ceil(std::abs(alpha - from) / k_approach - 1e-9)));
     for (int i = 1; i <= steps; ++i) {
-      at_.load = hung + (load - hung) * i / steps;
+      at_.load = load_before + (load - load_before) * i / steps;
       move(from + (alpha - from) * i / steps, 0.0, seconds / steps);
     }
   }
-  /// Within the pause: the load off, home, to the start of the sweep, the load on.
+  /// Takes the load off, moves home and to the start of the sweep, and applies the load. All of it takes one pause.
   void begin(double load) {
     const double quarter = 0.25 * motion_.pause;
     go(at_.alpha, 0.0, quarter);
@@ -197,7 +197,7 @@ class Session {
     return done;
   }
 
-  /// The joint's sensor, but for noise.
+  /// Reading of the joint's sensor without noise.
   double read_joint_sensor(double theta, const Moment& now) {
     return joint_sensor_reading(hidden_, theta) + reading_(now);
   }
@@ -220,8 +220,8 @@ class Session {
     return log;
   }
 
-  const Hidden& as_mounted_;
-  Hidden hidden_;
+  const HiddenFaults& as_mounted_;
+  HiddenFaults hidden_;
   const SensorPlan& sensors_;
   const MotionPlan& motion_;
   double low_, high_;
@@ -260,7 +260,7 @@ MadeJoint make_helical_joint(const DeclaredMechanism& declared) {
 
 }  // namespace
 
-Hidden with_turned_sensors(Hidden hidden, const RunPlan& plan) {
+HiddenFaults with_turned_sensors(HiddenFaults hidden, const RunPlan& plan) {
   hidden.motor_eccentricity_phase += plan.motor_turned;
   hidden.motor_harmonic_phase += hidden.motor_harmonic_order * plan.motor_turned;
   hidden.joint_eccentricity_phase += plan.joint_turned;
@@ -268,7 +268,7 @@ Hidden with_turned_sensors(Hidden hidden, const RunPlan& plan) {
   return hidden;
 }
 
-double joint_sensor_reading(const Hidden& hidden, double theta) {
+double joint_sensor_reading(const HiddenFaults& hidden, double theta) {
   return hidden.zero + (1.0 + hidden.gain) * theta +
          wave(hidden.joint_eccentricity, 1, theta, hidden.joint_eccentricity_phase) +
          wave(hidden.joint_harmonic, hidden.joint_harmonic_order, theta, hidden.joint_harmonic_phase) +
@@ -280,12 +280,12 @@ MadeJoint make_joint(const DeclaredMechanism& declared) {
   options.chord_error_mm = 2e-5;
   options.advice = false;
   const profile::SynthesisResult made = profile::synthesise(declared, options);
-  if (profile::need_several_turns(made)) return make_helical_joint(declared);
+  if (profile::needs_multi_turn(made)) return make_helical_joint(declared);
   if (!made.made()) throw InputError("rig", made.brief());
   return {declared, made.p1, made.p2, made.stroke.front().alpha, made.stroke.back().alpha};
 }
 
-std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const std::vector<RunPlan>& runs,
+std::vector<Log> log_runs(const MadeJoint& joint, const HiddenFaults& hidden, const std::vector<RunPlan>& runs,
                           const SensorPlan& sensors, const MotionPlan& motion) {
   Session session(joint, hidden, sensors, motion);
   std::vector<Log> logs;

@@ -22,7 +22,7 @@
 namespace fusee::rig {
 
 /// Differences of a joint from its declaration. All zero: none.
-struct Hidden {
+struct HiddenFaults {
   // Motor sensor: the shaft stands at α + offset + amplitude (sin(n α + phase) − sin phase).
   double motor_offset = 0;
   double motor_eccentricity = 0;  ///< n = 1
@@ -112,11 +112,11 @@ struct Hidden {
   std::vector<Action> reading = {};                ///< added to what the joint's sensor shows, rad
   std::vector<Action> load = {};                   ///< pulls beyond the load that is logged, N
 
-  bool operator==(const Hidden&) const = default;
+  bool operator==(const HiddenFaults&) const = default;
 };
 
 /// Sensors turned as in `plan`, with new zeros.
-Hidden with_turned_sensors(Hidden hidden, const RunPlan& plan);
+HiddenFaults with_turned_sensors(HiddenFaults hidden, const RunPlan& plan);
 
 struct SensorPlan {
   double noise = radians(0.02);  ///< standard deviation
@@ -159,17 +159,17 @@ MadeJoint make_joint(const DeclaredMechanism& declared);
 
 /// The runs one after another on one clock and one joint. Before each the motor goes home, unloaded, and to the start
 /// of the sweep, where it is loaded.
-std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const std::vector<RunPlan>& runs,
+std::vector<Log> log_runs(const MadeJoint& joint, const HiddenFaults& hidden, const std::vector<RunPlan>& runs,
                           const SensorPlan& sensors = {}, const MotionPlan& motion = {});
 
 /// Rms of the differences of θ over all rows, rad. 0 where a joint has no equilibrium.
 double rms_difference(const std::vector<Log>& one, const std::vector<Log>& other);
 
-/// A log file: time_s, alpha_deg, theta_deg, load_N, temperature_C if requested, and the rotations of the sensors if there
-/// are any.
+/// A log file: time_s, alpha_deg, theta_deg, load_N, temperature_C if requested, and the rotations of the sensors if
+/// there are any.
 std::string csv_text(const Log& log, bool temperature = false, const RunPlan& plan = {});
 
 /// Reading of the joint's sensor at `theta`, but for its delay, noise and actions.
-double joint_sensor_reading(const Hidden& hidden, double theta);
+double joint_sensor_reading(const HiddenFaults& hidden, double theta);
 
 }  // namespace fusee::rig

@@ -29,7 +29,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// One unloaded run.
-Log run_of(const MadeJoint& joint, const Hidden& hidden, const SensorPlan& sensors = noiseless()) {
+Log run_of(const MadeJoint& joint, const HiddenFaults& hidden, const SensorPlan& sensors = noiseless()) {
   return log_runs(joint, hidden, single_protocol(), sensors).front();
 }
 
@@ -44,7 +44,7 @@ Polygon circle(double radius, int corners) {
 TEST(String, WindsOnCircle) {
   const Hull hull = hull_of(circle(7.0, 20000));
   const Circle pin{{15.0, 40.0}, 2.0};
-  const LowerString string = lower_string(hull, pin, first_look(hull, pin));
+  const LowerString string = lower_string(hull, pin, initial_corner(hull, pin));
   const double c = pin.centre.norm();
   EXPECT_NEAR(string.length, std::sqrt(c * c - 25.0), 5e-3);  // a corner may lie half a side off
   EXPECT_NEAR(string.arm, 7.0, 1e-6);
@@ -55,7 +55,7 @@ TEST(String, WindsOnCircle) {
 TEST(String, CountsWholeTurns) {
   const Hull hull = hull_of(circle(7.0, 720));
   const Circle pin{{15.0, 40.0}, 2.0};
-  const LowerString once = lower_string(hull, pin, first_look(hull, pin));
+  const LowerString once = lower_string(hull, pin, initial_corner(hull, pin));
   const LowerString later = lower_string(hull, pin, once.corner + 3 * 720);
   EXPECT_NEAR(later.arc - once.arc, 3 * hull.around, 1e-10);
   const LowerString earlier = lower_string(hull, pin, once.corner - 720);
@@ -109,7 +109,7 @@ std::vector<std::array<double, 3>> read_log(const std::filesystem::path& path) {
 
 /// Rms difference of this rig without noise from data of another rig with 0.02° of noise, deg. The first row of a run
 /// is omitted, since its history is unknown.
-double difference(const std::string& name, const Hidden& hidden, const std::vector<RunPlan>& plans) {
+double difference(const std::string& name, const HiddenFaults& hidden, const std::vector<RunPlan>& plans) {
   const std::filesystem::path folder = std::filesystem::path(FUSEE_SOURCE_DIR) / "tests/data/rig" / name;
   const std::vector<Log> logs =
       log_runs(make_joint(read_mechanism(folder / "spec.toml").mechanism), hidden, plans, noiseless());
@@ -130,7 +130,7 @@ double difference(const std::string& name, const Hidden& hidden, const std::vect
 }
 
 TEST(Rig, AgreesWithAnotherRig) {
-  Hidden soft, lash, small;
+  HiddenFaults soft, lash, small;
   soft.modulus = 9000;
   lash.backlash = radians(2.4);
   small.pulley_scale = -0.02;
@@ -143,11 +143,11 @@ TEST(Rig, AgreesWithAnotherRig) {
 
 // ---- faults, by hand ------------------------------------------------------------------------------------------------
 
-Log unloaded(const Hidden& hidden) { return run_of(stiff(), hidden); }
+Log unloaded(const HiddenFaults& hidden) { return run_of(stiff(), hidden); }
 
 TEST(Fault, EncoderInterpolationAdds) {
   const Log plain = unloaded({});
-  const Hidden hidden{.interpolation = 0.001};
+  const HiddenFaults hidden{.interpolation = 0.001};
   const Log log = unloaded(hidden);
   for (std::size_t row = 0; row < log.size(); ++row)
     EXPECT_NEAR(log[row].theta, plain[row].theta + 0.001 * std::sin(8 * plain[row].theta), 1e-12);
@@ -155,18 +155,18 @@ TEST(Fault, EncoderInterpolationAdds) {
 
 TEST(Fault, CoggingTurnsShaft) {
   const transmission::Transmission law(stiff().declared);
-  const Hidden hidden{.cogging = 0.004};
+  const HiddenFaults hidden{.cogging = 0.004};
   for (const Row& row : unloaded(hidden))
     EXPECT_NEAR(row.theta, law.theta(row.alpha + 0.004 * std::sin(30 * row.alpha)), 3e-6);
 }
 
 /// No slip in the groove: only the free spans are compliant.
-Hidden held(Hidden hidden = {}) {
+HiddenFaults held(HiddenFaults hidden = {}) {
   hidden.groove_friction = 1e3;
   return hidden;
 }
 /// No friction in the groove: the tendon slides up to the knot.
-Hidden sliding(Hidden hidden = {}) {
+HiddenFaults sliding(HiddenFaults hidden = {}) {
   hidden.groove_friction = 0;
   return hidden;
 }
@@ -177,7 +177,7 @@ double theta_under(Bench& bench, double load) {
   at.load = load;
   return bench.to(0.0, 0.0, at);
 }
-double theta_under(const MadeJoint& joint, const Hidden& hidden, double load) {
+double theta_under(const MadeJoint& joint, const HiddenFaults& hidden, double load) {
   Bench bench(joint, hidden);
   return theta_under(bench, load);
 }
@@ -199,7 +199,7 @@ double stiffness_by_hand(const DeclaredMechanism& mechanism, double modulus) {
 
 TEST(Fault, PulleyBedsIn) {
   const transmission::Transmission law(stiff().declared);
-  const Hidden hidden{.bedding = 0.02};
+  const HiddenFaults hidden{.bedding = 0.02};
   const Log log = unloaded(hidden);
   const double half_stroke = 0.5 * (log[80].alpha - log[0].alpha);
   for (const std::size_t row : {0u, 40u, 80u, 160u, 320u}) {
@@ -210,7 +210,7 @@ TEST(Fault, PulleyBedsIn) {
 
 TEST(Fault, ZeroWalksAtReversals) {
   const Log plain = unloaded({});
-  const Hidden hidden{.zero_walk = 0.01};
+  const HiddenFaults hidden{.zero_walk = 0.01};
   const Log log = unloaded(hidden);
   const auto off = [&](std::size_t row) { return log[row].theta - plain[row].theta; };
   for (std::size_t stroke = 0; stroke < 4; ++stroke) {
@@ -291,7 +291,7 @@ TEST(Fault, PinFrictionReachesCapstanRatio) {
 struct CycleWork {
   double motor = 0, load = 0;
 };
-CycleWork work_of_a_cycle(const MadeJoint& joint, const Hidden& hidden) {
+CycleWork work_of_a_cycle(const MadeJoint& joint, const HiddenFaults& hidden) {
   Bench bench(joint, hidden);
   const auto motor_torque = [&](double alpha) {
     double torque = 0;
@@ -326,7 +326,7 @@ CycleWork work_of_a_cycle(const MadeJoint& joint, const Hidden& hidden) {
 TEST(Fault, PinFrictionDissipatesWork) {
   const MadeJoint joint = make_joint(elastic());
   for (const double mu : {0.0, 0.2}) {
-    const Hidden hidden{.friction = mu};
+    const HiddenFaults hidden{.friction = mu};
     const CycleWork work = work_of_a_cycle(joint, held(hidden));
     EXPECT_NEAR(work.load, 0.0, 1e-3);
     // Both tendons over their pins, four times the swing a cycle.
@@ -354,7 +354,7 @@ TEST(Fault, HardeningTendonMeetsDeclaredStiffness) {
 }
 
 TEST(Fault, LumpMovesJointLocally) {
-  const Hidden hidden{.lump = 0.1, .lump_at = radians(40), .lump_width = radians(5)};
+  const HiddenFaults hidden{.lump = 0.1, .lump_at = radians(40), .lump_width = radians(5)};
   const transmission::Transmission law(stiff().declared);
   const double arm = law.at_alpha(radians(40)).t2.m;
   double most = 0, far = 0;
@@ -412,7 +412,7 @@ TEST(Sensors, CoarseSensorHasSteps) {
 }
 
 TEST(Rig, IsRepeatable) {
-  const Hidden hidden{.zero_walk = 0.001};
+  const HiddenFaults hidden{.zero_walk = 0.001};
   SensorPlan sensors;
   const auto text = [&] { return csv_text(run_of(stiff(), hidden, sensors), true); };
   const std::string once = text();
@@ -468,7 +468,7 @@ TEST(Programme, LoadChangesBetweenCycles) {
   const Log log = rig::run_of({}, plan, soft());
   EXPECT_EQ(log[100].load, 0.0);
   EXPECT_EQ(log[163].load, 6.0);
-  EXPECT_EQ(log[161].alpha, log[160].alpha) << "the motor stands while it is hung on";
+  EXPECT_EQ(log[161].alpha, log[160].alpha) << "the motor stands while the load is hung";
 }
 
 TEST(Programme, RandomIsWithinBoundsAndRepeatable) {

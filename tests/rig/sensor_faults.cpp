@@ -54,8 +54,8 @@ std::vector<Fault> sensor_faults() { return {
      memory = {now.time, out, std::max(out, memory[2] - drawn)};
      return n[2] * memory[2] - now.theta;
    }},
-  // The sensor is compensated by a thermometer on the motor: an error of n[0] rad in steady state
-  // at 1 rad/s, with the square of the speed and the time constant n[1] s. Memory: time, warmth of the motor.
+  // The sensor is compensated by a thermometer on the motor: an error of n[0] rad in steady state at 1 rad/s, with the
+  // square of the speed and the time constant n[1] s. Memory: time, warmth of the motor.
   {.split = "regression", .name = "thermometer_glued_to_motor", .first = 0.01, .most = 0.5,
    .place = Place::reading, .parameters = [](const D& d) -> N { return {d.sign * d.size, 10.0 + 50.0 * d.share}; },
    .act = [](const M& now, const N& n, N& memory) {

@@ -21,19 +21,20 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
 }
 
 bool is_there(const std::string& effect, const Case& made) {
-  const bool other_groove = made.hidden.groove_friction != Hidden{}.groove_friction;
+  const bool other_groove = made.hidden.groove_friction != HiddenFaults{}.groove_friction;
   return holds(made.faults, effect) || (other_groove && effect == "groove_friction");
 }
 
 /// A fitted number with its reported value.
-struct Reported {
+struct ReportedNumber {
   const EffectParameter* parameter = nullptr;
   const calibration::FittedParameter* number = nullptr;
 };
 
 /// Numbers of the reported effects that are faults of the joint.
-std::vector<Reported> true_numbers(const Case& made, const CaseInput& input, const calibration::Calibration& found) {
-  std::vector<Reported> all;
+std::vector<ReportedNumber> true_numbers(const Case& made, const CaseInput& input,
+                                         const calibration::Calibration& found) {
+  std::vector<ReportedNumber> all;
   for (const calibration::FoundEffect& reported : found.effects) {
     const Effect* effect = find_effect(reported.name, kind_of(input.declared));
     if (effect == nullptr || !is_there(effect->name, made)) continue;
@@ -65,8 +66,8 @@ Eigen::VectorXd slope(const CaseInput& input, const Imperfections& at, const Eff
   return (predicted(input, above) - predicted(input, below)) / (high - low);
 }
 
-/// Information of one row about the joint angle, 1/rad². A quantum is uniform noise. Noise with a memory counts as fewer
-/// rows.
+/// Information of one row about the joint angle, 1/rad². A quantum is uniform noise. Noise with a memory counts as
+/// fewer rows.
 double information_of_row(const SensorPlan& sensors) {
   const double variance = sensors.noise * sensors.noise + sensors.quantum * sensors.quantum / 12;
   return (1 - sensors.colour) / (1 + sensors.colour) / variance;
@@ -74,7 +75,7 @@ double information_of_row(const SensorPlan& sensors) {
 
 /// Standard deviations by the Cramér-Rao bound; empty if the numbers are not determined.
 Eigen::VectorXd bounds_of(const Case& made, const CaseInput& input, const Imperfections& at,
-                          const std::vector<Reported>& numbers) {
+                          const std::vector<ReportedNumber>& numbers) {
   const auto count = static_cast<Eigen::Index>(numbers.size());
   const Eigen::Index rows = predicted(input, at).size();
   Eigen::MatrixXd J(rows, count);
@@ -150,7 +151,7 @@ Sharpness sharpness_of(const Case& made, const CaseInput& input, const Answer& a
   one.has_unmodelled = !answer.judgement.outside.empty();
   one.unmodelled_log_odds = unmodelled_log_odds(found);
   for (const calibration::FoundEffect& effect : found.effects) one.group_sizes.push_back(effect.group.size());
-  const std::vector<Reported> numbers = true_numbers(made, input, found);
+  const std::vector<ReportedNumber> numbers = true_numbers(made, input, found);
   if (numbers.empty()) return one;
   const Eigen::VectorXd bounds = bounds_of(made, input, found.identified, numbers);
   for (Eigen::Index k = 0; k < bounds.size(); ++k) {

@@ -16,8 +16,8 @@ struct Sharpness {
   bool has_unmodelled = false;           ///< a fault of the joint is not in the catalogue
   double unmodelled_log_odds = 0;        ///< for an unmodelled cause, as answered
   std::vector<std::size_t> group_sizes;  ///< members of each reported group, with `unmodelled`
-  /// Widths of the 95 % intervals over those of the Cramér-Rao bound, for numbers of reported effects that are faults of
-  /// the joint.
+  /// Widths of the 95 % intervals over those of the Cramér-Rao bound, for numbers of reported effects that are faults
+  /// of the joint.
   std::vector<double> widths;
   std::vector<double> widths_if_only;  ///< the same for `ci95_if_only`
 };

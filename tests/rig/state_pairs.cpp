@@ -13,13 +13,13 @@ namespace {
 constexpr double k_noise = radians(0.02);
 constexpr double k_least_seen = 3.0;  // noise rms
 constexpr double k_most_seen = 15.0;
-constexpr int k_rows_per_stroke = 30;  // few, and two cycles per run, so that many pairs can be tried
-constexpr int k_attempts = 40;         // joints drawn
-constexpr int k_iterations = 8;        // of a size
+constexpr int k_rows_per_stroke = 30;  // few rows, and two cycles per run, so that many pairs can be tried
+constexpr int k_attempts = 40;         // joints drawn for a pair
+constexpr int k_iterations = 8;        // of the search for a size
 
 struct BenchState {
   MadeJoint joint;
-  Hidden hidden;
+  HiddenFaults hidden;
 };
 
 /// A change whose effect grows with `size`.

@@ -10,7 +10,8 @@
 namespace fusee::rig {
 namespace {
 
-/// Unit direction along a straight of `span`, which begins `radius` to the left of its line and ends on it.
+/// Unit direction of the tangent from a circle of `radius` about the start of `span` to the end of `span`. The tangent
+/// has the length `straight`.
 Vec2 leaving_circle(const Vec2& span, double radius, double straight) {
   return (straight * span - radius * turned_left(span)) / span.squaredNorm();
 }
@@ -95,7 +96,7 @@ LowerString lower_string(const Hull& hull, const Circle& pin, std::ptrdiff_t nea
                               ") mm from the axis to the pulley");
 }
 
-std::ptrdiff_t first_look(const Hull& hull, const Circle& pin) {
+std::ptrdiff_t initial_corner(const Hull& hull, const Circle& pin) {
   if (hull.is_helical()) return hull.home;
   const Vec2 outwards = -turned_left(pin.centre);
   const auto further = [&](const Vec2& a, const Vec2& b) { return outwards.dot(a) < outwards.dot(b); };

@@ -56,6 +56,6 @@ struct LowerString {
 LowerString lower_string(const Hull& hull, const Circle& pin, std::ptrdiff_t near);
 
 /// A corner near the one that the string meets. Uses a spiral's `home` only.
-std::ptrdiff_t first_look(const Hull& hull, const Circle& pin);
+std::ptrdiff_t initial_corner(const Hull& hull, const Circle& pin);
 
 }  // namespace fusee::rig

@@ -24,7 +24,7 @@ inline const MadeJoint& soft() {
   return joint;
 }
 
-inline Log run_of(const Hidden& hidden, const RunPlan& plan, const MadeJoint& joint) {
+inline Log run_of(const HiddenFaults& hidden, const RunPlan& plan, const MadeJoint& joint) {
   return log_runs(joint, hidden, {plan}, noiseless()).front();
 }
 

@@ -58,7 +58,7 @@ Programme draw_programme(const Case& made, const CaseOptions& options, Random& r
   return programme;
 }
 
-std::vector<Log> logs_of(const Case& made, const Hidden& hidden, const SensorPlan& sensors) {
+std::vector<Log> logs_of(const Case& made, const HiddenFaults& hidden, const SensorPlan& sensors) {
   return log_runs(made.joint, hidden, made.plans, sensors, made.motion);
 }
 
@@ -68,19 +68,19 @@ bool try_joint(Case& made, Random& random, const CaseOptions& options) {
   made.plans = programme.runs;
   made.motion = programme.motion;
   made.sensors = programme.sensors;
-  Hidden plain;
+  HiddenFaults plain;
   if (options.any_groove) plain.groove_friction = std::exp(random.between(std::log(0.05), std::log(0.5)));
   made.hidden = plain;
   made.seen.clear();
   const std::vector<Log> without = logs_of(made, plain, noiseless());
-  Hidden all = plain;
+  HiddenFaults all = plain;
   for (const std::string& name : made.faults) {
     const Fault& wanted = find_fault(name);
     const Character character{random.sign(), random.between(0.0, k_two_pi), random.share()};
     const double noise = made.sensors.noise;
     const double target = noise * std::exp(random.between(std::log(wanted.least_seen), std::log(k_most_seen)));
     const SizedFault found = find_size(wanted.first, wanted.most, target, k_iterations, [&](double size) {
-      Hidden hidden = plain;
+      HiddenFaults hidden = plain;
       wanted.apply(hidden, size, character, made.joint);
       return rms_difference(logs_of(made, hidden, noiseless()), without);
     });
@@ -186,7 +186,7 @@ std::vector<Truth> all_truths() {
 
 Truth random_truth(Kind kind, const std::string& split, std::uint64_t seed) {
   faults_in(split);
-  // The set's name when its joints were run: they stay the same joints.
+  // heldout_13 was named "unsuspected" when its joints were drawn. Its seeds keep that name.
   Random random(hash_of(split == "heldout_13" ? "unsuspected" : split) ^ (seed * 0xD1B54A32D192ED03ULL));
   Truth truth;
   const auto add = [&](const std::vector<std::string>& names) {

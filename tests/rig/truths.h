@@ -70,7 +70,7 @@ struct Case {
   std::vector<std::string> faults;
   std::uint64_t seed = 0;
   MadeJoint joint;
-  Hidden hidden;
+  HiddenFaults hidden;
   SensorPlan sensors;
   std::vector<RunPlan> plans;
   MotionPlan motion;

@@ -32,7 +32,7 @@ struct MotionPlan {
   int rows_per_stroke = 80;
   double reach = 0.93;        ///< share of the declared range of α that is swept
   double pause = 5.0;         ///< s between runs
-  bool loaded_first = false;  ///< the load is hung on at home, and not where the sweep begins
+  bool loaded_first = false;  ///< the load is applied at home, and not where the sweep begins
 };
 
 /// A commanded row, in increasing time.

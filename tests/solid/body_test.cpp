@@ -83,7 +83,7 @@ TEST(Body, RoundPulleyMatchesFrustumVolumes) {
   expect_volume(stack, expected);
 }
 
-// P1 is chamfered at its print bed, which is its top in the whole. Each cone is above a groove in print orientation.
+// P1 is chamfered at its print bed, which is its top in the assembly. Each cone is above a groove in print orientation.
 TEST(Body, TwoPartPulleyMatchesFrustumVolumes) {
   const int n = 240;
   Mechanism mechanism = plain_mechanism();
@@ -178,7 +178,7 @@ TEST(Groove, ShallowSeatEndsAtGrooveEdge) {
   for (std::size_t k = 2; k < section.size(); ++k) EXPECT_GT(section[k].offset, section[k - 1].offset);
 }
 
-/// A circle, lifted by the depth and moved aside in steps until it meets the wall's line.
+// The tendon is a circle, lifted by the depth and moved aside in steps until it touches the wall's line.
 TEST(Groove, PlayAtGrooveEdgeMatchesTouchingTendon) {
   for (const Groove kind : {Groove::u, Groove::v, Groove::flat}) {
     for (const double angle : {0.0, 30.0, 50.0, 90.0}) {
@@ -218,7 +218,7 @@ TEST(Bore, EveryShapeAdmitsItsShaft) {
   }
 }
 
-TEST(Bore, KeywayOfDin6885) {
+TEST(Bore, KeywayMatchesDin6885) {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.bore = Bore::keyway;
   mechanism.material.hole_compensation = 0;

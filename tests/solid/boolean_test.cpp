@@ -136,7 +136,7 @@ TEST(Boolean, CoincidentFaces) {
   expect_solid(unite(k_body, box({4, 4, 5}, {6, 7, 10})), 1000, 30);
 }
 
-TEST(Boolean, SeveralTools) {
+TEST(Boolean, CutsWithSeveralTools) {
   const TriangleMesh tools =
       together({box({1, 1, -1}, {2, 2, 11}), box({4, 4, 8}, {6, 6, 11}), box({30, 0, 0}, {31, 1, 1})});
   expect_solid(subtract(k_body, tools), 1000 - 10 - 8, 18);

@@ -261,7 +261,7 @@ TEST(BodyAdvice, FindsPairsOfChanges) {
   EXPECT_TRUE(judge(mechanism).empty());
 }
 
-// A clamp screw without a place: the advice was tried, and a thicker flange is found where it helps.
+// A clamp screw does not fit. Each advised change was tried: a thicker flange, or no screw.
 TEST(BodyAdvice, ClampScrewGetsThickerFlangeOrIsDropped) {
   Mechanism mechanism = forearm();
   mechanism.body.clamp_screw = "M3";

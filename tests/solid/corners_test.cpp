@@ -1,4 +1,4 @@
-// Restored corners of known holes with additional points.
+// Corners of known outlines are found despite additional points.
 #include "solid/corners.h"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ Polygon regular(int n, double radius) {
   return points;
 }
 
-// Within the resolution of a float at 5 mm. Of two points split from one, either may remain.
+// Expects a point within `within` mm of each corner. Of two points split from one, either may remain.
 void expect_near(const Polygon& found, const Polygon& expected, double within) {
   ASSERT_EQ(found.size(), expected.size());
   for (const Vec2& corner : expected) {

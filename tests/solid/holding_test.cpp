@@ -26,8 +26,8 @@ DeclaredMechanism loaded_forearm() {
   return mechanism;
 }
 
-struct Held {
-  explicit Held(const DeclaredMechanism& declared)
+struct TiedPulley {
+  explicit TiedPulley(const DeclaredMechanism& declared)
       : mechanism(declared),
         synthesis(profile::synthesise(declared)),
         pulley(make_pulley(declared, synthesis)),
@@ -41,7 +41,7 @@ struct Held {
 
 /// The tension that remains at `exit` of a taut string over the turned pitch polygon, after friction at each corner.
 /// The take-off is the last corner that the line from the pin touches.
-double left_at(const Held& held, transmission::Side side, double alpha, double tension, const Vec2& exit) {
+double left_at(const TiedPulley& held, transmission::Side side, double alpha, double tension, const Vec2& exit) {
   const Mechanism& m = held.mechanism;
   const profile::Outline& outline = side == transmission::Side::left ? held.synthesis.p1 : held.synthesis.p2;
   const double outward = side == transmission::Side::left ? -1.0 : 1.0;
@@ -76,7 +76,7 @@ double left_at(const Held& held, transmission::Side side, double alpha, double t
 }
 
 TEST(Holding, KnotLoadMatchesStringOnPolygon) {
-  const Held held(loaded_forearm());
+  const TiedPulley held(loaded_forearm());
   ASSERT_TRUE(held.pulley.made()) << held.pulley.brief();
   ASSERT_EQ(held.holding.knots.size(), 2u);
   Mechanism unloaded = held.mechanism;
@@ -107,7 +107,7 @@ TEST(Holding, KnotLoadMatchesStringOnPolygon) {
 TEST(Holding, KnotCarriesFullTensionWithoutFriction) {
   DeclaredMechanism mechanism = loaded_forearm();
   mechanism.pulley.mu = 0;
-  const Held held(mechanism);
+  const TiedPulley held(mechanism);
   const double most = analysis::analyse(mechanism, {.samples = 10}).largest_tension.tension;
   double bears = 0;
   for (const KnotHold& knot : held.holding.knots) bears = std::max(bears, knot.at_knot);
@@ -117,7 +117,7 @@ TEST(Holding, KnotCarriesFullTensionWithoutFriction) {
 
 /// The load pulls at tendon 2 and relieves tendon 1, which carries its pretension without the load.
 TEST(Holding, RelievedTendonKeepsPretension) {
-  const Held held(loaded_forearm());
+  const TiedPulley held(loaded_forearm());
   const KnotHold& first = held.holding.knots.front();
   ASSERT_EQ(first.side, transmission::Side::left);
   EXPECT_GT(first.tension, held.mechanism.tendon.pretension);
@@ -125,13 +125,13 @@ TEST(Holding, RelievedTendonKeepsPretension) {
 
 TEST(Holding, WarnsAboveHalfStrengthWithAdvice) {
   DeclaredMechanism mechanism = loaded_forearm();
-  EXPECT_TRUE(Held(mechanism).holding.warnings.empty());
+  EXPECT_TRUE(TiedPulley(mechanism).holding.warnings.empty());
   mechanism.body.wrap = radians(6);
-  Held held(mechanism);
+  TiedPulley held(mechanism);
   const double worst_knot = std::max(held.holding.knots[0].at_knot, held.holding.knots[1].at_knot);
   // A tenth more than half of the strength.
   mechanism.tendon.strength = worst_knot / 0.55 / 0.5;
-  held = Held(mechanism);
+  held = TiedPulley(mechanism);
   ASSERT_EQ(held.holding.warnings.size(), 1u);
   const std::string& warning = held.holding.warnings.front();
   EXPECT_THAT(warning, HasSubstr("tendon 2"));
@@ -142,12 +142,12 @@ TEST(Holding, WarnsAboveHalfStrengthWithAdvice) {
   ASSERT_NE(at, std::string::npos) << warning;
   DeclaredMechanism advised = mechanism;
   advised.body.wrap = radians(std::stod(warning.substr(at + 16)));
-  EXPECT_TRUE(Held(advised).holding.warnings.empty());
+  EXPECT_TRUE(TiedPulley(advised).holding.warnings.empty());
   advised = mechanism;
   const std::size_t bears = warning.find("a tendon with a strength of ");
   ASSERT_NE(bears, std::string::npos) << warning;
   advised.tendon.strength = std::stod(warning.substr(bears + 28));
-  EXPECT_TRUE(Held(advised).holding.warnings.empty());
+  EXPECT_TRUE(TiedPulley(advised).holding.warnings.empty());
 }
 
 TEST(Holding, ReportsUnknownStrength) {
@@ -155,7 +155,7 @@ TEST(Holding, ReportsUnknownStrength) {
   mechanism.tendon.strength = 0;
   mechanism.tendon.modulus = 12345;
   mechanism.load.tip_force = 500;
-  const Held held(mechanism);
+  const TiedPulley held(mechanism);
   EXPECT_FALSE(held.holding.share(held.holding.knots[0]).has_value());
   EXPECT_TRUE(held.holding.warnings.empty());
 }
@@ -165,7 +165,7 @@ class Profile : public ::testing::TestWithParam<const char*> {};
 /// The previous wraps of the profiles, near the active arc: 4 to 30 degrees, except the optimum's P1.
 TEST_P(Profile, WrapsFurtherAndHoldsTendons) {
   const MechanismFile file = read_mechanism(std::string(FUSEE_SOURCE_DIR) + "/profiles/" + GetParam() + ".toml");
-  const Held held(file.mechanism);
+  const TiedPulley held(file.mechanism);
   ASSERT_TRUE(held.pulley.made()) << held.pulley.brief();
   EXPECT_TRUE(held.holding.warnings.empty());
   const bool thick = std::string(GetParam()) == "paper_optimum";

@@ -97,7 +97,7 @@ class EveryPulley : public ::testing::TestWithParam<const char*> {
  protected:
   const BuiltPiece& part = made(GetParam());
 };
-INSTANTIATE_TEST_SUITE_P(Of, EveryPulley, ::testing::Values("forearm", "unsymmetric"),
+INSTANTIATE_TEST_SUITE_P(Profiles, EveryPulley, ::testing::Values("forearm", "unsymmetric"),
                          [](const auto& tested) { return std::string(tested.param); });
 
 TEST_P(EveryPulley, HasTwoGroovesAtLayoutHeights) {

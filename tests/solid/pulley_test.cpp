@@ -114,7 +114,7 @@ TEST(Pulley, TieOffsStartPastWoundEnds) {
 
 // ---- each check fails on a part with its kind of damage -------------------------------------------------------------
 
-TEST(CheckPulley, WrongRadius) {
+TEST(CheckPulley, DetectsWrongRadius) {
   BuiltPiece made;
   const profile::SynthesisResult larger = pulley_of(circle(20.05), circle(18, {3, 1}));
   const auto checks = check_pulley(made.pulley.mesh, made.mechanism, larger, made.pulley, k_tolerance);
@@ -122,7 +122,7 @@ TEST(CheckPulley, WrongRadius) {
   EXPECT_NEAR(check_named(checks, "floor_deviation_P1").value, 0.05, 0.005);
 }
 
-TEST(CheckPulley, MovedFloorVertex) {
+TEST(CheckPulley, DetectsMovedFloorVertex) {
   BuiltPiece made;
   const double z = made.pulley.layout.z_p2;
   const GrooveWalls& walls = made.pulley.layout.p2;
@@ -149,13 +149,13 @@ TEST(CheckPulley, MissingFeatureChangesVolumeAndEulerNumber) {
             "euler_number volume_deviation");
 }
 
-TEST(CheckPulley, ThinWall) {
+TEST(CheckPulley, DetectsThinWall) {
   BuiltPiece made;
   made.pulley.layout.min_wall = 8.5;
   EXPECT_EQ(failures(made.pulley, made.mechanism, made.shape), "wall_P2");
 }
 
-TEST(CheckPulley, ShallowAndNarrowGroove) {
+TEST(CheckPulley, DetectsShallowAndNarrowGroove) {
   BuiltPiece made;
   made.pulley.layout.groove_depth += 0.5;
   made.mechanism.tendon.diameter = 1.0;
@@ -188,7 +188,7 @@ TEST(CheckPulley, HandlesEmptyAndDamagedMeshes) {
   EXPECT_NE(names.find("floor_deviation_P1"), std::string::npos);
 }
 
-// A few dozen shapes and bodies. The tests of the laws run hundreds of whole mechanisms.
+// Sixteen shapes and bodies. The tests of the laws run hundreds of whole mechanisms.
 TEST(Pulley, PassesChecksOrReportsWhyNot) {
   int made = 0;
   for (int k = 0; k < 16; ++k) {

@@ -16,7 +16,7 @@ TEST(PaperForces, VerticalTendonPullsTwiceTheTipForce) {
   EXPECT_NEAR(degrees(forces.gamma2), 30.0, 1e-9);
 }
 
-TEST(PaperForces, CapstanAndElongation) {
+TEST(PaperForces, FollowCapstanAndHooke) {
   Mechanism mechanism = testing::forearm();
   mechanism.load.tip_force = 10.0;
   const Transmission transmission(mechanism);

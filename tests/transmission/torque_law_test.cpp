@@ -20,8 +20,8 @@ Mechanism balanced_arm() {
   return mechanism;
 }
 
-/// A wanted torque that varies over the angle, against a weight, a force and a spring.
-Mechanism wanted_of_a_table() {
+/// A target torque that varies over the angle, against a weight, a force and a spring.
+Mechanism arm_with_torque_table() {
   Mechanism mechanism = balanced_arm();
   mechanism.load.tip_force = 4.0;
   mechanism.spring = {400.0, 300.0, radians(-40.0)};
@@ -32,8 +32,8 @@ Mechanism wanted_of_a_table() {
   return mechanism;
 }
 
-/// The wanted torque of that table between its rows. A quintic spline approximates the sine with a small error.
-double wanted(double theta) { return 1000.0 + 200.0 * std::sin(0.05 * degrees(theta)); }
+/// The target torque of the table between its rows. A quintic spline approximates the sine with a small error.
+double target_torque(double theta) { return 1000.0 + 200.0 * std::sin(0.05 * degrees(theta)); }
 constexpr double k_spline = 1e-3;
 
 // Closed form of a pulley that balances a weight: the motor's work equals the gain in potential energy.
@@ -68,7 +68,7 @@ TEST(TorqueLaw, ConstantTorqueHoldsSpring) {
 
 // Work by Simpson's rule over α, with a torque that is not given to the law as a spline.
 TEST(TorqueLaw, MotorWorkEqualsLoadWork) {
-  const Mechanism arm = wanted_of_a_table();
+  const Mechanism arm = arm_with_torque_table();
   const Transmission law(arm);
   ASSERT_FALSE(law.dead_centre());
   const double W = weight_moment(arm.load), tilt = arm.load.tilt;
@@ -78,7 +78,7 @@ TEST(TorqueLaw, MotorWorkEqualsLoadWork) {
     double work = 0;
     for (int i = 0; i <= steps; ++i) {
       const int weight = i == 0 || i == steps ? 1 : i % 2 == 1 ? 4 : 2;
-      work += weight * wanted(law.theta(alpha * i / steps)) * alpha / (3.0 * steps);
+      work += weight * target_torque(law.theta(alpha * i / steps)) * alpha / (3.0 * steps);
     }
     const double raised = W * (std::cos(tilt - theta) - std::cos(tilt)), pushed = 4.0 * arm.joint.R * theta,
                  wound = 300.0 * theta + 200.0 * (std::pow(theta - arm.spring.free, 2) - std::pow(arm.spring.free, 2));
@@ -88,7 +88,7 @@ TEST(TorqueLaw, MotorWorkEqualsLoadWork) {
 
 TEST(TorqueLaw, DerivativesAgreeWithDifferences) {
   constexpr double step = 1e-5;
-  for (const Mechanism& arm : {balanced_arm(), wanted_of_a_table()}) {
+  for (const Mechanism& arm : {balanced_arm(), arm_with_torque_table()}) {
     const Transmission law(arm);
     for (const double u : {0.02, 0.35, 0.71, 0.98}) {
       const double alpha = law.alpha_min() + u * (law.alpha_max() - law.alpha_min());
@@ -98,12 +98,12 @@ TEST(TorqueLaw, DerivativesAgreeWithDifferences) {
       EXPECT_NEAR((after.g - before.g) / (2 * step), at.dg, 1e-7);
       EXPECT_NEAR((after.dg - before.dg) / (2 * step), at.d2g, 1e-5);
       const bool one = arm.pulley.motor_torque != 0;
-      EXPECT_NEAR(at.g * load_torque(arm, at.theta), one ? 900.0 : wanted(at.theta), one ? 1e-9 : k_spline);
+      EXPECT_NEAR(at.g * load_torque(arm, at.theta), one ? 900.0 : target_torque(at.theta), one ? 1e-9 : k_spline);
     }
   }
 }
 
-// The motor angle is inversely proportional to the wanted torque.
+// The motor angle is inversely proportional to the target torque.
 TEST(TorqueLaw, AnglesAreInverseToTorque) {
   Mechanism twice = balanced_arm();
   twice.pulley.motor_torque *= 2;

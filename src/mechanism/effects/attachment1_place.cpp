@@ -23,15 +23,15 @@ Effect attachment1_place(JointKind) {
       attachment_part(
           "across_mm", [](Imperfections& at) -> double& { return at.joint.end1.across; },
           key::plain("attachment1_across_mm", "mm", -10000, 10000, "added to the first number of joint.attachment1_mm"),
-          {"measure how far to the right of the joint's axis tendon 1 ends at home and enter it as prior."
-           "attachment1_across_mm",
+          {"measure how far to the right of the joint's axis tendon 1 ends at home and enter it as "
+           "prior.attachment1_across_mm",
            k_caliper, across1_by_caliper, "prior.attachment1_across_mm"},
           {"tendon 1 ends further left", "tendon 1 ends further right"}),
       attachment_part(
           "along_mm", [](Imperfections& at) -> double& { return at.joint.end1.along; },
           key::plain("attachment1_along_mm", "mm", -10000, 10000, "added to the second number of joint.attachment1_mm"),
-          {"measure how far along the link from the joint's axis tendon 1 ends and enter it as prior."
-           "attachment1_along_mm",
+          {"measure how far along the link from the joint's axis tendon 1 ends and enter it as "
+           "prior.attachment1_along_mm",
            k_caliper, along1_by_caliper, "prior.attachment1_along_mm"},
           {"tendon 1 ends nearer to the axis", "tendon 1 ends further along the link"})};
   return effect;

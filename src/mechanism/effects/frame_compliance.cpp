@@ -32,8 +32,8 @@ Effect frame_compliance(JointKind) {
                         .key = key::plain("guide_give_mm_per_N", "mm_per_N", 0, 10,
                                           "displacement of each pin per newton of the tendon's force on it"),
                         .by_hand = {"hold a dial gauge against a guide pin, hang the load on the joint, and enter the "
-                                    "displacement of the pin per newton of the tendon's force on it as prior."
-                                    "guide_give_mm_per_N",
+                                    "displacement of the pin per newton of the tendon's force on it as "
+                                    "prior.guide_give_mm_per_N",
                                     k_dial, compliance_by_dial, "prior.guide_give_mm_per_N", HandTool::dial_gauge}}};
   effect.starts = {{0.002}, {0.02}};
   return effect;

@@ -17,9 +17,8 @@ Effect groove_friction(JointKind) {
   effect.signature =
       "hysteresis under load that depends on the wound length; the first stroke differs from all later ones";
   effect.separating_run =
-      "apply and remove the load three times where tendon 2 is wound furthest, and again where tendon 1 is: friction "
-      "in "
-      "the groove yields most the first time, and most where more is wound";
+      "apply and remove the load three times where tendon 2 is wound furthest, and again where tendon 1 is: with "
+      "groove friction, the joint yields most the first time, and most where more is wound";
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.tendons = true};
   effect.parameters = {{.name = "mu",

@@ -64,26 +64,24 @@ Effect guide_position(JointKind) {
                      {"measure the left pin's distance from the middle and enter it as prior.EB_mm", k_caliper,
                       left_by_caliper, "prior.EB_mm"},
                      {"the left pin is too close to the middle", "the left pin is too far from the middle"}),
-      pin_coordinate(
-          "down1_mm", [](Imperfections& at) -> double& { return at.pins.left.down; },
-          key::plain("guide1_down_mm", "mm", -10000, 10000,
-                     "distance of the left pin below guides.OE_mm; the pulley's axis does not move"),
-          {"measure how far the left pin is below the joint's axis (above it: negative) and enter it as prior."
-           "OE1_mm",
-           k_caliper, left_down_by_caliper, "prior.OE1_mm"},
-          {"the left pin is too high", "the left pin is too low"}),
+      pin_coordinate("down1_mm", [](Imperfections& at) -> double& { return at.pins.left.down; },
+                     key::plain("guide1_down_mm", "mm", -10000, 10000,
+                                "distance of the left pin below guides.OE_mm; the pulley's axis does not move"),
+                     {"measure how far the left pin is below the joint's axis (above it: negative) and enter it as "
+                      "prior.OE1_mm",
+                      k_caliper, left_down_by_caliper, "prior.OE1_mm"},
+                     {"the left pin is too high", "the left pin is too low"}),
       pin_coordinate("outward2_mm", [](Imperfections& at) -> double& { return at.pins.right.outward; },
                      key::plain("guide2_outward_mm", "mm", -10000, 10000, "added to guides.ED_mm"),
                      {"measure the right pin's distance from the middle and enter it as prior.ED_mm", k_caliper,
                       right_by_caliper, "prior.ED_mm"},
                      {"the right pin is too close to the middle", "the right pin is too far from the middle"}),
-      pin_coordinate(
-          "down2_mm", [](Imperfections& at) -> double& { return at.pins.right.down; },
-          key::plain("guide2_down_mm", "mm", -10000, 10000, "distance of the right pin below guides.OE_mm"),
-          {"measure how far the right pin is below the joint's axis (above it: negative) and enter it as prior."
-           "OE2_mm",
-           k_caliper, right_down_by_caliper, "prior.OE2_mm"},
-          {"the right pin is too high", "the right pin is too low"})};
+      pin_coordinate("down2_mm", [](Imperfections& at) -> double& { return at.pins.right.down; },
+                     key::plain("guide2_down_mm", "mm", -10000, 10000, "distance of the right pin below guides.OE_mm"),
+                     {"measure how far the right pin is below the joint's axis (above it: negative) and enter it as "
+                      "prior.OE2_mm",
+                      k_caliper, right_down_by_caliper, "prior.OE2_mm"},
+                     {"the right pin is too high", "the right pin is too low"})};
   return effect;
 }
 

@@ -35,15 +35,14 @@ Effect pulley_runout(JointKind) {
        .key = key::plain("runout_x_mm", "mm", -100, 100, "eccentricity of the made curves at home, to the right"),
        .merge_rule = MergeRule::add,
        .by_hand = {"hold a dial gauge against the hub, turn the pulley once, and enter how far the hub's centre is to "
-                   "the right "
-                   "of its axis at home as prior.runout_x_mm",
+                   "the right of its axis at home as prior.runout_x_mm",
                    k_hub, runout_x_by_dial, "prior.runout_x_mm", HandTool::dial_gauge}},
       {.name = "y_mm",
        .number = [](Imperfections& at) -> double& { return at.pulley.outline.runout_y; },
        .least = -2,
        .most = 2,
        .step = 2e-3,
-       .prior = 0.3,  // a printed bore over a shaft with its play and set screw
+       .prior = 0.3,  // a printed bore on a shaft with play and a set screw
        .shown = shown::as_is,
        .key = key::plain("runout_y_mm", "mm", -100, 100, "eccentricity of the made curves at home, upwards"),
        .merge_rule = MergeRule::add,

@@ -20,7 +20,7 @@ PathLike = Union[str, "os.PathLike[str]"]
 _PATIENCE = 0.1
 
 
-def heard(work: abc.Callable[[_core.Stop], T]) -> T:
+def interruptible(work: abc.Callable[[_core.Stop], T]) -> T:
     """Runs `work` on a thread, so that Ctrl-C takes effect at once. Only the main thread receives signals; others just
     run it."""
     stop = _core.Stop()

@@ -194,7 +194,7 @@ class Check(Value):
 class Outline(Value):
     """A closed convex pitch curve about the pulley's axis, counter-clockwise, at home. One row per point; none if infeasible.
 
-    Tendons leave it between the points ``active_first`` and ``active_last`` (counter-clockwise); the rest closes the curve.
+    Tendons leave it between the points ``active_first`` and ``active_last`` (counter-clockwise); the other points close the curve.
     """
 
     side: str  #: "left": P1, of tendon 1; "right": P2, of tendon 2
@@ -626,8 +626,8 @@ class PlanStep(Value):
     words: str
     minutes: float
     by_minutes: float  #: from the beginning to the end of this step
-    sees: Tuple[str, ...]
-    tells: Tuple[str, ...]
+    sees: Tuple[str, ...]  #: causes that this step detects first
+    tells: Tuple[str, ...]  #: pairs that this step resolves first: "backlash from creep"
     file: str  #: name of its run file; "" unless it is a run
 
 

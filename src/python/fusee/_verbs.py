@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from . import _core, _values
 from ._errors import diagnostics_from, input_error
 from ._mechanism import Mechanism, _made
-from ._run import PathLike, choice, flag, heard, number, path_bytes, text_bytes, whole
+from ._run import PathLike, choice, flag, interruptible, number, path_bytes, text_bytes, whole
 
 __all__ = ["Log", "analyze", "build", "calibrate", "check", "kit", "optimize", "plan", "rewind", "simulate", "synthesise"]
 
@@ -64,7 +64,7 @@ def _synthesis(made: Row) -> _values.Synthesis:
     return _values.Synthesis(**curves, **_with_values(made))
 
 
-def _of(mechanism: Mechanism) -> _core.CarriedMechanism:
+def _core_of(mechanism: Mechanism) -> _core.CarriedMechanism:
     if not isinstance(mechanism, Mechanism):
         raise input_error("mechanism", f"must be a Mechanism, not {type(mechanism).__name__}", "fusee.read() makes one")
     return mechanism._core
@@ -95,10 +95,10 @@ def synthesise(mechanism: Mechanism, *, tolerance_mm: float = 0.01, advice: bool
     >>> fusee.synthesise(arm.with_({"pulley.r1_mm": 25}).with_(refused.advice[0].settings)).made
     True
     """
-    joint = _of(mechanism)
+    joint = _core_of(mechanism)
     tolerance = number("tolerance_mm", tolerance_mm, 0.0005, _MOST_TOLERANCE_MM, "mm")
     places = whole("steps", steps, 2, 100000)
-    return _synthesis(heard(lambda stop: _core.synthesise(joint, tolerance, bool(advice), places)))
+    return _synthesis(interruptible(lambda stop: _core.synthesise(joint, tolerance, bool(advice), places)))
 
 
 def rewind(
@@ -119,7 +119,7 @@ def rewind(
     >>> wound.ok, bool(wound.max_theta_error_rad < 1e-4)
     (True, True)
     """
-    joint = _of(mechanism)
+    joint = _core_of(mechanism)
     limits = (
         number("max_theta_error_deg", max_theta_error_deg, 0, 180, "deg"),
         number("max_slack_mm", max_slack_mm, 0, 1000, "mm"),
@@ -129,17 +129,17 @@ def rewind(
             raise input_error("part", "there are no curves: the synthesis is infeasible", "see its conditions and advice")
         inset = -0.5 * mechanism.number("tendon.diameter_mm")
         floors = (part.p1.parallel_mm(inset), part.p2.parallel_mm(inset))
-        made = heard(lambda stop: _core.rewind_floors(joint, floors[0], floors[1], *limits))
+        made = interruptible(lambda stop: _core.rewind_floors(joint, floors[0], floors[1], *limits))
     else:
         path = path_bytes("part", part)
-        made = heard(lambda stop: _core.rewind_file(joint, path, bool(as_is), *limits))
+        made = interruptible(lambda stop: _core.rewind_file(joint, path, bool(as_is), *limits))
     return _values.Rewound(**_with_values(made))
 
 
 def check(part: PathLike) -> Tuple[_values.Check, ...]:
     """Checks a mesh or a drawing; failed checks state the place. InputError for unreadable files."""
     path = path_bytes("part", part)
-    return _each(_values.Check, heard(lambda stop: _core.check(path))["checks"])
+    return _each(_values.Check, interruptible(lambda stop: _core.check(path))["checks"])
 
 
 def _motor(row: Optional[Row]) -> Optional[_values.Motor]:
@@ -176,14 +176,14 @@ def build(
     >>> len(built.files["pulley.stl"]) > 100000
     True
     """
-    joint = _of(mechanism)
+    joint = _core_of(mechanism)
     target = _target(folder, force)
     tolerance = number("tolerance_mm", tolerance_mm, 0.0005, _MOST_TOLERANCE_MM, "mm")
     version = choice("dxf", dxf, ["ac1015", "r12"])
     theta = number("max_theta_error_deg", max_theta_error_deg, 0, 180, "deg")
     slack = number("max_slack_mm", max_slack_mm, 0, 1000, "mm")
     cad = flag("step", step)
-    made = heard(lambda stop: _core.build(joint, target, tolerance, version, cad, theta, slack, stop))
+    made = interruptible(lambda stop: _core.build(joint, target, tolerance, version, cad, theta, slack, stop))
     parts: Row = {
         "synthesis": _synthesis(made.pop("synthesis")),
         "mesh": _values.Mesh(**made.pop("mesh")),
@@ -202,14 +202,14 @@ def analyze(mechanism: Mechanism, *, steps: int = 60, tolerance_mm: float = 0.1,
     >>> forces.exists, forces.largest_tension.tendon, forces.rising.tension2_N.shape == forces.declared.alpha_rad.shape
     (True, 2, True)
     """
-    joint = _of(mechanism)
+    joint = _core_of(mechanism)
     numbers = (
         whole("steps", steps, 2, 2000),
         number("tolerance_mm", tolerance_mm, 0, 10, "mm"),
         whole("samples", samples, 10, 100000),
         whole("seed", seed, 0, _MOST_SEED),
     )
-    made = heard(lambda stop: _core.analyze(joint, *numbers, stop))
+    made = interruptible(lambda stop: _core.analyze(joint, *numbers, stop))
     strength = made.pop("strength")
     parts: Row = {"declared": _values.Stroke(**made.pop("declared")), "paper": _values.PaperForces(**made.pop("paper"))}
     for name in ("rising", "falling"):
@@ -233,7 +233,7 @@ def optimize(
 ) -> _values.Optimum:
     """Better numbers within the bounds of the file's [optimize]: by proof ("certified"), by evolution ("genetic"), or a front ("pareto").
 
-    `then`: second objective, among the designs that tie in a proof. The result does not depend on the number of threads (0: one a processor, at most 8).
+    `then`: second objective, among the designs that tie in a proof. The result does not depend on the number of threads (0: one per processor, at most 8).
 
     >>> import fusee
     >>> arm = fusee.read(fusee.new("forearm") + '''
@@ -249,7 +249,7 @@ def optimize(
     >>> best.mechanism.number("guides.OE_mm") == best.numbers["guides.OE_mm"]
     True
     """
-    joint = _of(mechanism)
+    joint = _core_of(mechanism)
     way = choice("method", method, ["strongest", "certified", "genetic", "pareto"])
     second = choice("then", then, ["", *_core.objectives()])
     numbers = (
@@ -258,7 +258,7 @@ def optimize(
         whole("seed", seed, 0, 4 * 10**9),
         whole("threads", threads, 0, 1024),
     )
-    made = heard(lambda stop: _core.optimize(joint, way, second, *numbers, stop))
+    made = interruptible(lambda stop: _core.optimize(joint, way, second, *numbers, stop))
     text = made.pop("text")
     better = _better(mechanism, text, made["numbers"]) if text else None
     made["front"] = tuple(_values.FrontPoint(_values.Table(point["numbers"]), point["values"]) for point in made["front"])
@@ -364,7 +364,7 @@ def calibrate(
     >>> still.verdict
     'not_testable'
     """
-    joint = _of(mechanism)
+    joint = _core_of(mechanism)
     fitted, held = _logs("runs", _list("runs", runs), "columns")
     kept, more = _logs("hold_out", _list("hold_out", hold_out), "held_out")
     if not fitted:
@@ -373,7 +373,7 @@ def calibrate(
         raise input_error("hold_out", "every run is held out: no run remains for the fit")
     target = _target(folder, force)
     reading = _reading(columns, units, ticks_per_turn, zero_ticks)
-    made = heard(lambda stop: _core.calibrate(joint, fitted, kept, {**held, **more}, reading, target, bool(audit), stop))
+    made = interruptible(lambda stop: _core.calibrate(joint, fitted, kept, {**held, **more}, reading, target, bool(audit), stop))
     document = made.pop("document")
     found = json.loads(document)
     made["effects"] = tuple(_effect(effect) for effect in found.get("effects", ()))
@@ -432,7 +432,7 @@ def compare(
     >>> fusee.compare(arm, [still], [moved]).verdict
     'not_testable'
     """
-    joint = _of(mechanism)
+    joint = _core_of(mechanism)
     earlier, held = _logs("before", _list("before", before), "before")
     later, more = _logs("after", _list("after", after), "after")
     for name, runs in (("before", earlier), ("after", later)):
@@ -440,7 +440,7 @@ def compare(
             raise input_error(name, "there is no run")
     target = _target(folder, force)
     reading = _reading(columns, units, ticks_per_turn, zero_ticks)
-    made = heard(lambda stop: _core.compare(joint, earlier, later, {**held, **more}, reading, target, stop))
+    made = interruptible(lambda stop: _core.compare(joint, earlier, later, {**held, **more}, reading, target, stop))
     document = made.pop("document")
     found = json.loads(document)
     made["verdict"], made["summary"] = found["verdict"], found["summary"]
@@ -477,7 +477,7 @@ def plan(
     >>> bench.exists, bench.minutes <= 1
     (True, True)
     """
-    joint = _of(mechanism)
+    joint = _core_of(mechanism)
     target = _target(folder, force)
     noise = math.radians(number("noise_deg", noise_deg, 1e-6, 45, "deg"))
     time = number("minutes", minutes, 0, 1e5, "min")
@@ -485,7 +485,7 @@ def plan(
     speeds = [math.radians(number("speeds_deg_per_s", speed, 1e-3, 1e5)) for speed in _levels("speeds_deg_per_s", speeds_deg_per_s)]
     span = None if range_deg is None else _span(range_deg)
     start = whole("seed", seed, 0, _MOST_SEED)
-    made = heard(lambda stop: _core.plan(joint, target, noise, time, loads, speeds, span, start, stop))
+    made = interruptible(lambda stop: _core.plan(joint, target, noise, time, loads, speeds, span, start, stop))
     return _values.Plan(json=made.pop("document"), **_with_values(made))
 
 
@@ -525,12 +525,12 @@ def simulate(
     >>> moved.exists, len(moved["theta_deg"]), moved.status[0]
     (True, 61, 'held')
     """
-    joint = _of(mechanism)
+    joint = _core_of(mechanism)
     names, held = _logs("log", [log], "columns")
     noise = math.radians(number("noise_deg", noise_deg, 0, 45, "deg"))
     start = whole("seed", seed, 0, _MOST_SEED)
     reading = _reading(columns, units, ticks_per_turn, zero_ticks)
-    made = heard(lambda stop: _core.simulate(joint, names[0], held, reading, bool(corrected), noise, start))
+    made = interruptible(lambda stop: _core.simulate(joint, names[0], held, reading, bool(corrected), noise, start))
     made["columns"] = _values.Table(made["columns"])
     return _values.Simulation(**_with_values(made))
 
@@ -539,8 +539,8 @@ def kit(
     mechanism: Mechanism, folder: Optional[PathLike] = None, *, force: bool = False, tolerance_mm: float = 0.01, dxf: str = "ac1015"
 ) -> _values.Kit:
     """The test rig: plate, link, pins, encoder mount, coupon, and a page with the assembly."""
-    joint = _of(mechanism)
+    joint = _core_of(mechanism)
     target = _target(folder, force)
     tolerance = number("tolerance_mm", tolerance_mm, 0.0005, _MOST_TOLERANCE_MM, "mm")
     version = choice("dxf", dxf, ["ac1015", "r12"])
-    return _values.Kit(**_with_values(heard(lambda stop: _core.kit(joint, target, tolerance, version, stop))))
+    return _values.Kit(**_with_values(interruptible(lambda stop: _core.kit(joint, target, tolerance, version, stop))))

@@ -235,7 +235,7 @@ TEST(ReadDxf, ErrorsNameTheLine) {
   EXPECT_THAT(message_of(dxf_of("LINE\n0\n")), HasSubstr("test.dxf:25: error: a group code"));
 }
 
-// The rest of the drawing is read, and the entity is counted with its line and the reason.
+// Other entities are read, and the entity is counted with its line and the reason.
 TEST(ReadDxf, OmitsInvalidEntity) {
   const auto why = [](const std::string& entity) {
     const Drawing drawing = read(dxf_of(entity + line(0, 0, 1, 0)));

@@ -13,14 +13,14 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-struct Analysed {
+struct AnalysisCase {
   MechanismFile file;
   analysis::AnalysisOptions options;
   analysis::AnalysisResult result;
 };
 
-Analysed analysed() {
-  Analysed analysed;
+AnalysisCase analysed() {
+  AnalysisCase analysed;
   analysed.file.mechanism = testing::forearm();
   analysed.file.mechanism.name = "fore<arm>";
   analysed.file.path = "somewhere/forearm.toml";
@@ -30,7 +30,7 @@ Analysed analysed() {
 }
 
 TEST(AnalysisPage, AgreesWithResult) {
-  const Analysed a = analysed();
+  const AnalysisCase a = analysed();
   Diagnostic warning;
   warning.message = "beware & see";
   warning.hint = "do <this>";
@@ -47,7 +47,7 @@ TEST(AnalysisPage, AgreesWithResult) {
 }
 
 TEST(AnalysisPage, IsSelfContainedAndDeterministic) {
-  const Analysed a = analysed();
+  const AnalysisCase a = analysed();
   const std::string html = analysis_html(a.file, a.result, a.options, {});
   for (const char* reference : {"://", "src=", "href=", "url(", "@import", "fetch(", "somewhere"})
     EXPECT_THAT(html, Not(HasSubstr(reference)));
@@ -55,7 +55,7 @@ TEST(AnalysisPage, IsSelfContainedAndDeterministic) {
 }
 
 TEST(AnalysisPage, HasOnlyForcesWithoutCurves) {
-  Analysed a = analysed();
+  AnalysisCase a = analysed();
   a.result.synthesis.p1.points.clear();
   const std::string html = analysis_html(a.file, a.result, a.options, {});
   EXPECT_THAT(html, Not(HasSubstr("id=\"moving\"")));

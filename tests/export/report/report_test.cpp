@@ -244,7 +244,7 @@ TEST(Report, GivesMountingInstructions) {
   EXPECT_THAT(making(mechanism), HasSubstr("the first screw 45.0° from +x towards +y"));
   EXPECT_THAT(making(mechanism), HasSubstr("(4 holes on 14 mm) with P1 below"));
   mechanism.body.horn = "spline-25T-futaba";
-  EXPECT_THAT(making(mechanism), HasSubstr("It goes on every 14.4°"));
+  EXPECT_THAT(making(mechanism), HasSubstr("It fits every 14.4°"));
 }
 
 TEST(Report, ShowsForcesOnlyUnderLoad) {

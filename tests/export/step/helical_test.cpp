@@ -24,7 +24,7 @@ using testing::oval;
 using testing::spiral_of;
 
 /// Five turns of an oval that grows, its height by Simpson's rule.
-struct Known {
+struct ShapedOval {
   testing::SupportCurve shape = oval(8.0, 0.9, 0.35, 1.0);
   double begin = 1.0;
   double slope = 0.04;
@@ -40,7 +40,7 @@ struct Known {
 };
 
 TEST(HelicalCurve, FollowsKnownCurve) {
-  const Known known;
+  const ShapedOval known;
   // Rows further apart than those of any pulley.
   const helix::Spiral spiral = spiral_of(known.shape, known.begin, 5.0, known.slope, 0.1);
   const helical_solid::SpiralPlace place{60.0, -1.0};

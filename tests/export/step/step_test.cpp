@@ -10,7 +10,7 @@
 #include "fusee/base.h"
 #include "fusee/pipeline.h"
 #include "pipeline/design.h"
-#include "pipeline/several_turns.h"
+#include "pipeline/multi_turn.h"
 
 namespace fusee::formats {
 namespace {
@@ -88,14 +88,14 @@ TEST_F(Step, NoStepIsNoSolid) {
               Contains(::testing::AllOf(Field(&Check::name, "solids"), Field(&Check::ok, false))));
 }
 
-/// A product of several turns.
+/// A multi-turn product.
 const Product& helical() {
   static const Product product = [] {
     Product made;
     made.file = read_mechanism(fs::path(FUSEE_SOURCE_DIR) / "profiles" / "wrist_turns.toml",
                                {{"pulley.ratio", "5.5"}, {"body.spare_turns", "0.5"}});
     made.joint = joint::identified_joint(made.file.mechanism);
-    pipeline::design_several_turns(made, 0.02, {});
+    pipeline::design_multi_turn(made, 0.02, {});
     return made;
   }();
   return product;
@@ -118,7 +118,7 @@ TEST_F(HelicalStep, IsSoundSolidAndWinds) {
   ASSERT_EQ(file().complaint, "");
   const StepInspection inspection = inspect(file().bytes);
   for (const Check& check : inspection.checks) EXPECT_TRUE(check.ok) << check.name << " " << check.value;
-  const helical_solid::HelicalRewind wound = pipeline::rewind_several_turns(helical(), inspection.helical);
+  const helical_solid::HelicalRewind wound = pipeline::rewind_multi_turn(helical(), inspection.helical);
   // Measured on the surfaces themselves: the error is far below that of facets.
   EXPECT_LT(degrees(wound.result.max_theta_error), 0.002);
   EXPECT_LT(wound.result.max_excess, 0.001);

@@ -1,4 +1,4 @@
-#include "pipeline/axle_room.h"
+#include "pipeline/axle_clearance.h"
 
 #include <fmt/format.h>
 
@@ -16,11 +16,11 @@ namespace fusee::pipeline {
 namespace {
 
 // Radius of the thinnest axle or post, M3, and the clearance of a pin.
-constexpr double k_thinnest = 1.5;
+constexpr double k_thinnest_radius = 1.5;
 constexpr double k_clearance = 0.5;
 
 /// A part of the joint and its smallest distance from the flanges.
-struct Nearest {
+struct NearestPart {
   std::string part;
   double distance = 0;  ///< from its axis; negative: inside, mm
   double theta = 0;     ///< rad
@@ -37,11 +37,11 @@ class ReachAround {
     }
   }
 
-  /// Towards a place of the joint, within the angle that the thinnest axle there subtends, with the pulley turned
+  /// Reach towards a place of the joint, within the angle that the thinnest axle there subtends. The pulley is turned
   /// clockwise by `alpha`.
-  double towards(const Vec2& place, double alpha) const {
+  double reach_towards(const Vec2& place, double alpha) const {
     const double away = place.norm(), direction = std::atan2(place.y(), place.x()) + alpha;
-    const double half = away > k_thinnest ? std::asin(k_thinnest / away) : k_pi;
+    const double half = away > k_thinnest_radius ? std::asin(k_thinnest_radius / away) : k_pi;
     double reach = 0;
     for (double turn = -half; turn <= half; turn += k_sector)
       reach = std::max(reach, reach_.at(sector_of(direction + turn)));
@@ -61,16 +61,16 @@ class ReachAround {
   std::array<double, k_sectors> reach_{};
 };
 
-std::vector<Nearest> nearest_parts(const formats::Product& product) {
+std::vector<NearestPart> nearest_parts(const formats::Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const Vec2 axis = formats::pulley_axis(mechanism);
   const ReachAround reach(product.pulley);
-  std::vector<Nearest> parts;
+  std::vector<NearestPart> parts;
   const auto measure = [&](const std::string& name, const auto& place_at) {
-    Nearest nearest{name, std::numeric_limits<double>::infinity(), 0};
+    NearestPart nearest{name, std::numeric_limits<double>::infinity(), 0};
     for (const transmission::TransmissionPoint& point : product.synthesis.stroke) {
       const Vec2 place = place_at(point.theta) - axis;
-      const double distance = place.norm() - reach.towards(place, point.alpha);
+      const double distance = place.norm() - reach.reach_towards(place, point.alpha);
       if (distance < nearest.distance) nearest = {name, distance, point.theta};
     }
     parts.push_back(nearest);
@@ -83,31 +83,32 @@ std::vector<Nearest> nearest_parts(const formats::Product& product) {
   return parts;
 }
 
-std::optional<Nearest> tightest_part(const formats::Product& product) {
+std::optional<NearestPart> tightest_part(const formats::Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   if (mechanism.sheath.is_there() || mechanism.joint.drum_radius > 0 || product.pulley.mesh.vertices.empty())
     return std::nullopt;
-  const std::vector<Nearest> parts = nearest_parts(product);
-  const auto tightest = std::min_element(parts.begin(), parts.end(),
-                                         [](const Nearest& a, const Nearest& b) { return a.distance < b.distance; });
-  if (tightest == parts.end() || tightest->distance >= k_thinnest + k_clearance) return std::nullopt;
+  const std::vector<NearestPart> parts = nearest_parts(product);
+  const auto tightest = std::min_element(
+      parts.begin(), parts.end(), [](const NearestPart& a, const NearestPart& b) { return a.distance < b.distance; });
+  if (tightest == parts.end() || tightest->distance >= k_thinnest_radius + k_clearance) return std::nullopt;
   return *tightest;
 }
 
 }  // namespace
 
-std::vector<Diagnostic> pulley_in_the_way(
+std::vector<Diagnostic> axle_clearance_warnings(
     const formats::Product& product, const std::function<std::optional<formats::Product>(const Mechanism&)>& build) {
-  const std::optional<Nearest> part = tightest_part(product);
+  const std::optional<NearestPart> part = tightest_part(product);
   if (!part) return {};
   Diagnostic warning{Severity::warning, product.file.place_of("pulley.EF_mm"), {}, {}};
   warning.message = fmt::format(
-      "{} {} mm {} the pulley's flanges at theta = {} deg, at least {} mm is required for the thinnest axle (M3)",
-      part->part, rounded(std::abs(part->distance), 3), part->distance < 0 ? "stands inside" : "is only beside",
-      fixed(degrees(part->theta), 1), rounded(k_thinnest + k_clearance));
+      "{} is {} mm {} the pulley's flanges at theta = {} deg: at least {} mm from them is required for the thinnest "
+      "axle (M3)",
+      part->part, rounded(std::abs(part->distance), 3), part->distance < 0 ? "inside" : "from",
+      fixed(degrees(part->theta), 1), rounded(k_thinnest_radius + k_clearance));
   const Field& field = *find_field("pulley.EF_mm");
   const double now = number_of(product.file.mechanism, field);
-  double further = k_thinnest + k_clearance - part->distance;
+  double further = k_thinnest_radius + k_clearance - part->distance;
   for (int trial = 0; trial < 3; ++trial, further *= 1.3) {
     Mechanism changed = product.file.mechanism;
     const double to = std::ceil(now + further);

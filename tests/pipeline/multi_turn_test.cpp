@@ -1,4 +1,4 @@
-// Pulleys of several turns: builds, refusals and messages.
+// Multi-turn pulleys: builds, refusals and messages.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ MechanismFile read_profile(const std::string& name, const std::vector<Setting>& 
 
 pipeline::BuildResult made(const MechanismFile& file) {
   pipeline::BuildOptions options;
-  options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns";
+  options.folder = std::filesystem::temp_directory_path() / "fusee-multi-turn";
   options.dry_run = true;
   return pipeline::build(file, options);
 }
@@ -60,9 +60,9 @@ std::string text_of(const pipeline::BuildResult& built, const std::string& name)
   return "";
 }
 
-class SeveralTurns : public ::testing::TestWithParam<std::string> {};
+class MultiTurn : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(SeveralTurns, FollowTargetMotion) {
+TEST_P(MultiTurn, FollowTargetMotion) {
   const pipeline::BuildResult built = made(read_profile(GetParam()));
   ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   ASSERT_TRUE(built.product.helix);
@@ -72,11 +72,11 @@ TEST_P(SeveralTurns, FollowTargetMotion) {
   EXPECT_LT(degrees(built.product.helix->as_built.max_fleet), 2.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Profiles, SeveralTurns, ::testing::Values("wrist_turns", "elbow_capstan", "fusee_proper"),
+INSTANTIATE_TEST_SUITE_P(Profiles, MultiTurn, ::testing::Values("wrist_turns", "elbow_capstan", "fusee_proper"),
                          [](const auto& which) { return which.param; });
 
 /// Largest error of θ, deg, of the declared pulley on the identified joint.
-double uncorrected(const std::string& profile, const joint::IdentifiedJoint& joint) {
+double uncorrected_error(const std::string& profile, const joint::IdentifiedJoint& joint) {
   const formats::Product product = made(read_profile(profile)).product;
   const std::vector<helical_solid::FloorLine> floors =
       helical_solid::helical_floors(product.pulley.mesh, product.pulley.layout.scale);
@@ -85,18 +85,18 @@ double uncorrected(const std::string& profile, const joint::IdentifiedJoint& joi
   return degrees(wound.result.max_theta_error);
 }
 
-struct Found {
+struct IdentifiedCase {
   const char* profile;
   const char* key;
   const char* value;
   double without;  ///< least error of the declared pulley, deg; 0: not tested
 };
 
-class IdentifiedTurns : public ::testing::TestWithParam<Found> {};
+class IdentifiedTurns : public ::testing::TestWithParam<IdentifiedCase> {};
 
 // The corrected pulley follows the target motion on the identified joint, rewound on its mesh.
 TEST_P(IdentifiedTurns, AreCorrectedByPulley) {
-  const Found& found = GetParam();
+  const IdentifiedCase& found = GetParam();
   const pipeline::BuildResult built =
       made(read_profile(found.profile, {{std::string("identified.") + found.key, found.value}}));
   ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
@@ -110,19 +110,19 @@ TEST_P(IdentifiedTurns, AreCorrectedByPulley) {
   }
   EXPECT_LT(off, std::string(found.key) == "profile_sin_mm" ? 0.01 : 0.001);
   if (found.without > 0) {
-    EXPECT_GT(uncorrected(found.profile, built.product.joint), found.without);
+    EXPECT_GT(uncorrected_error(found.profile, built.product.joint), found.without);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, IdentifiedTurns,
-                         ::testing::Values(Found{"wrist_turns", "guide_radius_mm", "0.3", 0.01},
-                                           Found{"wrist_turns", "guide1_outward_mm", "1", 0.05},
-                                           Found{"wrist_turns", "length_mm", "0.5", 0.02},
-                                           Found{"wrist_turns", "radius_offset_mm", "0.1", 0.05},
-                                           Found{"wrist_turns", "runout_x_mm", "0.15", 0},
-                                           Found{"wrist_turns", "profile_sin_mm", "0.1", 0},
-                                           Found{"elbow_capstan", "drum_radius_mm", "0.3", 0.1},
-                                           Found{"elbow_capstan", "pulley_scale_percent", "1", 0}),
+INSTANTIATE_TEST_SUITE_P(Profiles, IdentifiedTurns,
+                         ::testing::Values(IdentifiedCase{"wrist_turns", "guide_radius_mm", "0.3", 0.01},
+                                           IdentifiedCase{"wrist_turns", "guide1_outward_mm", "1", 0.05},
+                                           IdentifiedCase{"wrist_turns", "length_mm", "0.5", 0.02},
+                                           IdentifiedCase{"wrist_turns", "radius_offset_mm", "0.1", 0.05},
+                                           IdentifiedCase{"wrist_turns", "runout_x_mm", "0.15", 0},
+                                           IdentifiedCase{"wrist_turns", "profile_sin_mm", "0.1", 0},
+                                           IdentifiedCase{"elbow_capstan", "drum_radius_mm", "0.3", 0.1},
+                                           IdentifiedCase{"elbow_capstan", "pulley_scale_percent", "1", 0}),
                          [](const auto& which) { return std::string(which.param.profile) + "_" + which.param.key; });
 
 /// A point of a pitch curve in profile.csv, within the range.
@@ -150,7 +150,7 @@ std::map<std::string, std::vector<Place>> curves_in(const std::string& table) {
 // A string runs from a barrel of pitch radius 50.3 mm over a pin of 8 mm onto the curves in the file. The wound length
 // gives the barrel's angle, and that the spring's torque. By the clockmaker's rule the chain's pull times the fusee's
 // radius is constant. (For level strings; the slope adds 0.02 %.)
-TEST(TheFuseeOfAClock, PullTimesRadiusIsConstant) {
+TEST(ClockFusee, PullTimesRadiusIsConstant) {
   constexpr double k_barrel = 50.3, k_pin = 8.3, k_torque = 66.6667;
   const double to_pin = std::hypot(70.0, 180.0);
   const pipeline::BuildResult built = made(read_profile("fusee_proper"));
@@ -184,7 +184,7 @@ TEST(TheFuseeOfAClock, PullTimesRadiusIsConstant) {
 }
 
 // The work that turns the wound mesh equals the energy in the spring: 66.67 alpha = 400 theta + 50.93 theta²/2.
-TEST(TheFuseeOfAClock, SpringStoresWork) {
+TEST(ClockFusee, SpringStoresWork) {
   const pipeline::BuildResult built = made(read_profile("fusee_proper"));
   ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   ASSERT_GT(built.product.as_built.points.size(), 50U);
@@ -194,7 +194,7 @@ TEST(TheFuseeOfAClock, SpringStoresWork) {
   }
 }
 
-TEST(SeveralTurnsFiles, ListHelicalCurves) {
+TEST(MultiTurnFiles, ListHelicalCurves) {
   const pipeline::BuildResult built = made(read_profile("wrist_turns"));
   ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   std::istringstream profile(text_of(built, "profile.csv"));
@@ -212,10 +212,10 @@ TEST(SeveralTurnsFiles, ListHelicalCurves) {
 }
 
 // Both polylines of each groove as another program reads them: turns of the working arc, and height from end to end.
-TEST(SeveralTurnsFiles, DrawSpiralsInSpace) {
+TEST(MultiTurnFiles, DrawSpiralsInSpace) {
   for (const formats::DxfVersion version : {formats::DxfVersion::ac1015, formats::DxfVersion::r12}) {
     pipeline::BuildOptions options;
-    options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns";
+    options.folder = std::filesystem::temp_directory_path() / "fusee-multi-turn";
     options.dry_run = true;
     options.dxf = version;
     const pipeline::BuildResult built = pipeline::build(read_profile("elbow_capstan"), options);
@@ -238,7 +238,7 @@ TEST(SeveralTurnsFiles, DrawSpiralsInSpace) {
   }
 }
 
-TEST(SeveralTurnsFiles, ScadHasBothGrooves) {
+TEST(MultiTurnFiles, ScadHasBothGrooves) {
   const pipeline::BuildResult built = made(read_profile("fusee_proper"));
   const std::string program = text_of(built, "pulley.scad");
   for (const char* has :
@@ -249,7 +249,7 @@ TEST(SeveralTurnsFiles, ScadHasBothGrooves) {
 
 // The ceilings of channels slope by at least 57.5° (k_flattest_peak in run_out.cpp), also for printers that can print
 // flatter ones.
-TEST(SeveralTurnsPrint, FitEveryPrinter) {
+TEST(MultiTurnPrint, FitEveryPrinter) {
   for (const char* profile : {"wrist_turns", "elbow_capstan"}) {
     for (const char* overhang : {"20", "35", "60", "70"})
       EXPECT_EQ(made(read_profile(profile, {{"print.overhang_deg", overhang}})).status, pipeline::BuildStatus::done)
@@ -259,7 +259,7 @@ TEST(SeveralTurnsPrint, FitEveryPrinter) {
 }
 
 // At a slope of 4.68° tensions grow by 1/cos, and their stretch by 1/cos³.
-TEST(SeveralTurnsWords, NoteErrorOfLevelTendons) {
+TEST(MultiTurnWords, NoteErrorOfLevelTendons) {
   const auto note_of = [](const std::vector<Setting>& settings) {
     std::string text;
     for (const Diagnostic& one : pipeline::analyze(read_profile("wrist_turns", settings)).warnings) text += one.message;
@@ -270,12 +270,12 @@ TEST(SeveralTurnsWords, NoteErrorOfLevelTendons) {
                         "up to 1 %"));
 }
 
-TEST(SeveralTurnsWords, NameReasonForOneTurn) {
+TEST(MultiTurnWords, NameReasonForOneTurn) {
   EXPECT_THAT(failures_of(made(read_profile("wrist_turns", {{"pulley.winding", "one_turn"}}))),
               HasSubstr("more than one turn (pulley.winding = \"one_turn\")"));
 }
 
-TEST(SeveralTurnsWords, ReportUnusedKeys) {
+TEST(MultiTurnWords, ReportUnusedKeys) {
   const auto words_with = [](const char* profile, const std::vector<Setting>& settings) {
     std::string text;
     for (const Diagnostic& one : made(read_profile(profile, settings)).product.file.warnings)
@@ -293,7 +293,7 @@ TEST(SeveralTurnsWords, ReportUnusedKeys) {
 }
 
 /// The message gives the required number of turns, and a value that builds.
-TEST(SeveralTurnsWords, ReportTooManyTurns) {
+TEST(MultiTurnWords, ReportTooManyTurns) {
   const std::vector<Setting> many{{"pulley.r1_mm", "1.2"}};
   const pipeline::BuildResult built = made(read_profile("elbow_capstan", many));
   ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
@@ -306,8 +306,8 @@ TEST(SeveralTurnsWords, ReportTooManyTurns) {
             pipeline::BuildStatus::done);
 }
 
-/// Marks and plates.dxf do not exist for several turns; the notes say so, whatever the file requests.
-TEST(SeveralTurnsWords, ListOmittedFeatures) {
+/// Multi-turn pulleys have no marks and no plates.dxf. Notes report it, whatever the file requests.
+TEST(MultiTurnWords, ListOmittedFeatures) {
   for (const char* marks : {"engraved", "raised"}) {
     const pipeline::BuildResult built = made(read_profile("wrist_turns", {{"body.marks", marks}}));
     ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
@@ -320,7 +320,7 @@ TEST(SeveralTurnsWords, ListOmittedFeatures) {
 }
 
 /// This joint has no other obstacle: the advised ratio builds.
-TEST(SeveralTurnsWords, SheathsAdviseRatio) {
+TEST(MultiTurnWords, SheathsAdviseRatio) {
   const pipeline::BuildResult built = made(read_profile("wrist_sheath", {{"pulley.ratio", "13"}}));
   ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built),
@@ -329,7 +329,7 @@ TEST(SeveralTurnsWords, SheathsAdviseRatio) {
   EXPECT_EQ(made(read_profile("wrist_sheath", {{"pulley.ratio", "4.55"}})).status, pipeline::BuildStatus::done);
 }
 
-TEST(SeveralTurnsWords, AdviceBuilds) {
+TEST(MultiTurnWords, AdviceBuilds) {
   const pipeline::BuildResult built = made(read_profile("wrist_turns", {{"body.lead_mm", "1.2"}}));
   ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built), HasSubstr("is too small"));
@@ -359,7 +359,7 @@ TEST(FleetAngles, GrowingAnglesAreReported) {
 }
 
 /// The default lower wall leans by 25°, at a largest radius of 10.2 mm and 1 mm deep: tan 25° √(1/20.4) is 5.9°. The
-/// seat is slightly wider than the tendon, which gives the rest.
+/// seat is slightly wider than the tendon, which adds 0.24°.
 TEST(FleetAngles, LargeAnglesAreRefusedWithAdvice) {
   const pipeline::BuildResult built = made(read_profile("wrist_turns", with_collars(60, 8)));
   ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
@@ -384,7 +384,7 @@ TEST(FleetAngles, LeaningGroovesAllowLargerAngles) {
 }
 
 /// The number that the refusal of a body advises builds.
-TEST(SeveralTurnsWords, BodyAdviceBuilds) {
+TEST(MultiTurnWords, BodyAdviceBuilds) {
   const std::vector<Setting> pocket{{"tendon.diameter_mm", "1.07"}, {"body.knot_pocket_mm", "7"}};
   const pipeline::BuildResult built = made(read_profile("elbow_capstan", pocket));
   ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
@@ -398,7 +398,7 @@ TEST(SeveralTurnsWords, BodyAdviceBuilds) {
 }
 
 /// Regressions: each of these bodies once intersected itself or broke through its rim.
-TEST(SeveralTurnsBodies, PassRegressions) {
+TEST(MultiTurnBodies, PassRegressions) {
   const std::vector<std::vector<Setting>> designs{
       {{"tendon.diameter_mm", "0.72"}, {"pulley.r1_mm", "6.61"}, {"body.spare_turns", "1.7"}},
       {{"tendon.diameter_mm", "0.9"}, {"body.anchor_hole_mm", "2"}}};
@@ -417,7 +417,7 @@ TEST(SeveralTurnsBodies, PassRegressions) {
   EXPECT_EQ(aside.status, pipeline::BuildStatus::done) << failures_of(aside);
 }
 
-TEST(SeveralTurnsWords, RejectWideHub) {
+TEST(MultiTurnWords, RejectWideHub) {
   const pipeline::BuildResult wide = made(read_profile("wrist_turns", {{"body.hub_diameter_mm", "90"}}));
   EXPECT_EQ(wide.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(wide), HasSubstr("the upper flange has space for a hub of"));
@@ -429,7 +429,7 @@ TEST(SeveralTurnsWords, RejectWideHub) {
 // ---- rewinding of files
 
 /// Each mesh file of a build, of a shrinking material printed larger, gives the error that the build reports.
-TEST_P(SeveralTurns, RewindOnFiles) {
+TEST_P(MultiTurn, RewindOnFiles) {
   const MechanismFile file = read_profile(GetParam(), {{"material.shrinkage_percent", "0.8"}});
   const pipeline::BuildResult built = made(file);
   ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
@@ -446,7 +446,7 @@ TEST_P(SeveralTurns, RewindOnFiles) {
   }
 }
 
-TEST(SeveralTurnsWords, RejectDrawing) {
+TEST(MultiTurnWords, RejectDrawing) {
   try {
     pipeline::rewind_part(joint::identified_joint(read_profile("wrist_turns").mechanism), formats::Drawing{});
     FAIL() << "rewound on a drawing";
@@ -470,11 +470,11 @@ profile::Outline turn_about(const helix::Spiral& spiral, transmission::Side side
 }
 
 /// A tendon at one place of the stroke, by tangents to the drawing: from its end on the joint to the row it leaves.
-struct Strung {
+struct TracedTendon {
   formats::TendonTrace trace;
   std::size_t row = 0;
 };
-Strung strung(const formats::Product& product, transmission::Side side, std::size_t place) {
+TracedTendon trace_to_row(const formats::Product& product, transmission::Side side, std::size_t place) {
   const helix::HelixSide& helix = product.helix->synthesis.sides.at(side == transmission::Side::left ? 0 : 1);
   const double z = helix.stroke.at(place).z;
   std::size_t near = 0;
@@ -503,11 +503,11 @@ double planar(const std::vector<Vec2>& path, std::size_t last) {
   return length;
 }
 
-class SeveralTurnsKit : public ::testing::TestWithParam<std::string> {
+class MultiTurnKit : public ::testing::TestWithParam<std::string> {
  protected:
   static pipeline::KitResult made_kit() {
     pipeline::KitOptions options;
-    options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns-kit";
+    options.folder = std::filesystem::temp_directory_path() / "fusee-multi-turn-kit";
     options.dry_run = true;
     return pipeline::kit(read_profile(GetParam()), options);
   }
@@ -515,7 +515,7 @@ class SeveralTurnsKit : public ::testing::TestWithParam<std::string> {
 
 /// Cut length from knot to knot: along the drawn path in plan with its rise, along the rows in space, and to the
 /// pocket.
-TEST_P(SeveralTurnsKit, CutLengthMatchesWoundLength) {
+TEST_P(MultiTurnKit, CutLengthMatchesWoundLength) {
   const pipeline::KitResult made = made_kit();
   ASSERT_EQ(made.ending, pipeline::KitEnding::done);
   const formats::Product& product = made.product.pulley;
@@ -528,7 +528,7 @@ TEST_P(SeveralTurnsKit, CutLengthMatchesWoundLength) {
   for (const formats::KitCut& cut : cuts) {
     const helix::HelixSide& side = product.helix->synthesis.sides.at(cut.side == transmission::Side::left ? 0 : 1);
     const std::vector<helix::SpiralRow>& rows = side.spiral.rows;
-    const auto [trace, row] = strung(product, cut.side, home);
+    const auto [trace, row] = trace_to_row(product, cut.side, home);
     double length = std::hypot(trace.free_length, rows[row].z - side.attachment_z);
     const std::size_t end = cut.side == transmission::Side::left ? rows.size() - 1 : 0;
     for (std::size_t i = std::min(row, end); i < std::max(row, end); ++i)
@@ -541,7 +541,7 @@ TEST_P(SeveralTurnsKit, CutLengthMatchesWoundLength) {
 }
 
 /// A tendon rises evenly over drum and pins, and reaches each of the given heights once.
-TEST_P(SeveralTurnsKit, ReportsTendonHeights) {
+TEST_P(MultiTurnKit, ReportsTendonHeights) {
   const pipeline::KitResult made = made_kit();
   ASSERT_TRUE(made.product.plan.heights);
   const kit::TendonHeights& heights = *made.product.plan.heights;
@@ -556,7 +556,7 @@ TEST_P(SeveralTurnsKit, ReportsTendonHeights) {
     on_drum.see(end);
     kit::TendonHeights::Span on_guide;
     for (std::size_t k = 0; k < product.synthesis.stroke.size(); k += 5) {
-      const auto [trace, row] = strung(product, side, k);
+      const auto [trace, row] = trace_to_row(product, side, k);
       const double off = lies.height(helix.spiral.rows[row].z);
       const auto height = [&, &path = trace.free_path](std::size_t point) {
         return end + (off - end) * planar(path, point) / planar(path, path.size() - 1);
@@ -583,13 +583,13 @@ TEST_P(SeveralTurnsKit, ReportsTendonHeights) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Profiles, SeveralTurnsKit, ::testing::Values("wrist_turns", "elbow_capstan", "fusee_proper"),
+INSTANTIATE_TEST_SUITE_P(Profiles, MultiTurnKit, ::testing::Values("wrist_turns", "elbow_capstan", "fusee_proper"),
                          [](const auto& which) { return which.param; });
 
 /// A printer that requires slopes of 55° gets steeper chamfers at the bed.
-TEST(SeveralTurnsKitWords, PartsFollowOverhangLimit) {
+TEST(MultiTurnKitWords, PartsFollowOverhangLimit) {
   pipeline::KitOptions options;
-  options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns-kit";
+  options.folder = std::filesystem::temp_directory_path() / "fusee-multi-turn-kit";
   options.dry_run = true;
   const pipeline::KitResult made =
       pipeline::kit(read_profile("elbow_capstan", {{"print.overhang_deg", "55"}}), options);
@@ -598,9 +598,9 @@ TEST(SeveralTurnsKitWords, PartsFollowOverhangLimit) {
 }
 
 /// The refusal names the obstacle and tested changes.
-TEST(SeveralTurnsKitWords, AdviceMakesRoom) {
+TEST(MultiTurnKitWords, AdviceRemovesObstacle) {
   pipeline::KitOptions options;
-  options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns-kit";
+  options.folder = std::filesystem::temp_directory_path() / "fusee-multi-turn-kit";
   options.dry_run = true;
   const pipeline::KitResult refused =
       pipeline::kit(read_profile("wrist_turns", {{"guides.radius_mm", "0.2"}}), options);

@@ -1,4 +1,4 @@
-#include "pipeline/several_turns.h"
+#include "pipeline/multi_turn.h"
 
 #include <algorithm>
 #include <atomic>
@@ -30,7 +30,7 @@ helix::HelixGroove groove_of(const Mechanism& mechanism) {
       [section](double step) { return helical_solid::least_lead(section, -step); }};
 }
 
-/// Properties of several turns that the body's tables do not contain.
+/// Properties of multi-turn pulleys that the body's tables do not contain.
 std::vector<std::string> notes_of(const Mechanism& mechanism, const formats::HelixProduct& helix) {
   const helical_solid::TendonsLaid ends = helix.laid(mechanism.guides.collar);
   const std::string where = mechanism.guides.collar ? "the guides' collars hold the tendons at the heights "
@@ -72,7 +72,7 @@ std::vector<profile::Condition> faults_of(const Mechanism& mechanism, const heli
     fault.value = check.value;
     fault.limit = check.limit;
     fault.unit = check.unit;
-    fault.message = "the body of several turns fails a check: " + check.name + " is " + rounded(check.value, 4) +
+    fault.message = "the multi-turn body fails a check: " + check.name + " is " + rounded(check.value, 4) +
                     ", the limit is " + rounded(check.limit, 4) + (check.where.empty() ? "" : " (" + check.where + ")");
     faults.push_back(std::move(fault));
   }
@@ -87,11 +87,11 @@ helix::HelixSynthesis brief_synthesis(const Mechanism& mechanism) {
   return helix::synthesise_helix(mechanism, groove_of(mechanism), options);
 }
 
-bool winds_several_times(const DeclaredMechanism& mechanism) {
+bool is_multi_turn(const DeclaredMechanism& mechanism) {
   if (mechanism.transmission || profile::kept_to_one_turn(mechanism)) return false;
   profile::SynthesisOptions options;
   options.advice = false;
-  return profile::need_several_turns(profile::synthesise(mechanism, options));
+  return profile::needs_multi_turn(profile::synthesise(mechanism, options));
 }
 
 /// Effect of the slope φ of tendon paths on forces that are computed for level tendons. A tension T turns the joint
@@ -149,13 +149,13 @@ void adopt_synthesis(formats::Product& product, const formats::HelixProduct& hel
 }  // namespace
 
 std::optional<Diagnostic> note_on_turns(const MechanismFile& file) {
-  if (!winds_several_times(file.mechanism)) return std::nullopt;
+  if (!is_multi_turn(file.mechanism)) return std::nullopt;
   return Diagnostic{Severity::note, file.place_of("pulley.winding"), words_on_slopes(file.mechanism), {}};
 }
 
 std::vector<Diagnostic> warnings_of_turns(const MechanismFile& file) {
   std::vector<Diagnostic> warnings;
-  if (!winds_several_times(file.mechanism)) return warnings;
+  if (!is_multi_turn(file.mechanism)) return warnings;
   for (const std::string& words : brief_synthesis(file.mechanism).warnings)
     warnings.push_back({Severity::warning, file.place_of("pulley.winding"), words, {}});
   return warnings;
@@ -165,11 +165,10 @@ std::vector<Diagnostic> unused_turn_keys(const MechanismFile& file) {
   std::vector<Diagnostic> warnings;
   for (const char* key : {"guides.collar", "body.lead_mm", "body.spare_turns"}) {
     if (!find_field(key)->is_set(file.mechanism)) continue;
-    warnings.push_back(
-        {Severity::warning,
-         file.place_of(key),
-         std::string(key) + " is not used: it applies to pulleys of several turns, and these have one turn",
-         {}});
+    warnings.push_back({Severity::warning,
+                        file.place_of(key),
+                        std::string(key) + " is not used: it applies to multi-turn pulleys, and these have one turn",
+                        {}});
   }
   return warnings;
 }
@@ -181,8 +180,8 @@ MechanismFile with_plausibility_warnings_and_turns(MechanismFile file) {
   return file;
 }
 
-bool design_several_turns(formats::Product& product, double chord_error_mm, const RunContext& context,
-                          solid::TieOffSearch search) {
+bool design_multi_turn(formats::Product& product, double chord_error_mm, const RunContext& context,
+                       solid::TieOffSearch search) {
   const Mechanism& mechanism = product.joint.mechanism;
   context.begin_step("winding both tendons several times");
   formats::HelixProduct& helix = product.helix.emplace();
@@ -222,14 +221,14 @@ namespace {
 /// (campaign of seed 620001, design 316: 10.5 rad, 0.11 mm of excess length).
 bool design_turns_within(formats::Product& product, double chord_error_mm, const AsBuiltLimits& limits,
                          const RunContext& context, solid::TieOffSearch search) {
-  if (!design_several_turns(product, chord_error_mm, context, search)) return false;
+  if (!design_multi_turn(product, chord_error_mm, context, search)) return false;
   double furthest = 0;  // rad
   for (const transmission::TransmissionPoint& place : product.synthesis.stroke)
     furthest = std::max(furthest, std::abs(place.alpha));
   if (furthest * chord_error_mm <= limits.excess) return true;
-  const profile::RewindResult wound = rewind_several_turns(product, product.pulley.mesh).result;
+  const profile::RewindResult wound = rewind_multi_turn(product, product.pulley.mesh).result;
   if (all_ok(as_built_checks(product.joint.mechanism, wound, limits))) return true;
-  return design_several_turns(product, 0.5 * limits.excess / furthest, context, search);
+  return design_multi_turn(product, 0.5 * limits.excess / furthest, context, search);
 }
 
 }  // namespace
@@ -237,7 +236,7 @@ bool design_turns_within(formats::Product& product, double chord_error_mm, const
 bool design_any(formats::Product& product, double chord_error_mm, const AsBuiltLimits& limits,
                 const RunContext& context, solid::TieOffSearch search) {
   if (design(product, chord_error_mm, context, search)) return true;
-  if (!profile::need_several_turns(product.synthesis)) return false;
+  if (!profile::needs_multi_turn(product.synthesis)) return false;
   const auto kept = profile::kept_to_one_turn(product.file.mechanism);
   if (!kept) return design_turns_within(product, chord_error_mm, limits, context, search);
   for (profile::Condition& condition : product.synthesis.conditions) {
@@ -246,21 +245,21 @@ bool design_any(formats::Product& product, double chord_error_mm, const AsBuiltL
   return false;
 }
 
-helical_solid::HelicalRewind rewind_several_turns(const formats::Product& product, const solid::TriangleMesh& mesh) {
-  return rewind_several_turns(product, helical_solid::helical_floors(mesh, product.pulley.layout.scale));
+helical_solid::HelicalRewind rewind_multi_turn(const formats::Product& product, const solid::TriangleMesh& mesh) {
+  return rewind_multi_turn(product, helical_solid::helical_floors(mesh, product.pulley.layout.scale));
 }
 
-helical_solid::HelicalRewind rewind_several_turns(const formats::Product& product,
-                                                  const std::vector<helical_solid::FloorLine>& floors) {
+helical_solid::HelicalRewind rewind_multi_turn(const formats::Product& product,
+                                               const std::vector<helical_solid::FloorLine>& floors) {
   if (floors.size() != 2)
-    throw InputError("", "it has " + std::to_string(floors.size()) + " grooves of several turns instead of 2");
+    throw InputError("", "it has " + std::to_string(floors.size()) + " helical grooves instead of 2");
   const joint::IdentifiedJoint& joint = product.joint;
   return helical_solid::rewind_floors(as_made(floors[0], joint.outline), as_made(floors[1], joint.outline),
                                       joint::with_inset(joint), product.synthesis.stroke,
                                       product.helix->laid(joint.mechanism.guides.collar));
 }
 
-std::vector<Check> check_several_turns(const formats::Product& product, const solid::TriangleMesh& mesh) {
+std::vector<Check> check_multi_turn(const formats::Product& product, const solid::TriangleMesh& mesh) {
   return helical_solid::check_helical_pulley(mesh, product.helix->pulley,
                                              helical_solid::helical_section(product.joint.mechanism));
 }
@@ -308,7 +307,7 @@ std::optional<std::string> tight_bend(const Mechanism& mechanism, const helix::H
 
 }  // namespace
 
-std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism) {
+std::optional<std::string> obstacle_to_multi_turn(const Mechanism& mechanism) {
   const helix::HelixSynthesis curves = trial_curves(mechanism, k_helix_trial_chord_error_mm);
   const std::vector<profile::Condition> obstacles = obstacles_of(mechanism, curves, k_helix_trial_chord_error_mm);
   if (!obstacles.empty()) return obstacles.front().message;
@@ -369,7 +368,7 @@ class MultiTurnCheck {
 
 }  // namespace
 
-profile::Advice advice_for_several_turns(const formats::Product& product, const MultiTurnTrial& trial) {
+profile::Advice multi_turn_advice(const formats::Product& product, const MultiTurnTrial& trial) {
   MultiTurnCheck check(product.file.mechanism, trial);
   const profile::FeasibilityOracle judge{
       .obstacles = [&check](const Mechanism& changed) { return check.obstacles(changed); },

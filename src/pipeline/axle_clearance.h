@@ -1,5 +1,5 @@
 /// \file
-/// Internal: parts of the joint that stand in the turning pulley.
+/// Internal: clearance of the turning pulley to the axle and the tendons' ends.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ namespace fusee::pipeline {
 /// Warnings about a pulley that turns into the joint's axle or into a tendon's end on the link, over the whole range.
 /// Joints with a drum have a condition instead, and pulleys with sheaths are elsewhere. `build`: a checked product, or
 /// empty; it proves the advised number.
-std::vector<Diagnostic> pulley_in_the_way(
+std::vector<Diagnostic> axle_clearance_warnings(
     const formats::Product& product, const std::function<std::optional<formats::Product>(const Mechanism&)>& build);
 
 }  // namespace fusee::pipeline

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: pulleys of several turns, used if one turn does not suffice.
+/// Internal: multi-turn pulleys, used if one turn does not suffice.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ namespace fusee::pipeline {
 /// Warnings about keys for helical grooves, if the pulleys turn less than once.
 std::vector<Diagnostic> unused_turn_keys(const MechanismFile& file);
 
-/// Note on the approximations that the planar joint model makes for pulleys of several turns; empty for one turn.
+/// Note on the approximations that the planar joint model makes for multi-turn pulleys; empty for one turn.
 std::optional<Diagnostic> note_on_turns(const MechanismFile& file);
 /// Warnings about bends tighter than tendon.bend_ratio and about large fleet angles; empty for one turn.
 std::vector<Diagnostic> warnings_of_turns(const MechanismFile& file);
@@ -25,8 +25,8 @@ std::vector<Diagnostic> warnings_of_turns(const MechanismFile& file);
 MechanismFile with_plausibility_warnings_and_turns(MechanismFile file);
 
 /// Designs spirals and body of product.joint, which one turn could not provide; otherwise as design().
-bool design_several_turns(formats::Product& product, double chord_error_mm, const RunContext& context,
-                          solid::TieOffSearch search = solid::TieOffSearch::thorough);
+bool design_multi_turn(formats::Product& product, double chord_error_mm, const RunContext& context,
+                       solid::TieOffSearch search = solid::TieOffSearch::thorough);
 
 /// Designs one turn if it suffices, else several; false if neither is feasible. If the file excludes several turns, the
 /// conditions state the key.
@@ -37,16 +37,16 @@ bool design_any(formats::Product& product, double chord_error_mm, const AsBuiltL
 kit::TendonHeights tendon_heights(const formats::Product& product);
 
 /// Winds tendons in space on the grooves of a mesh.
-helical_solid::HelicalRewind rewind_several_turns(const formats::Product& product, const solid::TriangleMesh& mesh);
+helical_solid::HelicalRewind rewind_multi_turn(const formats::Product& product, const solid::TriangleMesh& mesh);
 /// Winds tendons on the given groove floors. Throws InputError unless there are two.
-helical_solid::HelicalRewind rewind_several_turns(const formats::Product& product,
-                                                  const std::vector<helical_solid::FloorLine>& floors);
+helical_solid::HelicalRewind rewind_multi_turn(const formats::Product& product,
+                                               const std::vector<helical_solid::FloorLine>& floors);
 /// Checks of a mesh that was read back.
-std::vector<Check> check_several_turns(const formats::Product& product, const solid::TriangleMesh& mesh);
+std::vector<Check> check_multi_turn(const formats::Product& product, const solid::TriangleMesh& mesh);
 
 /// An obstacle to helical grooves for pulleys of more than one turn, by a brief check; empty if none is found. A bend
 /// that build() warns of counts as an obstacle here: a search would otherwise make r1 ever smaller.
-std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism);
+std::optional<std::string> obstacle_to_multi_turn(const Mechanism& mechanism);
 
 /// Functions with which advice on several turns is tested.
 struct MultiTurnTrial {
@@ -54,7 +54,7 @@ struct MultiTurnTrial {
   std::function<bool(const Mechanism&)> made;  ///< the full build with checks
   const RunContext& context;                   ///< a request to stop ends the search
 };
-/// Changes that make a refused pulley of several turns possible.
-profile::Advice advice_for_several_turns(const formats::Product& product, const MultiTurnTrial& trial);
+/// Changes that make a refused multi-turn pulley possible.
+profile::Advice multi_turn_advice(const formats::Product& product, const MultiTurnTrial& trial);
 
 }  // namespace fusee::pipeline
