@@ -59,12 +59,6 @@ bool suffices(const MotorModel& model, const MotorCheck& need, const std::vector
          (model.speed > 0 && lowest_joint_speed(model, all, true).value >= need.joint_speed_needed * (1 - k_rounding));
 }
 
-bool fits(const MotorModel& model, const Body& body) {
-  return std::any_of(model.fits.begin(), model.fits.end(), [&body](const std::string& name) {
-    return name == body.shaft || (body.bore == Bore::horn && name == body.horn);
-  });
-}
-
 std::vector<std::string> sufficient_models(const Mechanism& mechanism, const MotorCheck& need,
                                            const std::vector<Demand>& all) {
   std::vector<const MotorModel*> found;

@@ -66,14 +66,7 @@ Diagnostic motor_note(const pipeline::ChosenLayout& layout) {
   joint.motor = {};
   joint.motor.enforce = true;  // compares the models of the catalogue, without limits
   const analysis::MotorCheck motor = *analysis::under_load(joint).motor;
-  const auto fits = [&joint](const MotorModel& model) {
-    return std::any_of(model.fits.begin(), model.fits.end(), [&joint](const std::string& name) {
-      return name == joint.body.shaft || (joint.body.bore == Bore::horn && name == joint.body.horn);
-    });
-  };
-  const MotorModel* strongest = nullptr;
-  for (const MotorModel& model : motor_models())
-    if (fits(model) && (strongest == nullptr || model.stall_torque > strongest->stall_torque)) strongest = &model;
+  const MotorModel* strongest = strongest_motor_that_fits(joint.body);
   const std::string suitable =
       motor.sufficient_models.empty() ? "no motor of the catalogue does" : "suitable: " + motor.models_text();
   std::string words = fmt::format("under the load the motor has to hold {} Nmm", rounded(motor.torque.value, 3));

@@ -199,6 +199,19 @@ const ShaftType* find_shaft(std::string_view name) { return find(shafts(), name)
 
 const MotorModel* find_motor_model(std::string_view name) { return find(motor_models(), name); }
 
+bool fits(const MotorModel& model, const Body& body) {
+  return std::any_of(model.fits.begin(), model.fits.end(), [&body](const std::string& name) {
+    return name == body.shaft || (body.bore == Bore::horn && name == body.horn);
+  });
+}
+
+const MotorModel* strongest_motor_that_fits(const Body& body) {
+  const MotorModel* strongest = nullptr;
+  for (const MotorModel& model : motor_models())
+    if (fits(model, body) && (strongest == nullptr || model.stall_torque > strongest->stall_torque)) strongest = &model;
+  return strongest;
+}
+
 MotorModel motor_limits(const Motor& motor) {
   const MotorModel* known = find_motor_model(motor.model);
   MotorModel limits = known == nullptr ? MotorModel{} : *known;

@@ -127,6 +127,10 @@ const std::vector<TemplateType>& template_types();  ///< in the order of the lis
 const HornType* find_horn(std::string_view name);
 const ShaftType* find_shaft(std::string_view name);
 const MotorModel* find_motor_model(std::string_view name);
+/// True for a motor with the shaft or horn of a body.
+bool fits(const MotorModel& model, const Body& body);
+/// The model with the largest torque among those of the body's shaft or horn; null when there is none.
+const MotorModel* strongest_motor_that_fits(const Body& body);
 
 /// Limits of the mechanism's motor: the numbers of [motor] and, where it has none, those of its model. 0: unknown.
 MotorModel motor_limits(const Motor& motor);
