@@ -1,5 +1,5 @@
 /// \file
-/// Internal: the structure of a DXF file: header, blocks and entities, not yet interpreted.
+/// Internal: the structure of a DXF file: header, layers, blocks and entities, not yet interpreted.
 #pragma once
 
 #include <map>
@@ -26,7 +26,7 @@ struct DxfBlock {
   std::vector<DxfEntity> entities;
 };
 
-/// Names of blocks do not depend on case.
+/// Names of blocks and layers do not depend on case.
 std::string block_key(std::string_view name);
 
 /// Refers to the bytes that it was read from.
@@ -35,6 +35,8 @@ struct DxfFile {
   std::optional<int> units;  ///< $INSUNITS; −1 if invalid
   std::vector<DxfEntity> entities;
   std::map<std::string, DxfBlock> blocks;  ///< by block_key()
+  /// Layers that are not shown, by block_key(); true: frozen, false: off.
+  std::map<std::string, bool> hidden_layers;
 
   /// 1 if the file gives no unit.
   double unit_in_mm() const;
