@@ -101,6 +101,11 @@ class DxfDrawer {
     if (understood.in_paper_space) return understood;
     // Layer 0 in a block stands for the insert's layer.
     if (understood.layer.empty() || understood.layer == "0") understood.layer = block_layer;
+    if (const std::string why = hiding(entity, values, understood.layer); !why.empty()) {
+      understood.drawn.passed_over = " hidden";
+      understood.drawn.remark = "this " + std::string(entity.type) + " is not read: " + why;
+      return understood;
+    }
     if (values.point(210).norm() > 1e-6) {
       understood.drawn.passed_over = " out of the plane";
       constexpr auto k_curves = std::to_array<std::string_view>(
@@ -120,6 +125,14 @@ class DxfDrawer {
     understood.drawn = curve_of(entity, file_, understood.place, k_sagitta);
     if (understood.drawn.curve) demand_near(entity, understood.drawn.curve->points);
     return understood;
+  }
+
+  /// Why an entity is not shown, or "". A block on a layer that is off shows its parts of other layers.
+  std::string hiding(const DxfEntity& entity, const DxfValues& values, const std::string& layer) const {
+    if (values.integer(60, 0) == 1) return "it is invisible";
+    const auto hidden = dxf_.hidden_layers.find(lower(layer));
+    if (hidden == dxf_.hidden_layers.end() || (entity.type == "INSERT" && !hidden->second)) return {};
+    return "its layer " + quoted_bytes(layer) + " is " + (hidden->second ? "frozen" : "off");
   }
 
   void demand_near(const DxfEntity& entity, const Polygon& points) const {

@@ -1,6 +1,7 @@
 #include "export/drawings/dxf_file.h"
 
 #include "base/text.h"
+#include "fusee/base.h"
 
 namespace fusee::formats {
 namespace {
@@ -40,6 +41,8 @@ class DxfFileReader {
   void read_section(std::string_view name) {
     if (name == "HEADER") {
       read_header();
+    } else if (name == "TABLES") {
+      read_tables();
     } else if (name == "BLOCKS") {
       read_blocks();
     } else if (name == "ENTITIES") {
@@ -59,6 +62,23 @@ class DxfFileReader {
       if (variable == "$INSUNITS" && tag.code == 70) {
         const double value = dxf_number(name_, tag);
         file_.units = value >= 0 && value < 100 ? static_cast<int>(value) : -1;
+      }
+    }
+  }
+
+  /// Finds layers that are off (negative colour) or frozen (bit 1 of group 70).
+  void read_tables() {
+    for (DxfTag tag = tags_.required(); !is(tag, "ENDSEC");) {
+      const bool is_layer = is(tag, "LAYER");
+      std::vector<DxfTag> record;
+      tag = read_tags(record);
+      if (!is_layer) continue;
+      try {
+        const DxfValues values(name_, record);
+        const bool is_frozen = (values.integer(70, 0) & 1) != 0;
+        if (is_frozen || values.integer(62, 7) < 0) file_.hidden_layers[lower(values.text(2))] = is_frozen;
+      } catch (const InputError&) {
+        continue;  // numbers that are none hide nothing
       }
     }
   }

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: the structure of a DXF file: header, blocks and entities, not yet interpreted.
+/// Internal: the structure of a DXF file: header, layers, blocks and entities, not yet interpreted.
 #pragma once
 
 #include <map>
@@ -32,6 +32,8 @@ struct DxfFile {
   std::optional<int> units;  ///< $INSUNITS; −1 if invalid
   std::vector<DxfEntity> entities;
   std::map<std::string, DxfBlock> blocks;  ///< by lower(name): names do not depend on case
+  /// Layers that are not shown, by lower(name); true: frozen, false: off.
+  std::map<std::string, bool> hidden_layers;
 
   /// 1 if the file gives no unit.
   double unit_in_mm() const;

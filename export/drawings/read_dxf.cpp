@@ -1,9 +1,10 @@
 /// \file
 /// Reads DXF: ASCII, R12 to R2018. Straight and curved entities of model space become polylines in mm. Open ones whose
 /// ends meet on one layer (end_points.h: within 1e-4 mm) are joined. Other entities (text, dimensions, hatches …) are
-/// listed in `ignored`.
+/// listed in `ignored`,
+/// and so are invisible entities and those of layers that are off or frozen.
 ///
-/// Bytes → tags (dxf_tags.h) → header, blocks, entities (dxf_file.h) → placed curves (draw_dxf.h, with entity_curves.h
+/// Bytes → tags (dxf_tags.h) → header, layers, blocks, entities (dxf_file.h) → placed curves (draw_dxf.h, with entity_curves.h
 /// and sampled_curves.h) → chains (join_paths.h).
 ///
 /// Safe for any bytes: every number is checked, blocks nest at most 16 deep, and the whole drawing may have 4 million

@@ -68,7 +68,7 @@ class Paper {
   Vec2 low_{1e9, 1e9}, high_{-1e9, -1e9};
 };
 
-/// The letters of the mechanism at their places: axis O, pins B and D, the pulley's axis G, and C on a lever.
+/// The letters of the mechanism at their places: axis O, pins B and D, the pulley's axis G, and C on the link.
 std::string letters(const Mechanism& mechanism, const Paper& paper) {
   std::string svg;
   const auto letter = [&](const char* name, const Vec2& place) {
@@ -78,7 +78,7 @@ std::string letters(const Mechanism& mechanism, const Paper& paper) {
   letter("B", {-mechanism.guides.EB, -mechanism.guides.OE});
   letter("D", {mechanism.guides.ED, -mechanism.guides.OE});
   letter("G", pulley_axis(mechanism));
-  if (mechanism.joint.is_plain()) letter("C", {0, mechanism.joint.R});
+  letter("C", {0, mechanism.joint.R});
   return svg;
 }
 

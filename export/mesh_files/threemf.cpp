@@ -434,11 +434,18 @@ solid::TriangleMesh ThreemfReader::read() {
   ModelPart& root = part(model_path());
   const pugi::xml_node model = child(root.xml, "model");
   bool is_empty = true;
+  int unprintable = 0;
   for_children(child(model, "build"), "item", [&](const pugi::xml_node& item) {
     is_empty = false;
+    if (collapsed(item.attribute("printable").value()) == "0") {
+      ++unprintable;
+      return;
+    }
     add_reference(root, item, {}, 0);
   });
   if (is_empty) fail(root, model, "the build is empty: place the object on the plate and export it again");
+  if (mesh_.triangles.empty() && unprintable > 0)
+    fail(root, model, "no part of the build is marked as printable: mark it so and export it again");
   if (mesh_.triangles.empty() && left_out_ > 0)
     fail(root, model, "the build holds supports and auxiliary objects alone, no part: export the part with them");
   return std::move(mesh_);

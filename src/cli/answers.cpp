@@ -209,9 +209,9 @@ std::vector<std::string> split_words(std::string_view text) {
 }
 
 /// Words for a kind of entry, beside its description.
-std::string_view kind_of(const ShaftType&) { return "motor shaft"; }
-std::string_view kind_of(const HornType& type) { return type.horn.spline_teeth > 0 ? "spline" : "servo horn"; }
-std::string_view kind_of(const TendonType&) { return ""; }
+std::string kind_of(const ShaftType& type) { return fmt::format("motor shaft {} mm", rounded(type.diameter)); }
+std::string kind_of(const HornType& type) { return type.horn.spline_teeth > 0 ? "spline" : "servo horn"; }
+std::string kind_of(const TendonType&) { return ""; }
 
 /// The entries whose name or description has all words; the entry of that name alone if there is one.
 template <class Type>
@@ -222,8 +222,10 @@ std::vector<const Type*> matching(const std::vector<Type>& types, const std::vec
     std::string joined = text;
     std::erase_if(joined, [](char c) { return c == ' ' || c == '-'; });
     if (words.size() == 1 && words.front() == simplified(type.name)) return {&type};
-    const auto has = [&](const std::string& word) {
-      return text.find(word) != std::string::npos || joined.find(word) != std::string::npos;
+    const auto has = [&](std::string word) {
+      if (text.find(word) != std::string::npos) return true;
+      std::erase(word, '-');
+      return !word.empty() && joined.find(word) != std::string::npos;
     };
     if (!words.empty() && std::all_of(words.begin(), words.end(), has)) found.push_back(&type);
   }
@@ -233,6 +235,21 @@ std::vector<const Type*> matching(const std::vector<Type>& types, const std::vec
 template <class Type>
 void add_names(std::string& list, const std::vector<const Type*>& types) {
   for (const Type* type : types) list += (list.empty() ? "" : ", ") + type->name;
+}
+
+/// True for shafts that differ in form only, such as D and round: the first in the catalogue is the usual one.
+bool is_one_family(const std::vector<const ShaftType*>& types) {
+  return !types.empty() && std::all_of(types.begin(), types.end(), [&types](const ShaftType* type) {
+    return type->diameter == types.front()->diameter;
+  });
+}
+
+/// "nema17-d5; also in the list: nema17-round5"; empty for one shaft.
+std::string choice_words(const std::vector<const ShaftType*>& types) {
+  if (types.size() < 2) return {};
+  std::string others;
+  add_names(others, std::vector(types.begin() + 1, types.end()));
+  return fmt::format("{}; also in the list: {}", types.front()->name, others);
 }
 
 /// The rotation of a motor in the catalogue that has this horn, rad; 0: unlimited.
@@ -438,10 +455,11 @@ Answer<TypedMotor> read_entry(const std::vector<std::string>& words, std::string
   const std::vector<const ShaftType*> of_shafts = matching(shafts(), words);
   const std::vector<const HornType*> of_horns = matching(horns(), words);
   TypedMotor motor;
-  if (of_shafts.size() == 1 && (of_horns.empty() || words == std::vector{simplified(of_shafts.front()->name)})) {
+  if (is_one_family(of_shafts) && (of_horns.empty() || words == std::vector{simplified(of_shafts.front()->name)})) {
     motor.shaft = of_shafts.front()->name;
     motor.model = named_model(words, motor.shaft);
     motor.words = of_shafts.front()->description;
+    motor.choice = choice_words(of_shafts);
     return motor;
   }
   if (of_horns.size() == 1 && of_shafts.empty()) {

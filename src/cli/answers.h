@@ -47,6 +47,7 @@ struct TypedMotor {
   double travel = 0;        ///< rotation of a hobby servo, rad; 0: unlimited
   double typed_travel = 0;  ///< rotation that was typed beside its name, rad
   std::string words;        ///< for the summary
+  std::string choice;       ///< name of the shaft that was chosen from a family, and the others; empty without a choice
 };
 /// A name of the catalogue or part of it ("n20-d3", "MG996R horn", "nema 17 round"), a model ("XL430-W250"), or a shaft
 /// ("5 mm", "1/4 in D"). "180 deg" beside it is its travel. A plain number is in `plain`.

@@ -38,12 +38,10 @@ std::string files_text(const std::vector<OutputFile>& outputs, const std::string
 }
 
 void add_notes(const pipeline::CalibrateResult& result, bool verbose, Reply& reply) {
-  const std::vector<std::string>& notes = result.product.measurement.notes;
-  const std::vector<std::string>& sources = result.product.measurement.sources;
+  const measurement::Measurement& logs = result.product.measurement;
   reply.diagnostics = result.product.file.warnings;
-  for (const std::string& words : sources) reply.diagnostics.push_back(note(Severity::note, words));
-  for (const std::string& words : verbose ? notes : formats::shortened_notes(notes))
-    reply.diagnostics.push_back(note(Severity::note, words));
+  add_log_notes(logs.runs, logs.sources, reply);
+  add_log_notes(logs.runs, verbose ? logs.notes : formats::shortened_notes(logs.notes), reply);
   if (result.rewritten)
     reply.diagnostics.push_back(
         note(Severity::note,

@@ -68,10 +68,9 @@ Reply reply_of(const pipeline::CompareResult& result, const std::string& folder,
   Reply reply;
   reply.diagnostics = product.file.warnings;
   reply.units = product.file.mechanism.units;
-  for (const std::string& words : product.measurement.sources) reply.diagnostics.push_back(note(Severity::note, words));
-  for (const std::string& words :
-       verbose ? product.measurement.notes : formats::shortened_notes(product.measurement.notes))
-    reply.diagnostics.push_back(note(Severity::note, words));
+  const measurement::Measurement& logs = product.measurement;
+  add_log_notes(logs.runs, logs.sources, reply);
+  add_log_notes(logs.runs, verbose ? logs.notes : formats::shortened_notes(logs.notes), reply);
   reply.fields = parse_json(formats::comparison_json(product));
   if (!result.outputs.empty()) {
     reply.fields["folder"] = folder;

@@ -65,11 +65,7 @@ Diagnostic motor_note(const pipeline::ChosenLayout& layout) {
   joint.motor = {};
   joint.motor.enforce = true;  // compares the models of the catalogue, without limits
   const analysis::MotorCheck motor = *analysis::under_load(joint).motor;
-  const MotorModel* strongest = nullptr;
-  for (const MotorModel& model : motor_models()) {
-    const bool is_stronger = strongest == nullptr || model.stall_torque > strongest->stall_torque;
-    if (is_stronger && fits_bore(model, joint.body)) strongest = &model;
-  }
+  const MotorModel* strongest = strongest_motor_that_fits(joint.body);
   const std::string suitable =
       motor.sufficient_models.empty() ? "no motor of the catalogue does" : "suitable: " + motor.models_text();
   std::string words = fmt::format("under the load the motor has to hold {} Nmm", rounded(motor.torque.value, 3));

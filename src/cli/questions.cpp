@@ -161,7 +161,7 @@ const std::vector<Question>& questions() {
        fixed_proposal("5 mm"),
        [](Answers& answers, std::string_view text) {
          return stored<TypedMotor>(read_motor(text, answers.plain), answers.motor, [&answers](const TypedMotor& motor) {
-           return motor_words(answers) +
+           return motor_words(answers) + (motor.choice.empty() ? "" : " (" + motor.choice + ")") +
                   (motor.travel > 0 ? fmt::format("; turns {} deg", rounded(degrees(motor.travel))) : "");
          });
        }},

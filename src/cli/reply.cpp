@@ -141,4 +141,16 @@ Diagnostic about_file(Severity severity, std::string file, std::string message, 
   return diagnostic;
 }
 
+void add_log_notes(const std::vector<measurement::Run>& runs, const std::vector<std::string>& notes, Reply& reply) {
+  for (const std::string& words : notes) {
+    std::size_t end = 0;  // of the name
+    for (const measurement::Run& run : runs) {
+      if (words.starts_with(run.name)) end = std::max(end, words.find(": ", run.name.size()));
+    }
+    reply.diagnostics.push_back(end == 0 || end == std::string::npos
+                                    ? note(Severity::note, words)
+                                    : about_file(Severity::note, words.substr(0, end), words.substr(end + 2)));
+  }
+}
+
 }  // namespace fusee::cli

@@ -7,6 +7,7 @@
 
 #include "base/json.h"
 #include "fusee/base.h"
+#include "fusee/measurement.h"
 #include "fusee/mechanism.h"
 #include "fusee/profile.h"
 
@@ -58,5 +59,7 @@ void explain_without_law(const std::string& file, const profile::SynthesisResult
 /// A diagnostic without file position. about_file() makes one for a whole file.
 Diagnostic note(Severity severity, std::string message, std::string hint = {});
 Diagnostic about_file(Severity severity, std::string file, std::string message, std::string hint = {});
+/// Adds the notes about logs. A note about one log names it as its place: "run_1.csv: note: the header is line 4".
+void add_log_notes(const std::vector<measurement::Run>& runs, const std::vector<std::string>& notes, Reply& reply);
 
 }  // namespace fusee::cli

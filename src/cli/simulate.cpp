@@ -41,8 +41,8 @@ std::size_t count_of(const formats::Simulation& simulation, joint::EquilibriumSt
 }
 
 void add_findings(const formats::Simulation& simulation, Reply& reply) {
-  for (const std::string& words : simulation.log.sources) reply.diagnostics.push_back(note(Severity::note, words));
-  for (const std::string& words : simulation.log.notes) reply.diagnostics.push_back(note(Severity::note, words));
+  add_log_notes(simulation.log.runs, simulation.log.sources, reply);
+  add_log_notes(simulation.log.runs, simulation.log.notes, reply);
   if (const std::size_t rows = count_of(simulation, joint::EquilibriumStatus::loose); rows > 0) {
     reply.diagnostics.push_back(note(Severity::warning,
                                      "the joint is loose in " + rows_words(rows) + ", first at " +

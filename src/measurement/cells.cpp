@@ -207,15 +207,18 @@ void pass_half_of_day(Scanner& scanner) {
 
 /// "10:00", "10:00:00.020", "2:00:00 PM": s since midnight. "05:00.020", as spreadsheets export times with
 /// milliseconds: s since the hour.
-std::optional<double> time_of_day(Scanner& scanner) {
+/// `compact`: "101500.020" is one, too.
+std::optional<double> time_of_day(Scanner& scanner, bool compact) {
   const auto hour = scanner.number(1, 2);
-  if (!hour || !scanner.take(":")) return std::nullopt;
+  const bool has_colon = hour && scanner.take(":");
+  if (!hour || (!has_colon && !compact)) return std::nullopt;
   const auto minute = scanner.number(2, 2);
   if (!minute || *minute > 59) return std::nullopt;
-  if (scanner.take(".,")) return *hour > 59 ? std::nullopt : std::optional(60 * *hour + *minute + scanner.fraction());
+  if (has_colon && scanner.take(".,"))
+    return *hour > 59 ? std::nullopt : std::optional(60 * *hour + *minute + scanner.fraction());
   if (*hour > 24) return std::nullopt;
   double second = 0;
-  if (scanner.take(":")) {
+  if (scanner.take(":") || !has_colon) {
     const auto whole = scanner.number(2, 2);
     if (!whole || *whole > 60) return std::nullopt;
     second = *whole + (scanner.take(".,") ? scanner.fraction() : 0);
@@ -239,14 +242,16 @@ int month_of(std::string_view name) {
 
 bool is_date(double month, double day) { return month >= 1 && month <= 12 && day >= 1 && day <= 31; }
 
-/// "2025-03-01T", "2025/3/1 ": s since 1970.
+/// "2025-03-01T", "2025/3/1 ", "20250301T": s since 1970.
 std::optional<double> date_by_year(Scanner& scanner) {
   const auto year = scanner.number(4, 4);
-  if (!year || !scanner.take("-/")) return std::nullopt;
-  const auto month = scanner.number(1, 2);
-  if (!month || !scanner.take("-/")) return std::nullopt;
-  const auto day = scanner.number(1, 2);
-  if (!day || !is_date(*month, *day) || !scanner.take("Tt _")) return std::nullopt;
+  if (!year) return std::nullopt;
+  const bool has_marks = scanner.take("-/");
+  const auto month = scanner.number(has_marks ? 1 : 2, 2);
+  if (!month || (has_marks && !scanner.take("-/"))) return std::nullopt;
+  const auto day = scanner.number(has_marks ? 1 : 2, 2);
+  if (!day || (!has_marks && !scanner.rest().starts_with('T') && !scanner.rest().starts_with('t'))) return std::nullopt;
+  if (!is_date(*month, *day) || !scanner.take("Tt _")) return std::nullopt;
   return 86400 * days_since_1970(static_cast<int>(*year), static_cast<int>(*month), static_cast<int>(*day));
 }
 
@@ -319,7 +324,7 @@ std::optional<double> read_time_stamp(std::string_view text) {
     scanner = ahead;
     break;
   }
-  const auto of_day = time_of_day(scanner);
+  const auto of_day = time_of_day(scanner, has_date);
   if (!of_day) return std::nullopt;
   scanner.take(" ");
   const auto ahead = has_date ? zone(scanner) : 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <utility>
 
 #include "base/text.h"
 #include "measurement/ros_names.h"
@@ -40,8 +41,10 @@ std::string argument(const std::string& name) {
 
 class ColumnFinder {
  public:
-  ColumnFinder(const std::vector<std::string>& names, const MeasurementOptions& options)
-      : names_(names), options_(options) {}
+  ColumnFinder(const std::vector<std::string>& names, const MeasurementOptions& options, bool above_numbers)
+      : names_(names), options_(options) {
+    if (above_numbers && ros_angles(names).empty()) by_words_ = choose_table_angles(names, known_angles());
+  }
 
   Header find() {
     bool all_angles = true;
@@ -50,6 +53,7 @@ class ColumnFinder {
       std::optional<std::size_t> index =
           given != options_.columns.end() ? index_of(to_utf8(given->second)) : usual_index(role, usual);
       if (!index && given == options_.columns.end()) index = ros_index(role);
+      if (!index && given == options_.columns.end()) index = index_by_words(role);
       const bool is_needed = role == "alpha" || (role == "theta" && options_.needs_theta);
       if (index) {
         take(role, *index, given != options_.columns.end());
@@ -59,6 +63,7 @@ class ColumnFinder {
       }
     }
     header_.has_angles = all_angles;
+    refuse_missing();
     refuse_shared_columns();
     note_unread_load();
     return std::move(header_);
@@ -100,6 +105,27 @@ class ColumnFinder {
     }
     const AnglePair pair = choose_ros_angles(names_, given);
     return role == "alpha" ? pair.alpha : pair.theta;
+  }
+
+  /// Columns of options and usual names.
+  AnglePair known_angles() {
+    const auto known = [&](const char* role, const char* usual) {
+      const auto given = options_.columns.find(role);
+      return given != options_.columns.end() ? index_of(to_utf8(given->second)) : usual_index(role, usual);
+    };
+    const Header before = header_;
+    const AnglePair found{known("alpha", "alpha_deg"), known("theta", "theta_deg")};
+    header_ = before;  // find() reports problems and notes
+    return found;
+  }
+
+  std::optional<std::size_t> index_by_words(const std::string& role) {
+    if (role != "alpha" && role != "theta") return std::nullopt;
+    const std::optional<std::size_t> index = role == "alpha" ? by_words_.alpha : by_words_.theta;
+    if (index)
+      header_.notes.push_back(role + ": taken from the column " + shown(names_[*index]) + ", by its name (--column " +
+                              role + "=NAME overrides this)");
+    return index;
   }
 
   std::optional<std::size_t> usual_index(const std::string& role, const std::string& usual) {
@@ -196,6 +222,34 @@ class ColumnFinder {
     }
   }
 
+  /// Refuses angles that no option names, with the options to give.
+  void refuse_missing() {
+    if (missing_.empty()) return;
+    const bool both = missing_.size() > 1;
+    const AnglePair likely = likely_table_angles(names_, known_angles());
+    std::string options;
+    for (const auto& [role, usual] : missing_) {
+      const std::optional<std::size_t> index = role == "alpha" ? likely.alpha : likely.theta;
+      if (!index) options.clear();
+      if (!index) break;
+      options += (options.empty() ? "" : " ") + ("--column " + role + "=" + argument(names_[*index]));
+    }
+    const std::string unit = " (in degrees, or its name ends in its unit: _rad, _turns, _counts)";
+    std::string message = "there is no column " + missing_.front().second;
+    if (both) message += " and no " + missing_.back().second;
+    if (options.empty()) {
+      for (const auto& [role, usual] : missing_)
+        options += (options.empty() ? "" : " ") + ("--column " + role + "=NAME");
+      problem(message,
+              "the columns are " + list_of(names_) + "; select " + (both ? "them" : "one") + " with " + options + unit);
+    } else {
+      problem(message, "the columns are " + list_of(names_) + "; add " + options +
+                           (both                                ? " if these are the angles of motor and joint"
+                            : missing_.front().first == "alpha" ? " if that is the motor's angle"
+                                                                : " if that is the joint's angle"));
+    }
+  }
+
   void missing(const std::string& role, const std::string& wanted) {
     if (const std::vector<std::size_t> angles = ros_angles(names_); !angles.empty()) return missing_ros(role, angles);
     std::vector<std::string> others;
@@ -206,6 +260,10 @@ class ColumnFinder {
     std::string nearest = nearest_word(wanted, others);
     for (const std::string& name : others) {
       if (nearest.empty() && lower(name).find(role) != std::string::npos) nearest = name;
+    }
+    if (nearest.empty() && options_.columns.count(role) == 0) {
+      missing_.emplace_back(role, wanted);
+      return;
     }
     const std::string unit = quantity_of(role) == Quantity::angle
                                  ? " (in degrees, or its name ends in its unit: _rad, _turns, _counts)"
@@ -243,6 +301,8 @@ class ColumnFinder {
   const std::vector<std::string>& names_;
   const MeasurementOptions& options_;
   Header header_;
+  AnglePair by_words_;
+  std::vector<std::pair<std::string, std::string>> missing_;  ///< roles and their usual names
 };
 
 }  // namespace
@@ -271,8 +331,8 @@ double Sample::*member_of(const std::string& role) {
   return nullptr;  // cycle: determined from α
 }
 
-Header find_columns(const std::vector<std::string>& names, const MeasurementOptions& options) {
-  return ColumnFinder(names, options).find();
+Header find_columns(const std::vector<std::string>& names, const MeasurementOptions& options, bool above_numbers) {
+  return ColumnFinder(names, options, above_numbers).find();
 }
 
 }  // namespace fusee::measurement

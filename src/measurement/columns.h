@@ -52,7 +52,10 @@ struct Header {
   bool has_angles = false;           ///< true: every required angle is named, so this line is the header
 };
 
-Header find_columns(const std::vector<std::string>& names, const MeasurementOptions& options);
+/// `above_numbers`: the line stands above a row of as many numbers, so that words such as "servo" and "joint" in its
+/// names choose the angles.
+Header find_columns(const std::vector<std::string>& names, const MeasurementOptions& options,
+                    bool above_numbers = false);
 
 /// Determines the units that neither option nor name states, converts `samples` to s, rad, N, Nm or Nmm and °C, and
 /// unwraps counters of 16 and 32 bits. Returns one line about unusual units, or "". Throws InputError (`name`) for

@@ -64,6 +64,90 @@ std::optional<std::size_t> only_one(const std::vector<std::size_t>& list) {
   return list.size() == 1 ? std::optional(list.front()) : std::nullopt;
 }
 
+// Tables --------------------------------------------------------------------------------------------------------------
+
+constexpr std::array<std::string_view, 6> k_further_motor_words = {"mot",   "stepper", "spool",
+                                                                   "winch", "antrieb", "motorwinkel"};
+constexpr std::array<std::string_view, 11> k_further_joint_words = {
+    "gelenk", "gelenkwinkel", "finger", "elbow", "knee", "wrist", "shoulder", "thumb", "hip", "ankle", "limb"};
+constexpr std::array<std::string_view, 15> k_sensor_words = {"encoder", "enc",   "pot",      "poti", "potentiometer",
+                                                             "sensor",  "angle", "winkel",   "pos",  "position",
+                                                             "hall",    "adc",   "resolver", "imu",  "as"};
+constexpr std::array<std::string_view, 12> k_command_words = {
+    "cmd", "command", "commanded", "setpoint", "set", "target", "ref", "sp", "demand", "reference", "desired", "goal"};
+constexpr std::array<std::string_view, 50> k_other_words = {
+    "velocity", "speed",   "vel",    "rate",  "omega", "current", "torque", "tau",   "force",    "load",
+    "temp",     "effort",  "volt",   "pwm",   "duty",  "power",   "error",  "err",   "time",     "timestamp",
+    "millis",   "micros",  "t",      "ms",    "us",    "s",       "sec",    "index", "id",       "row",
+    "sample",   "voltage", "status", "state", "mode",  "acc",     "accel",  "a",     "ma",       "v",
+    "mv",       "nm",      "rpm",    "rps",   "dps",   "w",       "hz",     "date",  "pressure", "temperature"};
+
+/// A column of a table that may be an angle.
+struct NamedAngle {
+  std::size_t index = 0;
+  Words words;
+  bool is_command = false;
+
+  bool is_of_motor() const { return has_one_of(words, k_motor_words) || has_one_of(words, k_further_motor_words); }
+  bool is_of_joint() const { return has_one_of(words, k_joint_words) || has_one_of(words, k_further_joint_words); }
+};
+
+/// "A0": an analog input.
+bool is_analog_input(std::string_view name) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  return name.size() > 1 && (name.front() == 'A' || name.front() == 'a') &&
+         std::all_of(name.begin() + 1, name.end(), is_digit);
+}
+
+bool is_other_quantity(std::string_view name) {
+  if (is_analog_input(name)) return false;
+  return name.empty() || has_one_of(words_in(name), k_other_words) ||
+         parse_column_name(name, Quantity::load).unit != nullptr ||
+         parse_column_name(name, Quantity::temperature).unit != nullptr;
+}
+
+/// The columns that may be angles, with the words in which they differ.
+std::vector<NamedAngle> named_angles(const std::vector<std::string>& names) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!is_other_quantity(trimmed(names[i]))) indices.push_back(i);
+  }
+  const std::vector<Words> words = distinguishing_words(names, indices);
+  std::vector<NamedAngle> angles;
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    angles.push_back({indices[i], words[i], has_one_of(words_in(names[indices[i]]), k_command_words)});
+  return angles;
+}
+
+bool is_sensor(const NamedAngle& angle, const std::vector<std::string>& names) {
+  const std::string_view name = trimmed(names[angle.index]);
+  return !angle.is_command && (is_analog_input(name) || has_one_of(words_in(name), k_sensor_words));
+}
+
+/// Columns of the table by the side that their words name.
+struct TableAngles {
+  std::vector<std::size_t> motors, servo_commands, joints, sensors, commands;
+};
+
+TableAngles table_angles(const std::vector<std::string>& names, const AnglePair& given) {
+  TableAngles found;
+  for (const NamedAngle& angle : named_angles(names)) {
+    if (angle.index == given.alpha || angle.index == given.theta) continue;
+    const bool of_motor = angle.is_of_motor() && !angle.is_of_joint();
+    const bool of_joint = angle.is_of_joint() && !angle.is_of_motor();
+    if (angle.is_command) {
+      (of_motor ? found.servo_commands : found.commands).push_back(angle.index);
+    } else if (of_motor) {
+      found.motors.push_back(angle.index);
+    } else if (of_joint) {
+      found.joints.push_back(angle.index);
+    } else if (is_sensor(angle, names)) {
+      found.sensors.push_back(angle.index);
+    }
+  }
+  return found;
+}
+
 bool ends_name(std::string_view name, std::string_view end) { return name.ends_with(end) && name.size() > end.size(); }
 
 }  // namespace
@@ -132,6 +216,35 @@ AnglePair choose_ros_angles(const std::vector<std::string>& names, AnglePair giv
   });
   (found.alpha ? found.theta : found.alpha) = only_one(rest);
   return found;
+}
+
+AnglePair choose_table_angles(const std::vector<std::string>& names, AnglePair given) {
+  const TableAngles angles = table_angles(names, given);
+  AnglePair found = given;
+  if (!found.alpha) found.alpha = only_one(angles.motors.empty() ? angles.servo_commands : angles.motors);
+  if (!found.theta) found.theta = only_one(angles.joints);
+  if (found.alpha && !found.theta && angles.joints.empty()) found.theta = only_one(angles.sensors);
+  if (found.theta && !found.alpha && angles.motors.empty()) found.alpha = only_one(angles.sensors);
+  return found;
+}
+
+AnglePair likely_table_angles(const std::vector<std::string>& names, AnglePair given) {
+  const TableAngles angles = table_angles(names, given);
+  AnglePair likely = given;
+  const auto take_first = [](std::optional<std::size_t>& place, const std::optional<std::size_t>& other,
+                             const std::vector<std::size_t>& list) {
+    for (const std::size_t index : list) {
+      if (!place && index != other) place = index;
+    }
+  };
+  take_first(likely.alpha, likely.theta, angles.motors);
+  take_first(likely.theta, likely.alpha, angles.joints);
+  take_first(likely.alpha, likely.theta, angles.servo_commands);
+  if (angles.sensors.size() > 1) take_first(likely.alpha, likely.theta, angles.sensors);
+  take_first(likely.theta, likely.alpha, angles.sensors);
+  take_first(likely.alpha, likely.theta, angles.commands);
+  take_first(likely.alpha, likely.theta, angles.sensors);
+  return likely;
 }
 
 }  // namespace fusee::measurement

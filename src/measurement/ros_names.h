@@ -1,5 +1,6 @@
 /// \file
-/// Internal: names of logged numbers as ROS tools have them: "/joint_states/motor/position".
+/// Internal: names of logged numbers as ROS tools have them, "/joint_states/motor/position", and names of angles as
+/// builders have them, "servo_deg".
 #pragma once
 
 #include <cstddef>
@@ -35,5 +36,13 @@ struct AnglePair {
   std::optional<std::size_t> alpha, theta;
 };
 AnglePair choose_ros_angles(const std::vector<std::string>& names, AnglePair given);
+
+/// Motor and joint among the columns of a table, by words such as "servo" and "joint". Given ones are kept. Beside one
+/// that is found, the only other angle sensor ("pot", "encoder") is the other one. Columns of other quantities
+/// ("motor_current") and of commands ("setpoint") are none, except for the command of a servo without a sensor.
+AnglePair choose_table_angles(const std::vector<std::string>& names, AnglePair given);
+
+/// The likeliest columns for a question, also where the choice is not obvious. Given ones are kept.
+AnglePair likely_table_angles(const std::vector<std::string>& names, AnglePair given);
 
 }  // namespace fusee::measurement

@@ -40,8 +40,9 @@ double* member(joint::Mounting& mounting, const std::string& role) {
 
 bool all_numbers(const std::vector<std::string>& cells) {
   double value = 0;
-  return std::all_of(cells.begin(), cells.end(),
-                     [&](const std::string& cell) { return read_number(cell, value) == Cell::number; });
+  return std::all_of(cells.begin(), cells.end(), [&](const std::string& cell) {
+    return read_number(cell, value) == Cell::number || read_time_stamp(cell);
+  });
 }
 
 /// Separator of a spreadsheet's "sep=;" line; 0 for another line.
@@ -119,7 +120,11 @@ class RowReader {
       return;
     }
     const std::string_view unstamped = without_stamp(content);
-    if (columns_.empty()) return find_header(unstamped);
+    if (columns_.empty()) {
+      find_header(unstamped);
+      if (std::exchange(is_header_above_, false)) take(record);
+      return;
+    }
     row(separator_ == '\t' && !is_stamped_ ? text : unstamped);
   }
 
@@ -317,9 +322,26 @@ class RowReader {
     } else if (!above_row_ && numbers && !all_numbers(last_.names) && last_.names.size() == here.names.size()) {
       likely_ = last_;
       above_row_ = true;
+      if (take_likely_header()) return;
     }
     last_ = std::move(here);
     if (++preamble_ > k_longest_preamble) refuse_without_header();
+  }
+
+  /// Takes the line above a row of numbers if words in its names choose the angles.
+  bool take_likely_header() {
+    std::vector<std::string> names = likely_.names;
+    if (is_stamped_) names.emplace_back("time");
+    Header header = find_columns(names, options_, true);
+    if (!header.has_angles) return false;
+    separator_ = stated_separator_ != 0 ? stated_separator_ : separator_of(likely_.text);
+    header_text_ = likely_.text;
+    --preamble_;  // the header is none
+    const long long row = std::exchange(line_, likely_.line);
+    take_header(names, std::move(header));
+    line_ = row;
+    is_header_above_ = true;
+    return true;
   }
 
   [[noreturn]] void refuse_without_header() {
@@ -608,7 +630,8 @@ class RowReader {
   std::string comment_, header_text_, stamped_row_;
   HeaderLine likely_, last_;
   char separator_ = ',', stated_separator_ = 0;
-  bool above_row_ = false, is_stamped_ = false, may_have_units_ = true, padding_is_here_ = false;
+  bool above_row_ = false, is_header_above_ = false, is_stamped_ = false, may_have_units_ = true,
+       padding_is_here_ = false;
   std::size_t preamble_ = 0, headers_ = 0, dropped_ = 0, padding_ = 0;
   std::size_t faults_ = 0, faults_at_last_row_ = 0;
   std::size_t count_ = 0;

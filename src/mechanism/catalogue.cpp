@@ -205,6 +205,14 @@ bool fits_bore(const MotorModel& model, const Body& body) {
   });
 }
 
+const MotorModel* strongest_motor_that_fits(const Body& body) {
+  const MotorModel* strongest = nullptr;
+  for (const MotorModel& model : motor_models())
+    if (fits_bore(model, body) && (strongest == nullptr || model.stall_torque > strongest->stall_torque))
+      strongest = &model;
+  return strongest;
+}
+
 MotorModel motor_limits(const Motor& motor) {
   const MotorModel* known = find_motor_model(motor.model);
   MotorModel limits = known == nullptr ? MotorModel{} : *known;

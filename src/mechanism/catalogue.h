@@ -127,6 +127,8 @@ const std::vector<TemplateType>& template_types();  ///< in the order of the lis
 const HornType* find_horn(std::string_view name);
 const ShaftType* find_shaft(std::string_view name);
 const MotorModel* find_motor_model(std::string_view name);
+/// The model with the largest torque among those of the body's shaft or horn; null when there is none.
+const MotorModel* strongest_motor_that_fits(const Body& body);
 
 /// True if the body is made for a shaft or horn of this motor.
 bool fits_bore(const MotorModel& model, const Body& body);

@@ -12,8 +12,10 @@
 #include "fusee/profile.h"
 #include "fusee/solid.h"
 #include "fusee/transmission.h"
+#include "mechanism/catalogue.h"
 #include "pipeline/design.h"
 #include "pipeline/multi_turn.h"
+#include "solid/plan.h"
 #include "transmission/load.h"
 
 namespace fusee::pipeline {
@@ -33,6 +35,8 @@ constexpr double k_least_idler = 8.0;
 constexpr double k_least_length_with_idlers = 60.0;
 // Pitch radius of the largest drum over the link length: beyond it the build warns that the tendon breaks.
 constexpr double k_widest_drum = 0.5;
+// A drum that is only wider for features of the pulley is kept below that.
+constexpr double k_widest_drum_for_features = 0.45;
 // Links up to this length get a lever, mm: the proportions of a longer one exceed the bounds of the keys.
 constexpr double k_longest_lever = 5000.0;
 // Full builds of candidates for one search.
@@ -112,6 +116,7 @@ class Candidates {
     add_lever();
     if (usual <= fitting) add_drum(usual);
     if (fitting >= least) add_drum(std::min(usual, fitting));
+    add_wider_drums(std::min(usual, fitting));
     if (needs_.travel == 0) add_turns(usual);
     // Beyond a limit of bends or strength: the build warns.
     add_drum(std::min(fitting, usual));
@@ -139,6 +144,16 @@ class Candidates {
     add_drum_with(rho, largest_, "a drum on the joint");
   }
 
+  /// A drum and a pulley that both grow, for features that have no space on a smaller pulley. The pulley is no wider
+  /// than the drum: the motor needs no more torque than the joint.
+  void add_wider_drums(double rho) {
+    const double widest = std::min(k_widest_drum_for_features * joint_.joint.R, largest_);
+    for (double wider = rho; wider < widest;) {
+      wider = std::min(1.35 * wider, widest);
+      for (const double share : {0.8, 1.0}) add_drum_with(wider, share * wider, "a drum on the joint");
+    }
+  }
+
   /// A small pulley that turns more than once.
   void add_turns(double rho) {
     for (const double share : {0.6, 0.75, 0.9, 1.0}) {
@@ -153,7 +168,11 @@ class Candidates {
     candidate.mechanism.pulley.r1 = std::min(tidy(r1), std::floor(1e3 * largest_) / 1e3);
     put_drum(candidate.mechanism, rho, candidate.mechanism.pulley.r1);
     candidate.is_spare = candidate.mechanism.pulley.r1 > rho;
-    all_.push_back(std::move(candidate));
+    const auto is_same = [&candidate](const Candidate& other) {
+      return other.words == candidate.words && other.mechanism.pulley.r1 == candidate.mechanism.pulley.r1 &&
+             other.mechanism.joint.drum_radius == candidate.mechanism.joint.drum_radius;
+    };
+    if (std::none_of(all_.begin(), all_.end(), is_same)) all_.push_back(std::move(candidate));
   }
 
   /// Pins, or idlers where a pin would be too thick or would wear the tendon.
@@ -206,17 +225,45 @@ DeclaredMechanism with_tidy_radius(DeclaredMechanism mechanism) {
   return mechanism;
 }
 
-/// Fewer warnings are better, then fewer omitted features.
+/// True if the catalogue has motors of this shaft or horn, and none of them holds the load.
+bool exceeds_its_motors(const Mechanism& mechanism) {
+  const MotorModel* strongest = strongest_motor_that_fits(mechanism.body);
+  if (strongest == nullptr) return false;
+  Mechanism joint = mechanism;
+  joint.motor = {};
+  joint.motor.enforce = true;  // computes the torque without limits
+  return analysis::under_load(joint).motor->torque.value > strongest->stall_torque;
+}
+
+/// Shortcomings by their weight: the set screw holds the pulley, the channels hold the tendons, the home mark aligns it.
+std::size_t shortcomings(const solid::BodyLayout& layout, const Mechanism& mechanism) {
+  std::size_t weight = layout.notes.size() + (exceeds_its_motors(mechanism) ? 4 : 0);
+  for (const solid::Omission& omission : layout.omissions) {
+    if (omission.feature == "set_screw") weight += 4;
+    if (omission.feature == "home_mark" || omission.feature.starts_with("channel_")) weight += 2;
+  }
+  return weight;
+}
+
+/// Shortcomings of a plan, without a mesh; 0 if only a build can tell.
+std::size_t planned_shortcomings(const DeclaredMechanism& declared) {
+  const Curves curves = curves_of(declared);
+  if (!curves.obstacles.empty()) return 0;
+  const solid::BodyPlan plan = solid::plan_body(curves.joint.mechanism, curves.synthesis);
+  return plan.possible() ? shortcomings(plan.layout, curves.joint.mechanism) : 0;
+}
+
+/// Fewer warnings are better, then fewer shortcomings.
 struct Rank {
   std::size_t warnings = 0;
-  std::size_t notes = 0;  ///< of a pulley of one turn; several turns always have the same notes
+  std::size_t shortcomings = 0;  ///< of a pulley of one turn; several turns always have the same notes
 
   auto operator<=>(const Rank&) const = default;
 };
 
 Rank rank_of(const formats::Product& product) {
   return {product.file.warnings.size() + product.synthesis.warnings.size() + product.holding.warnings.size(),
-          product.helix ? 0 : product.pulley.layout.notes.size()};
+          product.helix ? 0 : shortcomings(product.pulley.layout, product.joint.mechanism)};
 }
 
 /// The tendons' moment arm at home, mm.
@@ -264,13 +311,17 @@ LayoutSearch choose_layout(const LayoutRequirements& requirements, const Candida
   for (Candidate& candidate : Candidates(requirements).all()) {
     if (search.chosen && (requirements.any || candidate.is_spare)) continue;
     // A larger pulley of the same layout may have more features; another layout is not better.
-    if (search.chosen && best.warnings == 0 && (best.notes == 0 || candidate.words != search.chosen->words)) break;
+    if (search.chosen && best.warnings == 0 && (best.shortcomings == 0 || candidate.words != search.chosen->words))
+      break;
     context.begin_step("trying " + candidate.words);
     ChosenLayout layout{file_of(candidate.mechanism), candidate.words, {}, 0, 0, 0};
     if (std::optional<std::string> obstacle = quick_obstacle(layout.file.mechanism)) {
       if (builds == 0) search.obstacle = std::move(*obstacle);  // the last candidate's: it has the most space
       continue;
     }
+    const bool may_be_better =
+        !search.chosen || best.warnings > 0 || planned_shortcomings(layout.file.mechanism) < best.shortcomings;
+    if (!may_be_better) continue;
     if (builds++ == (requirements.any ? k_max_trial_builds : k_max_layout_builds)) break;
     std::optional<std::string> obstacle = built_or_reason(requirements, layout, context);
     const double excess = 0.5 * (layout.diameter - requirements.room) + 0.02;

@@ -226,11 +226,20 @@ class Calibrate(harness.Scratch):
     def test_hold_out_and_columns(self):
         document = self.expect_json("calibrate joint.toml run_1.csv run_2.csv --hold-out run_3.csv --dry-run", 0)
         self.assertEqual(document["held_out"]["runs"], ["run_3.csv"])
-        (self.folder / "other.csv").write_text(run_csv().replace("alpha_deg", "motor"))
+        (self.folder / "other.csv").write_text(run_csv().replace("alpha_deg", "left"))
         self.expect("calibrate joint.toml other.csv", 3, err="other.csv:1:1: error: there is no column alpha_deg")
-        self.expect("calibrate joint.toml other.csv --column alpha=motor --dry-run", 0)
+        self.expect("calibrate joint.toml other.csv --column alpha=left --dry-run", 0)
+        (self.folder / "other.csv").write_text(run_csv().replace("alpha_deg,theta_deg", "encoder,pot"))
+        self.expect("calibrate joint.toml other.csv", 3, err="add --column alpha=encoder --column theta=pot if these are")
+        self.expect("calibrate joint.toml other.csv --column alpha=encoder --column theta=pot --dry-run", 0)
         self.expect("calibrate joint.toml other.csv --column alfa=motor", 2, err="did you mean 'alpha'")
         self.expect("calibrate joint.toml other.csv --column motor", 2, err="role=name")
+
+    def test_note_about_a_log_begins_with_its_name(self):
+        (self.folder / "other.csv").write_text(run_csv().replace("alpha_deg", "motor"))
+        for words in ("calibrate joint.toml other.csv --dry-run", "simulate joint.toml other.csv -o shown.csv"):
+            self.expect(words, 0, err=r"(?m)^other.csv: note: alpha: taken from the column \"motor\"")
+            self.assertNotIn("fusee: note: other.csv", self.fusee(words + " --force").stderr.decode())
 
     def test_units_and_counts_agree(self):
         """One motion in degrees, radians and encoder counts gives the same backlash."""

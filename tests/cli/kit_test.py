@@ -38,6 +38,14 @@ class Kit(harness.Scratch):
         self.expect("check model/link.stl", 0, "valid")
         self.expect("check model/kit.dxf", 0, "valid")
 
+    def test_picture_has_the_letters_of_every_layout(self):
+        for template in ("forearm", "finger_mcp", "elbow_idlers", "wrist_sheath"):
+            (self.folder / "joint.toml").write_bytes(self.fusee(f"new {template}").stdout)
+            self.expect("kit joint.toml --force -o kit", 0)
+            page = (self.folder / "kit/kit.html").read_text()
+            for letter in "OBDGC":
+                self.assertRegex(page, rf"<text[^>]*halo[^>]*>{letter}</text>", template)
+
     def test_is_reproducible(self):
         self.expect("kit arm.toml -o one", 0)
         os.environ["TZ"] = "Pacific/Chatham"

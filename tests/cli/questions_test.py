@@ -108,6 +108,26 @@ class Questions(harness.Scratch):
             tendon = tomllib.loads(text)["tendon"]
             self.assertEqual((tendon["diameter_mm"], tendon["modulus_MPa"]), (0.6, modulus))
 
+    def test_family_of_shafts_takes_the_usual_one(self):
+        begun = ("a", "45", "0 80", "30", "10 N")
+        for typed, name, other in (("NEMA 17", "nema17-d5", "nema17-round5"), ("nema-17 stepper", "nema17-d5", "nema17-round5"),
+                                   ("NEMA 17, 5 mm shaft", "nema17-d5", "nema17-round5"), ("NEMA 23", "nema23-round6.35", "nema23-d6.35"),
+                                   ("8 mm stepper", "round8", "d8")):
+            self.assertIn(f" ({name}; also in the list: {other})", self.understood(*begun, typed)[0], typed)
+        self.assertNotIn("also in the list", self.understood(*begun, "NEMA 17 round")[0])
+        self.assertIn('"stepper" fits several entries', self.understood(*begun, "stepper", "5 mm")[1])  # of three diameters
+        text, _ = self.ask(answers(room="60", motor="NEMA 17"))
+        self.assertIn('shaft = "nema17-d5"', text)
+        self.assertIn("Motor: NEMA 17 stepper, D shaft.", text.replace("\n# ", " "))
+
+    def test_pulley_keeps_its_features_where_there_is_room(self):
+        for length, span, room, motor in (("45", "0 80", "30", "n20-d3"), ("45", "0 80", "25", "n20-d3"), ("60", "-45 45", "30", "5 mm D"),
+                                          ("40", "±90", "40", "nema17-d5"), ("30", "0 90", "30", "3 mm")):
+            text, _ = self.ask(answers(length=length, span=span, room=room, load="5 N", motor=motor))
+            notes = " ".join(self.builds(text, float(room))["notes"])
+            for feature in ("set screw omitted", "no hub", "home mark"):
+                self.assertNotIn(feature, notes, (length, span, room, motor))
+
     def test_invalid_answers_are_repeated(self):
         typed = ["arm", "sixty", "-3", "60 70", "60", "30 -30", "10 30", "30", "-20 20", "30 apples", "40", "3 bananas", "10", "MG996R", "foo",
                  "5 mm", "Dyneema", "1"]

@@ -262,6 +262,11 @@ TEST(LoggedTime, ReadsTimeStamps) {
   expect_motion(read(table("time,alpha_deg,theta_deg", {of_hour, alpha(), theta()})).run);
   EXPECT_DOUBLE_EQ(*read_time_stamp("1970-01-02T00:00:01Z"), 86401);
   EXPECT_DOUBLE_EQ(*read_time_stamp("2025-03-01T10:00:00+02:00"), 1740816000);
+  EXPECT_DOUBLE_EQ(*read_time_stamp("20250301T100000+0200"), 1740816000);  // the basic form of ISO 8601
+  EXPECT_DOUBLE_EQ(*read_time_stamp("20240131T101500.125"), 1706696100.125);
+  EXPECT_FALSE(read_time_stamp("20240131"));
+  EXPECT_FALSE(read_time_stamp("20241331T101500"));
+  EXPECT_FALSE(read_time_stamp("101500.125"));
   for (const char* const text : {"2025-03-01", "10", "2025-13-01T10:00:00", "10:61", "10:00:00x", "", "60:00.5",
                                  "32.01.2025 10:00", "01.13.2025 10:00", "13/13/2025 10:00", "1 dog 10:00"})
     EXPECT_FALSE(read_time_stamp(text)) << text;
@@ -513,8 +518,73 @@ TEST(LoggedText, SkipsPreamble) {
   EXPECT_NEAR(degrees(found.run.samples[20].alpha) - 180, alpha_of(20), 0.05);
   EXPECT_THAT(found.notes, HasSubstr("the header is line 4"));
   // Without known names, the likeliest header is the one reported.
-  EXPECT_THAT(error_of("Logger,v2\nOperator,me\ntime_s,motor,joint\n0,1,2\n1,2,3\n"),
+  EXPECT_THAT(error_of("Logger,v2\nOperator,me\ntime_s,left,right\n0,1,2\n1,2,3\n"),
               HasSubstr("run.csv:3:1: error: there is no column alpha_deg"));
+}
+
+TEST(ColumnNames, ChooseAnglesByWords) {
+  for (const auto& [names, alpha_name, theta_name] : std::vector<std::tuple<std::string, std::string, std::string>>{
+           {"time_s,motor_deg,joint_deg", "motor_deg", "joint_deg"},
+           {"time_s,Motor,Gelenk", "Motor", "Gelenk"},
+           {"time_s,servo,pot", "servo", "pot"},
+           {"time_s,servo_cmd,joint", "servo_cmd", "joint"},
+           {"time_s,servoAngle,A0", "servoAngle", "A0"},
+           {"time_s,encoder,elbow", "encoder", "elbow"},
+           {"time_s,motor_pos,joint_pos", "motor_pos", "joint_pos"},
+           {"time_s,alpha_deg,pot", "alpha_deg", "pot"}}) {
+    const ReadRun found = read(table(names, {seconds(), alpha(), theta()}));
+    expect_motion(found.run);
+    if (alpha_name != "alpha_deg") {
+      EXPECT_THAT(found.notes, HasSubstr("alpha: taken from the column \"" + alpha_name + "\"")) << names;
+    }
+    EXPECT_THAT(found.notes, HasSubstr("theta: taken from the column \"" + theta_name + "\"")) << names;
+  }
+  // Columns of other quantities and commands beside a sensor.
+  const auto zero = [](int) { return "0"; };
+  const ReadRun found = read("Rig 3\n" + table("time_s;setpoint;motor_deg;motor_current;motor_rpm;joint_deg;joint_Nm",
+                                               {seconds(), zero, alpha(), zero, zero, theta(), zero}, ';'));
+  expect_motion(found.run);
+  EXPECT_THAT(found.notes, HasSubstr("the header is line 2"));
+  // Under the stamps of a serial monitor.
+  std::string stamped = "10:00:00.000 -> servo,pot\n";
+  for (int row = 0; row < k_rows; ++row)
+    stamped += "10:00:" + fixed(10 + time_of(row), 3) + " -> " + alpha()(row) + "," + theta()(row) + "\n";
+  EXPECT_TRUE(read(stamped).run.has_time);
+  expect_motion(read(stamped).run);
+}
+
+TEST(ColumnNames, GiveTheOptionThatReadsAmbiguousAngles) {
+  for (const auto& [names, options] : std::vector<std::pair<std::string, std::map<std::string, std::string>>>{
+           {"time_s,encoder,pot", {{"alpha", "encoder"}, {"theta", "pot"}}},
+           {"time_s,A0,A1", {{"alpha", "A0"}, {"theta", "A1"}}},
+           {"time_s,motor 1,joint", {{"alpha", "motor 1"}, {"theta", "joint"}}},
+           {"time_s,setpoint,joint", {{"alpha", "setpoint"}, {"theta", "joint"}}},
+           {"time_s,Goal angle,Present angle", {{"alpha", "Goal angle"}, {"theta", "Present angle"}}}}) {
+    const bool two_motors = names == "time_s,motor 1,joint";
+    const std::string text = two_motors ? table(names + ",motor 2", {seconds(), alpha(), theta(), alpha()})
+                                        : table(names, {seconds(), alpha(), theta()});
+    const std::string error = error_of(text);
+    EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 2) << error;  // one message, one hint
+    std::string words;
+    for (const auto& [role, name] : options)
+      words += " --column " + role + "=" + (name.find(' ') == std::string::npos ? name : '"' + name + '"');
+    EXPECT_THAT(error, HasSubstr("add" + words + " if "));
+    expect_motion(read(text, named(options)).run);
+  }
+  EXPECT_THAT(error_of(table("time_s,left,right", {seconds(), alpha(), theta()})),
+              HasSubstr("there is no column alpha_deg and no theta_deg"));
+}
+
+TEST(LoggedText, ReadsRowNames) {
+  // write.csv() of R.
+  std::string text = R"("","time_s","alpha_deg","theta_deg")";
+  for (int row = 0; row < k_rows; ++row)
+    text += "\n\"" + std::to_string(row + 1) + "\"," + seconds()(row) + "," + alpha()(row) + "," + theta()(row);
+  expect_motion(read(text + "\n").run);
+  // write.table() of R names one column less.
+  std::replace(text.begin(), text.end(), ',', ' ');
+  EXPECT_THAT(error_of("\"time_s\"" + text.substr(text.find(" \"alpha")) + "\n"),
+              HasSubstr("name every column, also one of row numbers"));
 }
 
 TEST(LoggedText, ReplacesHeaderOfProse) {
@@ -646,13 +716,13 @@ TEST(LoggedText, ReadsEveryEncoding) {
   expect_motion(read(utf16(plain(), false)).run);
   expect_motion(read(utf16(plain(), true)).run);
   const std::vector<Value> columns = {seconds(), alpha(), theta()};
-  const std::string latin = table("Zeit in s;Motorwinkel in \xB0;Gelenkwinkel in \xB0", columns, ';');
+  const std::string latin = table("Zeit in s;Winkel oben in \xB0;Winkel unten in \xB0", columns, ';');
   const std::string hint = error_of(latin);
-  EXPECT_THAT(hint, HasSubstr("\"Motorwinkel in \xC2\xB0\""));
+  EXPECT_THAT(hint, HasSubstr("\"Winkel oben in \xC2\xB0\""));
   for (const char* const degree : {"\xC2\xB0", "\xB0"}) {
     const MeasurementOptions options = named({{"time", "Zeit in s"},
-                                              {"alpha", std::string("Motorwinkel in ") + degree},
-                                              {"theta", std::string("Gelenkwinkel in ") + degree}});
+                                              {"alpha", std::string("Winkel oben in ") + degree},
+                                              {"theta", std::string("Winkel unten in ") + degree}});
     const ReadRun found = read(latin, options);
     expect_motion(found.run);
     EXPECT_EQ(found.notes, read(plain()).notes);

@@ -1,7 +1,7 @@
-// Random designs through the whole build, with every law and option: each is built with all checks, or refused with a
-// reason. FUSEE_LAW_CASES: number of designs (24); FUSEE_LAW_SEED: seed (1). Also the options in [body] and [print] on
-// three mechanisms: every pair of words of two keys, FUSEE_LAW_CASES further combinations, and with FUSEE_LONG_TESTS
-// all distinct combinations (7560 a mechanism, a quarter of an hour of one core each).
+// Random designs through the whole build, with every law and option, with motors and inches: each is built with all
+// checks, or refused with a reason. FUSEE_LAW_CASES: number of designs (24); FUSEE_LAW_SEED: seed (1). Also the options
+// in [body] and [print] on three mechanisms: every pair of words of two keys, FUSEE_LAW_CASES further combinations, and
+// with FUSEE_LONG_TESTS all distinct combinations (7560 a mechanism, a quarter of an hour of one core each).
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -19,6 +19,7 @@
 #include "fusee/kit.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
+#include "support/motor_and_units.h"
 
 namespace {
 
@@ -196,9 +197,10 @@ TEST_P(Campaign, DesignsAreBuiltOrRefused) {
     SCOPED_TRACE(
         fmt::format("FUSEE_LAW_SEED={}, design {}, --tolerance-mm {}\n{}", seed, i, design.tolerance, design.text));
     try {
-      const auto read = [&design] {
+      const auto read = [&design, i] {
         MechanismFile file;
-        file.mechanism = parse_mechanism(design.text, "random.toml");
+        file.mechanism =
+            fusee::testing::with_motor_and_units(design.text, static_cast<std::uint64_t>(i), "random.toml");
         return file;
       };
       const End end = end_of(read, design.tolerance);

@@ -1,6 +1,7 @@
-// Random joints of the wide class through the whole build: drums, attachments, idlers, sheaths and torque laws. Each is
-// built with all checks and rewinds to its law, or is refused with a reason. FUSEE_LAW_CASES: number of joints (24);
-// FUSEE_LAW_SEED: seed (1); FUSEE_LONG_TESTS: with advice, of which each change is tested.
+// Random joints of the wide class through the whole build: drums, attachments, idlers, sheaths and torque laws, with
+// motors and inches. Each is built with all checks and rewinds to its law, or is refused with a reason.
+// FUSEE_LAW_CASES: number of joints (24); FUSEE_LAW_SEED: seed (1); FUSEE_LONG_TESTS: with advice, of which each change
+// is tested.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -19,6 +20,7 @@
 #include "fusee/kit.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
+#include "support/motor_and_units.h"
 
 namespace {
 
@@ -177,13 +179,13 @@ void expect_plates_or_reasons(const formats::Product& product) {
 
 enum class WideEnd { made, refused, bad_input };
 
-WideEnd wide_end(const std::string& text) {
+WideEnd wide_end(const std::string& text, int number) {
   pipeline::BuildOptions options;
   options.dry_run = true;
   options.advice = std::getenv("FUSEE_LONG_TESTS") != nullptr;
   try {
     MechanismFile file;
-    file.mechanism = parse_mechanism(text, "wide.toml");
+    file.mechanism = fusee::testing::with_motor_and_units(text, static_cast<std::uint64_t>(number), "wide.toml");
     const pipeline::BuildResult built = pipeline::build(file, options);
     for (const Check& check : built.product.checks)
       EXPECT_TRUE(check.ok) << check.name << " " << check.value << ", limit " << check.limit << "; " << check.where;
@@ -212,7 +214,7 @@ TEST_P(WideCampaign, JointsAreBuiltOrRefused) {
     const std::string text = wide_design(static_cast<std::uint64_t>(seed) * 1000003 + static_cast<std::uint64_t>(i));
     SCOPED_TRACE(fmt::format("FUSEE_LAW_SEED={}, joint {}\n{}", seed, i, text));
     try {
-      const WideEnd end = wide_end(text);
+      const WideEnd end = wide_end(text, i);
       ++(end == WideEnd::made ? made : end == WideEnd::refused ? refused : bad);
     } catch (const std::exception& bug) {
       ADD_FAILURE() << bug.what();

@@ -378,6 +378,34 @@ TEST(ReadDxf, ReportsCurvesThatAreNotRead) {
             "the drawing has no lines to cut, and these are not read: REGION");
 }
 
+TEST(ReadDxf, OmitsHiddenEntities) {
+  const auto layer = [](const std::string& name, const std::string& flags, const std::string& colour) {
+    return tags({{0, "LAYER"}, {2, name}, {70, flags}, {62, colour}});
+  };
+  const std::string tables = tags({{0, "SECTION"}, {2, "TABLES"}, {0, "TABLE"}, {2, "LAYER"}, {70, "4"}}) +
+                             layer("Cut", "0", "1") + layer("Old", "0", "-1") + layer("Ice", "1", "7") +
+                             layer("Locked", "4", "7") + tags({{0, "ENDTAB"}, {0, "ENDSEC"}});
+  const std::string blocks = tags({{0, "BLOCK"}, {2, "part"}, {10, "0"}, {20, "0"}}) + line(0, 0, 1, 0, "cut") +
+                             line(0, 2, 1, 2, "0") + tags({{0, "ENDBLK"}});
+  const auto placed = [](const std::string& on) {
+    return tags({{0, "INSERT"}, {8, on}, {2, "part"}, {10, "50"}, {20, "0"}});
+  };
+  const std::string invisible = tags({{0, "LINE"}, {8, "cut"}, {60, "1"}, {10, "0"}, {20, "0"}, {11, "9"}, {21, "9"}});
+  const Drawing drawing =
+      read(tables + dxf_of(line(0, 0, 10, 0, "CUT") + line(0, 5, 10, 5, "old") + line(0, 6, 10, 6, "ICE") +
+                               line(0, 7, 10, 7, "locked") + invisible + placed("old") + placed("ice"),
+                           4, blocks));
+  std::vector<std::string> layers;
+  for (const DrawingPath& path : drawing.paths) layers.push_back(path.layer);
+  EXPECT_THAT(layers, ElementsAre("CUT", "locked", "cut"));
+  std::vector<std::string> remarks;
+  for (const DrawingRemark& remark : drawing.remarks) remarks.push_back(remark.text);
+  EXPECT_THAT(remarks, ElementsAre(HasSubstr("its layer 'old' is off"), HasSubstr("its layer 'ICE' is frozen"),
+                                   HasSubstr("it is invisible"),
+                                   HasSubstr("this INSERT is not read: its layer 'ice' is frozen")));
+  EXPECT_THAT(drawing.ignored, ElementsAre("INSERT hidden", "LINE hidden"));
+}
+
 TEST(ReadDxf, RejectsRecursiveBlocks) {
   const std::string block =
       tags({{0, "BLOCK"}, {2, "a"}, {0, "INSERT"}, {2, "a"}, {0, "INSERT"}, {2, "a"}, {0, "ENDBLK"}});

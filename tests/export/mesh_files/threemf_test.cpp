@@ -265,6 +265,16 @@ TEST(ThreemfReader, OmitsSupports) {
               HasSubstr("found 'ghost'"));
 }
 
+TEST(ThreemfReader, OmitsUnprintableItems) {
+  const std::string object = "<object id='1'>" + k_triangle + "</object>";
+  const auto triangles = [&](const std::string& items) {
+    return read_mesh(package(model(object, items)), "x.3mf").triangles.size();
+  };
+  EXPECT_EQ(triangles("<item objectid='1' printable='1'/><item objectid='1' printable=' 0 '/>"), 1U);
+  EXPECT_THAT(error_of(package(model(object, "<item objectid='1' printable='0'/>")), "x.3mf"),
+              HasSubstr("no part of the build is marked as printable"));
+}
+
 TEST(ThreemfReader, ReportsEmptyBuild) {
   EXPECT_THAT(error_of(package(model("<object id='1'>" + k_triangle + "</object>", "")), "x.3mf"),
               HasSubstr("the build is empty"));
