@@ -1,0 +1,14 @@
+# The target "portable": packages/fusee-VERSION-linux-PROCESSOR.tar.xz, a folder that runs where it is unpacked. It holds
+# the program, its modules, and the libraries that they need. The system gives the C library, of the release on which
+# the folder was made or a newer one.
+set(portable fusee-${PROJECT_VERSION}-linux-${CMAKE_SYSTEM_PROCESSOR})
+add_custom_target(portable
+  COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DNAME=${portable} -DMODULES=${FUSEE_MODULES} -DLIBDIR=${CMAKE_INSTALL_LIBDIR}
+          -P ${CMAKE_CURRENT_LIST_DIR}/make_portable.cmake
+  USES_TERMINAL VERBATIM)
+add_dependencies(portable fusee_cli)
+foreach(module IN ITEMS fusee_step fusee_evolution_module)
+  if(TARGET ${module})
+    add_dependencies(portable ${module})
+  endif()
+endforeach()
