@@ -129,7 +129,7 @@ std::string kit_manifest_json(const KitProduct& product, const std::vector<Outpu
   json["checks"] = Json::array();
   for (const Check& check : product.checks) {
     Json entry = {{"name", check.name},
-                  {"value", std::isfinite(check.value) ? Json(std::stod(rounded(check.value, 6))) : Json(nullptr)},
+                  {"value", result_json(check.value)},
                   {"limit", check.limit},
                   {"unit", check.unit},
                   {"ok", check.ok}};

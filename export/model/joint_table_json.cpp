@@ -108,7 +108,7 @@ std::string model_manifest_json(const ModelProduct& product, const std::vector<O
   for (const Check& check : product.checks)
     json["checks"].push_back(
         {{"name", check.name},
-         {"value", std::isfinite(check.value) ? Json(std::stod(rounded(check.value, 6))) : Json(nullptr)},
+         {"value", result_json(check.value)},
          {"limit", std::stod(rounded(check.limit, 6))},
          {"unit", check.unit},
          {"ok", check.ok}});

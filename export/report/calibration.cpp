@@ -23,9 +23,9 @@ Json audit_json(const calibration::Audit& audit) {
 Json parameters_json(const std::vector<calibration::FittedParameter>& parameters) {
   Json json = Json::object();
   for (const calibration::FittedParameter& parameter : parameters) {
-    json[parameter.name] = {{"value", nine_digits(parameter.value)},
-                            {"ci95_if_only", {nine_digits(parameter.low_if_only), nine_digits(parameter.high_if_only)}},
-                            {"ci95", {nine_digits(parameter.low), nine_digits(parameter.high)}}};
+    json[parameter.name] = {{"value", result_json(parameter.value)},
+                            {"ci95_if_only", {result_json(parameter.low_if_only), result_json(parameter.high_if_only)}},
+                            {"ci95", {result_json(parameter.low), result_json(parameter.high)}}};
   }
   return json;
 }
@@ -36,13 +36,13 @@ Json effect_json(const calibration::FoundEffect& effect) {
                {"place", fusee::word(effect.place)},
                {"parameters", parameters_json(effect.parameters)},
                {"rms_drop_deg", angle_json(effect.rms_drop)},
-               {"share", nine_digits(effect.share)},
-               {"evidence", nine_digits(effect.evidence)},
+               {"share", result_json(effect.share)},
+               {"evidence", result_json(effect.evidence)},
                {"audit", audit_json(effect.audit)},
                {"correctable_by", fusee::word(effect.correctable_by)}};
   // Only a group that may be unmodelled has this key.
   if (effect.group.back() == calibration::k_unmodelled) {
-    json["unmodelled"] = {{"behind", nine_digits(effect.unmodelled.log_odds)}, {"words", unmodelled_words(effect)}};
+    json["unmodelled"] = {{"behind", result_json(effect.unmodelled.log_odds)}, {"words", unmodelled_words(effect)}};
   }
   for (const calibration::GroupMember& member : effect.alternatives)
     json["instead"].push_back({{"name", member.name}, {"parameters", parameters_json(member.parameters)}});
@@ -57,9 +57,9 @@ Json discrepancy_json(const std::vector<calibration::DiscrepancyComponent>& part
   for (const calibration::DiscrepancyComponent& part : parts) {
     Json json = {{"factor", part.factor},
                  {"rms_deg", angle_json(part.rms)},
-                 {"evidence", nine_digits(part.evidence)},
+                 {"evidence", result_json(part.evidence)},
                  {"words", part.words}};
-    if (part.order > 0) json["order"] = nine_digits(part.order);
+    if (part.order > 0) json["order"] = result_json(part.order);
     list.push_back(json);
   }
   return list;
@@ -105,7 +105,7 @@ Json tried_json(const std::vector<calibration::Candidate>& tried) {
   Json list = Json::array();
   for (const calibration::Candidate& candidate : tried) {
     list.push_back({{"name", candidate.name},
-                    {"evidence", nine_digits(candidate.evidence)},
+                    {"evidence", result_json(candidate.evidence)},
                     {"accepted", candidate.accepted},
                     {"why", candidate.why}});
   }
@@ -115,7 +115,7 @@ Json tried_json(const std::vector<calibration::Candidate>& tried) {
 Json noise_levels_json(const measurement::NoiseFloor& noise) {
   Json list = Json::array();
   for (const measurement::NoiseLevel& level : noise.levels) {
-    list.push_back({{"load", nine_digits(level.load)},
+    list.push_back({{"load", result_json(level.load)},
                     {"speed_deg_per_s", angle_json(level.speed)},
                     {"rms_deg", angle_json(level.rms)},
                     {"largest_at_alpha_deg", angle_json(level.largest_at)}});
@@ -131,9 +131,9 @@ Json effects_json(const calibration::Calibration& calibration) {
 
 /// A list where two keys have a number each.
 Json numbers_json(const std::vector<double>& values) {
-  if (values.size() == 1) return nine_digits(values.front());
+  if (values.size() == 1) return result_json(values.front());
   Json list = Json::array();
-  for (const double value : values) list.push_back(nine_digits(value));
+  for (const double value : values) list.push_back(result_json(value));
   return list;
 }
 
@@ -167,7 +167,7 @@ Json correctable_json(const correction::Correction& correction) {
   if (!correction.infeasible.empty()) json["infeasible"] = correction.infeasible;
   if (correction.assembly_angle != 0) json["tied_at_deg"] = angle_json(correction.assembly_angle);
   if (correction.round.r1 > 0) {
-    json["p1_round"] = {{"best_r1_mm", nine_digits(correction.round.r1)},
+    json["p1_round"] = {{"best_r1_mm", result_json(correction.round.r1)},
                         {"max_error_deg", angle_json(correction.round.max_error)},
                         {"suffices", correction.round.suffices}};
   }
@@ -185,7 +185,7 @@ Json next_json(const CalibrationProduct& product) {
       for (const EffectParameter* reading : next.readings) json["keys"].push_back(reading->by_hand.key);
     }
     json["separates"] = next.separates;
-    json["minutes"] = nine_digits(next.minutes);
+    json["minutes"] = result_json(next.minutes);
     json["text"] = next.text();
     list.push_back(std::move(json));
   }
@@ -201,16 +201,16 @@ std::string calibration_json(const CalibrationProduct& product) {
   json["headline"] = {{"problem", first.problem}, {"cause", first.cause}, {"action", first.action}};
   json["effects"] = effects_json(calibration);
   json["noise_floor_deg"] = angle_json(calibration.noise.rms);
-  json["noise_floor"] = {{"degrees_of_freedom", nine_digits(calibration.noise.degrees_of_freedom)},
+  json["noise_floor"] = {{"degrees_of_freedom", result_json(calibration.noise.degrees_of_freedom)},
                          {"from_repeats", calibration.noise.from_repeats},
                          {"within_stroke_deg", angle_json(calibration.noise.within_stroke)},
                          {"levels", noise_levels_json(calibration.noise)}};
   json["before"] = figures_json(calibration.before);
   json["after"] = figures_json(calibration.after);
   json["after_per_noise_floor"] =
-      calibration.noise.rms > 0 ? nine_digits(calibration.after.rms / calibration.noise.rms) : Json();
+      calibration.noise.rms > 0 ? result_json(calibration.after.rms / calibration.noise.rms) : Json();
   json["held_out"] = {{"factors", calibration.held_out_factors}, {"runs", calibration.held_out_runs}};
-  json["rest_autocorrelation"] = nine_digits(calibration.residual_autocorrelation);
+  json["rest_autocorrelation"] = result_json(calibration.residual_autocorrelation);
   json["unexplained_rms_deg"] = angle_json(calibration.unexplained_rms);
   json["dropped"] = calibration.dropped;
   json["unexplained_where"] = calibration.unexplained_where;

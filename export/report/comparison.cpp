@@ -175,17 +175,17 @@ std::string degree_words(double value) { return with_unit(degrees(value), "deg",
 Json change_json(const calibration::StateChange& change) {
   Json parameters = Json::object();
   for (const calibration::ChangedParameter& parameter : change.parameters) {
-    parameters[parameter.name] = {{"before", nine_digits(parameter.before)},
-                                  {"after", nine_digits(parameter.after)},
-                                  {"change", nine_digits(parameter.change())},
-                                  {"ci95", {nine_digits(parameter.low), nine_digits(parameter.high)}}};
+    parameters[parameter.name] = {{"before", result_json(parameter.before)},
+                                  {"after", result_json(parameter.after)},
+                                  {"change", result_json(parameter.change())},
+                                  {"ci95", {result_json(parameter.low), result_json(parameter.high)}}};
   }
   return {{"name", change.name},
           {"group", change.group},
           {"place", fusee::word(change.place)},
           {"parameters", parameters},
           {"rms_drop_deg", angle_json(change.rms_drop)},
-          {"by_runs", nine_digits(change.by_runs)}};
+          {"by_runs", result_json(change.by_runs)}};
 }
 
 Json run_names_json(const ComparisonProduct& product, bool after) {

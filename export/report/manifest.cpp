@@ -16,11 +16,8 @@
 namespace fusee::formats {
 namespace {
 
-/// JSON has no NaN and no infinity.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 /// Rounded to a micrometre.
-Json to_micrometre(double millimetres) { return number(std::round(1000.0 * millimetres) / 1000.0); }
+Json to_micrometre(double millimetres) { return std::round(1000.0 * millimetres) / 1000.0; }
 
 /// Every number as declared, in the file's units, with defaults and --set, which the input file alone does not contain.
 Json mechanism_json(const DeclaredMechanism& mechanism) {
@@ -48,8 +45,8 @@ Json checks_json(const std::vector<Check>& checks) {
   Json list = Json::array();
   for (const Check& check : checks) {
     Json entry = {{"name", check.name},
-                  {"value", number(check.value)},
-                  {"limit", number(check.limit)},
+                  {"value", result_json(check.value)},
+                  {"limit", result_json(check.limit)},
                   {"unit", check.unit},
                   {"ok", check.ok}};
     if (!check.where.empty()) entry["where"] = check.where;
@@ -59,21 +56,21 @@ Json checks_json(const std::vector<Check>& checks) {
 }
 
 Json as_built_json(const profile::RewindResult& as_built) {
-  return {{"max_theta_error_deg", number(degrees(as_built.max_theta_error))},
-          {"max_theta_error_at_alpha_deg", number(degrees(as_built.max_theta_error_at))},
-          {"max_slack_mm", number(as_built.max_excess)},
-          {"max_slack_at_alpha_deg", number(degrees(as_built.max_excess_at))}};
+  return {{"max_theta_error_deg", angle_json(as_built.max_theta_error)},
+          {"max_theta_error_at_alpha_deg", angle_json(as_built.max_theta_error_at)},
+          {"max_slack_mm", result_json(as_built.max_excess)},
+          {"max_slack_at_alpha_deg", angle_json(as_built.max_excess_at)}};
 }
 
 Json fleet_json(const helical_solid::HelicalRewind& as_built) {
-  return {{"max_fleet_angle_deg", number(degrees(as_built.max_fleet))},
-          {"max_fleet_angle_at_alpha_deg", number(degrees(as_built.max_fleet_at))}};
+  return {{"max_fleet_angle_deg", angle_json(as_built.max_fleet)},
+          {"max_fleet_angle_at_alpha_deg", angle_json(as_built.max_fleet_at)}};
 }
 
 /// The grooves' planes in the written mesh, with shrinkage compensation.
 Json grooves_json(const solid::BodyLayout& layout) {
-  return {{{"pulley", "P1"}, {"z_mm", number(layout.z_p1 * layout.scale)}},
-          {{"pulley", "P2"}, {"z_mm", number(layout.z_p2 * layout.scale)}}};
+  return {{{"pulley", "P1"}, {"z_mm", result_json(layout.z_p1 * layout.scale)}},
+          {{"pulley", "P2"}, {"z_mm", result_json(layout.z_p2 * layout.scale)}}};
 }
 
 /// A helical groove, also in the written mesh from its lower face upwards. z_mm: the middle of the working arc.
@@ -82,17 +79,17 @@ Json helical_groove_json(const Product& product, transmission::Side which) {
   const helix::HelixSide& side = product.helix->synthesis.sides.at(left ? 0 : 1);
   const helical_solid::SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
   const double scale = product.pulley.layout.scale;
-  const auto height = [&](double z) { return number(scale * place.height(z)); };
+  const auto height = [&](double z) { return result_json(scale * place.height(z)); };
   const double first = side.spiral.rows.at(side.spiral.first_used).z,
                last = side.spiral.rows.at(side.spiral.last_used).z;
   return {{"pulley", transmission::pulley_name(which)},
           {"z_mm", height(0.5 * (first + last))},
           {"z_first_mm", height(first)},
           {"z_last_mm", height(last)},
-          {"turns", number(side.turns)},
-          {"lead_mm", number(side.lead)},
+          {"turns", result_json(side.turns)},
+          {"lead_mm", result_json(side.lead)},
           {"joint_end_z_mm", height(side.attachment_z)},
-          {"max_fleet_angle_deg", number(degrees(side.fleet))}};
+          {"max_fleet_angle_deg", angle_json(side.fleet)}};
 }
 
 Json helical_grooves_json(const Product& product) {
@@ -104,7 +101,7 @@ Json helical_grooves_json(const Product& product) {
 Json cut_in_rig(const Product& product, transmission::Side side) {
   if (!product.rig) return nullptr;
   for (const KitCut& cut : rig_cuts(product, *product.rig)) {
-    if (cut.side == side) return number(cut.cut);
+    if (cut.side == side) return result_json(cut.cut);
   }
   return nullptr;
 }
@@ -121,13 +118,13 @@ Json tendons_json(const Product& product) {
     list.push_back({{"tendon", left ? 1 : 2},
                     {"pulley", transmission::pulley_name(tendon.side)},
                     {"between_knots_mm", to_micrometre(tendon.between_knots)},
-                    {"cut_length_mm", number(tendon.cut)},
+                    {"cut_length_mm", result_json(tendon.cut)},
                     {"cut_length_in_test_rig_mm", cut_in_rig(product, tendon.side)},
                     {"joint_knot_mm", {to_micrometre(tendon.joint_knot.x()), to_micrometre(tendon.joint_knot.y())}},
                     {"pulley_knot_mm",
                      {to_micrometre(tendon.pulley_knot.x()), to_micrometre(tendon.pulley_knot.y()),
                       to_micrometre(tendon.pulley_knot.z())}},
-                    {"spare_wrap_turns", number(tendon.spare_lap / k_two_pi)}});
+                    {"spare_wrap_turns", result_json(tendon.spare_lap / k_two_pi)}});
   }
   return list;
 }
@@ -144,17 +141,17 @@ Json print_json(const solid::Pulley& pulley) {
 /// The largest loads of the knots on the pulley.
 Json knots_json(const Product& product) {
   const solid::Holding& holding = product.holding;
-  const auto known = [](const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); };
+  const auto known = [](const std::optional<double>& value) { return value ? result_json(*value) : Json(nullptr); };
   Json list = Json::array();
   for (const solid::KnotHold& knot : holding.knots) {
     list.push_back({{"tendon", knot.side == transmission::Side::left ? 1 : 2},
-                    {"alpha_deg", number(degrees(knot.alpha))},
-                    {"wrap_left_deg", number(degrees(knot.wrap_left))},
-                    {"tension_N", number(knot.tension)},
-                    {"at_knot_N", number(knot.at_knot)},
-                    {"strength_N", holding.strength ? number(holding.strength->tension) : Json(nullptr)},
+                    {"alpha_deg", angle_json(knot.alpha)},
+                    {"wrap_left_deg", angle_json(knot.wrap_left)},
+                    {"tension_N", result_json(knot.tension)},
+                    {"at_knot_N", result_json(knot.at_knot)},
+                    {"strength_N", holding.strength ? result_json(holding.strength->tension) : Json(nullptr)},
                     {"strength_source", holding.strength ? Json(holding.strength->source) : Json(nullptr)},
-                    {"efficiency", number(product.joint.mechanism.tendon.knot_efficiency)},
+                    {"efficiency", result_json(product.joint.mechanism.tendon.knot_efficiency)},
                     {"share", known(holding.share(knot))}});
   }
   return list;
@@ -178,7 +175,7 @@ std::string manifest_json(const Product& product, const std::vector<OutputFile>&
   manifest["status"] = all_ok(product.checks) ? "done" : "check_failed";
   manifest["input"] = input_json(product.file);
   manifest["grooves"] = product.helix ? helical_grooves_json(product) : grooves_json(product.pulley.layout);
-  manifest["tendon"] = {{"diameter_mm", number(product.joint.mechanism.tendon.diameter)}};
+  manifest["tendon"] = {{"diameter_mm", result_json(product.joint.mechanism.tendon.diameter)}};
   manifest["size"] = size_json(product.pulley);
   manifest["print"] = print_json(product.pulley);
   manifest["as_built"] = as_built_json(product.as_built);

@@ -35,10 +35,10 @@ std::string_view word(plan::BenchChange change) {
 }
 
 void add_run(const plan::PlannedRun& run, const std::string& load_unit, Json& json) {
-  json["load" + std::string(load_unit == "N" ? "_N" : "")] = nine_digits(run.load);
+  json["load" + std::string(load_unit == "N" ? "_N" : "")] = result_json(run.load);
   json["speed_deg_per_s"] = angle_json(run.speed);
   json["cycles"] = run.cycles;
-  json["dwell_s"] = nine_digits(run.dwell);
+  json["dwell_s"] = result_json(run.dwell);
   json["from_deg"] = angle_json(run.from);
   json["to_deg"] = angle_json(run.to);
   json["bench"] = word(run.change);
@@ -51,12 +51,12 @@ Json step_json(const plan::Plan& plan, const plan::PlanStep& step, const std::st
     add_run(*step.run, plan.load_unit, json);
   } else {
     json["key"] = step.reading->key.name;
-    json["uncertainty"] = nine_digits(step.reading->by_hand.uncertainty);
+    json["uncertainty"] = result_json(step.reading->by_hand.uncertainty);
   }
   json["words"] = step.words;
-  json["minutes"] = nine_digits(step.minutes);
-  json["setup_minutes"] = nine_digits(step.setup_minutes);
-  json["by_minute"] = nine_digits(step.end_minute);
+  json["minutes"] = result_json(step.minutes);
+  json["setup_minutes"] = result_json(step.setup_minutes);
+  json["by_minute"] = result_json(step.end_minute);
   json["sees"] = step.sees;
   json["tells"] = step.tells;
   return json;
@@ -136,8 +136,8 @@ std::string plan_json(const PlanProduct& product) {
   const plan::Plan& plan = product.plan;
   Json json = {{"schema", 1}, {"name", product.file.mechanism.name}};
   json["noise_deg"] = angle_json(product.noise);
-  json["minutes"] = nine_digits(product.minutes);
-  json["minutes_used"] = nine_digits(plan.minutes);
+  json["minutes"] = result_json(product.minutes);
+  json["minutes_used"] = result_json(plan.minutes);
   json["motor_range_deg"] = {angle_json(plan.from), angle_json(plan.to)};
   json["steps"] = steps_json(plan, plan.steps, true);
   json["more_minutes"] = steps_json(plan, plan.beyond, false);

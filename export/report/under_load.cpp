@@ -10,16 +10,16 @@ namespace {
 
 Json ranges_json(const std::vector<analysis::AlphaRange>& ranges) {
   Json list = Json::array();
-  for (const analysis::AlphaRange& range : ranges) list.push_back({degrees(range.from), degrees(range.to)});
+  for (const analysis::AlphaRange& range : ranges) list.push_back({angle_json(range.from), angle_json(range.to)});
   return list;
 }
 
-Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+Json optional_json(const std::optional<double>& value) { return value ? result_json(*value) : Json(); }
 
 /// Unknown limits are 0.
-Json limit_json(double value) { return value > 0 ? Json(value) : Json(); }
+Json limit_json(double value) { return value > 0 ? result_json(value) : Json(); }
 
-Json margin_json(double limit, double needed) { return limit > 0 && needed > 0 ? Json(limit / needed) : Json(); }
+Json margin_json(double limit, double needed) { return limit > 0 && needed > 0 ? result_json(limit / needed) : Json(); }
 
 Json change_json(const profile::Change& change) {
   return {{"key", change.key}, {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"text", change.text}};
@@ -55,16 +55,16 @@ std::string load_words(const Mechanism& mechanism) {
 }
 
 Json under_load_json(const analysis::UnderLoad& load) {
-  return {{"max_theta_error_deg", degrees(load.theta_error.value)},
-          {"max_theta_error_at_alpha_deg", degrees(load.theta_error.alpha)},
+  return {{"max_theta_error_deg", angle_json(load.theta_error.value)},
+          {"max_theta_error_at_alpha_deg", angle_json(load.theta_error.alpha)},
           {"slack1", ranges_json(load.slack1)},
           {"slack2", ranges_json(load.slack2)},
           {"taut_pretension_N", optional_json(load.taut_pretension)},
-          {"largest_tension_N", load.largest_tension.tension},
+          {"largest_tension_N", result_json(load.largest_tension.tension)},
           {"safety_factor", optional_json(load.safety_factor())},
-          {"strength_N", load.strength ? Json(load.strength->tension) : Json()},
+          {"strength_N", load.strength ? result_json(load.strength->tension) : Json()},
           {"strength_source", load.strength ? Json(load.strength->source) : Json()},
-          {"no_equilibrium_at_alpha_deg", load.lost_at ? Json(degrees(*load.lost_at)) : Json()}};
+          {"no_equilibrium_at_alpha_deg", load.lost_at ? angle_json(*load.lost_at) : Json()}};
 }
 
 Json motor_json(const analysis::MotorCheck& motor) {
@@ -72,22 +72,22 @@ Json motor_json(const analysis::MotorCheck& motor) {
   json["model"] = motor.model.empty() ? Json() : Json(motor.model);
   json["enforce"] = motor.enforced;
   json["ok"] = motor.ok();
-  json["travel"] = {{"needed_deg", degrees(motor.travel)},
+  json["travel"] = {{"needed_deg", angle_json(motor.travel)},
                     {"limit_deg", limit_json(degrees(motor.travel_limit))},
                     {"margin", margin_json(motor.travel_limit, motor.travel)},
                     {"ok", is_ok(motor, "motor_travel")}};
-  json["torque"] = {{"needed_Nmm", motor.torque.value},
-                    {"alpha_deg", degrees(motor.torque.alpha)},
+  json["torque"] = {{"needed_Nmm", result_json(motor.torque.value)},
+                    {"alpha_deg", angle_json(motor.torque.alpha)},
                     {"limit_Nmm", limit_json(motor.torque_limit)},
                     {"margin", margin_json(motor.torque_limit, motor.torque.value)},
                     {"ok", is_ok(motor, "motor_torque")}};
   json["speed"] = {{"motor_deg_per_s", limit_json(degrees(motor.speed_limit))},
-                   {"largest_ratio", motor.ratio},
+                   {"largest_ratio", result_json(motor.ratio)},
                    {"joint_without_load_deg_per_s", limit_json(degrees(motor.joint_speed_free))},
-                   {"joint_deg_per_s", motor.speed_limit > 0 ? Json(degrees(motor.joint_speed)) : Json()},
+                   {"joint_deg_per_s", motor.speed_limit > 0 ? angle_json(motor.joint_speed) : Json()},
                    {"needed_joint_deg_per_s", limit_json(degrees(motor.joint_speed_needed))},
                    {"margin", motor.speed_limit > 0 && motor.joint_speed_needed > 0
-                                  ? Json(motor.joint_speed / motor.joint_speed_needed)
+                                  ? result_json(motor.joint_speed / motor.joint_speed_needed)
                                   : Json()},
                    {"ok", is_ok(motor, "motor_speed")}};
   json["sufficient_models"] = motor.sufficient_models;

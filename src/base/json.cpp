@@ -11,12 +11,12 @@ std::string json_text(const Json& json, int indent) {
   return unicode_escaped(json.dump(indent, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
-Json nine_digits(double value) {
+Json result_json(double value) {
   if (!std::isfinite(value)) return nullptr;
-  return value == 0 ? 0.0 : std::stod(rounded(value, 9));
+  return value == 0 ? 0.0 : std::stod(rounded(value, 6));
 }
 
-Json angle_json(double angle) { return nine_digits(degrees(angle)); }
+Json angle_json(double angle) { return result_json(degrees(angle)); }
 
 Json parse_json(std::string_view text) { return Json::parse(text); }
 

@@ -14,10 +14,10 @@ using Json = nlohmann::ordered_json;
 /// terminal control characters are escaped.
 std::string json_text(const Json& json, int indent);
 
-/// A number with nine significant digits, as further digits of fits and simulations are noise. Null for NaN and
-/// infinity, which JSON lacks.
-Json nine_digits(double value);
-/// An angle (rad) in degrees, with nine digits.
+/// A result with six significant digits, as further ones can neither be made nor measured. Null for NaN and infinity,
+/// which JSON lacks.
+Json result_json(double value);
+/// An angle (rad) in degrees, as a result.
 Json angle_json(double angle);
 
 /// Parses text that fusee wrote. Throws nlohmann's error on invalid JSON.

@@ -1,5 +1,6 @@
 #include "cli/as_built.h"
 
+#include "base/json.h"
 #include "base/text.h"
 #include "cli/table.h"
 
@@ -34,10 +35,10 @@ std::string as_built_text(const profile::RewindResult& as_built) {
 }
 
 Json to_json(const profile::RewindResult& as_built) {
-  return {{"max_theta_error_deg", degrees(as_built.max_theta_error)},
-          {"max_theta_error_at_alpha_deg", degrees(as_built.max_theta_error_at)},
-          {"max_slack_mm", as_built.max_excess},
-          {"max_slack_at_alpha_deg", degrees(as_built.max_excess_at)}};
+  return {{"max_theta_error_deg", angle_json(as_built.max_theta_error)},
+          {"max_theta_error_at_alpha_deg", angle_json(as_built.max_theta_error_at)},
+          {"max_slack_mm", result_json(as_built.max_excess)},
+          {"max_slack_at_alpha_deg", angle_json(as_built.max_excess_at)}};
 }
 
 std::string checks_table(const std::vector<Check>& checks) {

@@ -160,12 +160,12 @@ Json truth_of(const Case& made, const std::string& kind) {
     const Fault& fault = find_fault(made.faults[i]);
     Json numbers = Json::object();
     if (fault.numbers != nullptr) {
-      for (const auto& [name, value] : fault.numbers(made.hidden, made.joint)) numbers[name] = nine_digits(value);
+      for (const auto& [name, value] : fault.numbers(made.hidden, made.joint)) numbers[name] = result_json(value);
     }
     faults.push_back({{"name", fault.name},
                       {"is_modelled", has_name(fault.name)},
                       {"kin", fault.kin},
-                      {"seen_in_noise_rms", i < made.seen.size() ? nine_digits(made.seen[i]) : Json()},
+                      {"seen_in_noise_rms", i < made.seen.size() ? result_json(made.seen[i]) : Json()},
                       {"numbers", numbers}});
   }
   return {{"kind", kind},
@@ -182,22 +182,22 @@ Json answer_of(const TimedAnswer& answer) {
     Json numbers = Json::array();
     for (const calibration::FittedParameter& number : effect.parameters) {
       numbers.push_back({{"name", number.name},
-                         {"value", nine_digits(number.value)},
-                         {"ci95", {nine_digits(number.low), nine_digits(number.high)}},
-                         {"ci95_if_only", {nine_digits(number.low_if_only), nine_digits(number.high_if_only)}}});
+                         {"value", result_json(number.value)},
+                         {"ci95", {result_json(number.low), result_json(number.high)}},
+                         {"ci95_if_only", {result_json(number.low_if_only), result_json(number.high_if_only)}}});
     }
     effects.push_back({{"name", effect.name},
                        {"group", effect.group},
-                       {"log_odds", nine_digits(effect.evidence)},
-                       {"log_odds_over_unmodelled", nine_digits(effect.unmodelled.log_odds)},
+                       {"log_odds", result_json(effect.evidence)},
+                       {"log_odds_over_unmodelled", result_json(effect.unmodelled.log_odds)},
                        {"numbers", numbers}});
   }
   return {{"verdict", calibration::word(found.verdict)},
           {"effects", effects},
-          {"unmodelled_log_odds", nine_digits(unmodelled_log_odds(found))},
+          {"unmodelled_log_odds", result_json(unmodelled_log_odds(found))},
           {"unexplained_rms_deg", angle_json(found.unexplained_rms)},
           {"noise_floor_deg", angle_json(found.noise.rms)},
-          {"seconds", nine_digits(answer.seconds)}};
+          {"seconds", result_json(answer.seconds)}};
 }
 
 void write(const std::filesystem::path& path, const std::string& text) {
