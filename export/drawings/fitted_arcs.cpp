@@ -30,7 +30,8 @@ struct Arc {
 
 Arc arc_between(const Knot& from, const Vec2& to) {
   const Vec2 chord = to - from.place;
-  return {from.place, to, std::tan(0.5 * std::atan2(cross(from.tangent, chord), from.tangent.dot(chord)))};
+  return {from.place, to,
+          elementary::tan(0.5 * elementary::atan2(cross(from.tangent, chord), from.tangent.dot(chord)))};
 }
 
 /// Two arcs that leave `from` and reach `to` along their tangents and meet tangentially at a third point.
@@ -86,7 +87,7 @@ class ArcFit {
 
   std::optional<Biarc> fitting(std::size_t from, std::size_t to) const {
     const Knot start = knot(from), end = knot(to);
-    const double turn = std::atan2(cross(start.tangent, end.tangent), start.tangent.dot(end.tangent));
+    const double turn = elementary::atan2(cross(start.tangent, end.tangent), start.tangent.dot(end.tangent));
     if (!(turn >= 0) || turn > k_most_turn) return std::nullopt;
     const std::optional<Biarc> biarc = biarc_between(start, end);
     // The outline is convex, so its arcs must be convex too.

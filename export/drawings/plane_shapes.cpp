@@ -11,7 +11,7 @@ Polygon rectangle(const Vec2& low, const Vec2& high) { return {low, {high.x(), l
 
 Polygon circle_polygon(const Vec2& centre, double radius) {
   constexpr double k_corner_sagitta = 0.002;
-  const double step = 2 * std::acos(std::max(0.0, 1 - k_corner_sagitta / std::max(radius, k_corner_sagitta)));
+  const double step = 2 * elementary::acos(std::max(0.0, 1 - k_corner_sagitta / std::max(radius, k_corner_sagitta)));
   const int corners = std::max(24, static_cast<int>(std::ceil(k_two_pi / step)));
   Polygon polygon;
   for (int i = 0; i < corners; ++i) polygon.push_back(centre + radius * unit(k_two_pi * i / corners));
@@ -19,7 +19,7 @@ Polygon circle_polygon(const Vec2& centre, double radius) {
 }
 
 double turn_between(const Vec2& from, const Vec2& to) {
-  const double turn = std::atan2(cross(from, to), from.dot(to));
+  const double turn = elementary::atan2(cross(from, to), from.dot(to));
   return turn > 0 ? turn : turn + k_two_pi;
 }
 
@@ -33,7 +33,7 @@ std::vector<BulgeVertex> vertices_of(const Contour& contour) {
   if (contour.arc_points > 0) {
     const Vec2& from = contour.points.front();
     const Vec2& to = contour.points[contour.arc_points - 1];
-    vertices = {{from, std::tan(0.25 * turn_between(from, to))}, {to, 0}};
+    vertices = {{from, elementary::tan(0.25 * turn_between(from, to))}, {to, 0}};
     next = contour.arc_points;
   }
   for (; next < contour.points.size(); ++next) vertices.push_back({contour.points[next], 0});

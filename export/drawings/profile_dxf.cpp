@@ -178,7 +178,7 @@ const helix::SpiralRow& home_row(const helix::HelixSide& side, std::size_t home)
 
 double reach_of(const helix::Spiral& spiral) {
   double reach = 0;
-  for (const helix::SpiralRow& row : spiral.rows) reach = std::max(reach, std::hypot(row.x, row.y));
+  for (const helix::SpiralRow& row : spiral.rows) reach = std::max(reach, elementary::hypot(row.x, row.y));
   return reach;
 }
 

@@ -28,14 +28,14 @@ std::optional<double> diameter_of(const EllipticArc& arc) {
 /// The semi-major axis.
 double longest_radius(const EllipticArc& arc) {
   const double uu = arc.u.squaredNorm(), vv = arc.v.squaredNorm(), uv = arc.u.dot(arc.v);
-  return std::sqrt(0.5 * (uu + vv) + std::hypot(0.5 * (uu - vv), uv));
+  return std::sqrt(0.5 * (uu + vv) + elementary::hypot(0.5 * (uu - vv), uv));
 }
 
 /// Parameters of the arc's ends and of its extreme points in x and y, in increasing order.
 std::vector<double> breaks_of(const EllipticArc& arc) {
   std::vector<double> breaks = {arc.from};
   for (const int axis : {0, 1}) {
-    const double extreme = std::atan2(arc.v[axis], arc.u[axis]);
+    const double extreme = elementary::atan2(arc.v[axis], arc.u[axis]);
     const double first = extreme + k_pi * std::ceil((arc.from - extreme) / k_pi);
     for (int k = 0; first + k_pi * k < arc.to; ++k) breaks.push_back(std::max(arc.from, first + k_pi * k));
   }
@@ -56,7 +56,7 @@ void append_arc(Polygon& points, const EllipticArc& arc, double sagitta) {
     const int parts = std::max(1, static_cast<int>(std::ceil(steps * width / turn - k_same)));
     for (int i = 1; i <= parts; ++i) {
       const double t = from + width * i / parts;
-      points.push_back(arc.centre + std::cos(t) * arc.u + std::sin(t) * arc.v);
+      points.push_back(arc.centre + elementary::cos(t) * arc.u + elementary::sin(t) * arc.v);
     }
   }
 }
@@ -65,7 +65,7 @@ void append_arc(Polygon& points, const EllipticArc& arc, double sagitta) {
 void append_bulge(Polygon& points, const Vec2& from, const Vec2& to, double bulge, double sagitta,
                   const DrawingPlacement& place) {
   if (bulge != 0 && std::abs(bulge) < 1e6 && (to - from).norm() > 0) {
-    const double turn = 4 * std::atan(bulge);
+    const double turn = 4 * elementary::atan(bulge);
     const Vec2 centre = 0.5 * (from + to) + turned_left(to - from) * ((1 - bulge * bulge) / (4 * bulge));
     const Vec2 spoke = from - centre;
     const EllipticArc arc{centre, spoke, (turn < 0 ? -1 : 1) * turned_left(spoke), 0, std::abs(turn)};
@@ -126,7 +126,7 @@ struct SpanSampler {
 
 SampledCurve sampled_arc(const EllipticArc& arc, double sagitta) {
   SampledCurve curve;
-  curve.points.push_back(arc.centre + std::cos(arc.from) * arc.u + std::sin(arc.from) * arc.v);
+  curve.points.push_back(arc.centre + elementary::cos(arc.from) * arc.u + elementary::sin(arc.from) * arc.v);
   append_arc(curve.points, arc, sagitta);
   if (arc.to - arc.from < k_two_pi) return curve;
   curve.points.pop_back();

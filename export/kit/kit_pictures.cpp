@@ -36,8 +36,9 @@ class Projection {
  public:
   Vec2 operator()(const Vec2& p, double z) const {
     const double a = radians(-24), e = radians(38);
-    const Vec2 q(p.x() * std::cos(a) - p.y() * std::sin(a), p.x() * std::sin(a) + p.y() * std::cos(a));
-    return {q.x(), -(q.y() * std::sin(e) + z * std::cos(e))};
+    const Vec2 q(p.x() * elementary::cos(a) - p.y() * elementary::sin(a),
+                 p.x() * elementary::sin(a) + p.y() * elementary::cos(a));
+    return {q.x(), -(q.y() * elementary::sin(e) + z * elementary::cos(e))};
   }
   Polygon operator()(const Polygon& polygon, double z) const {
     Polygon points;

@@ -106,12 +106,11 @@ std::string model_manifest_json(const ModelProduct& product, const std::vector<O
   json["notes"] = product.notes;
   json["checks"] = Json::array();
   for (const Check& check : product.checks)
-    json["checks"].push_back(
-        {{"name", check.name},
-         {"value", result_json(check.value)},
-         {"limit", std::stod(rounded(check.limit, 6))},
-         {"unit", check.unit},
-         {"ok", check.ok}});
+    json["checks"].push_back({{"name", check.name},
+                              {"value", result_json(check.value)},
+                              {"limit", std::stod(rounded(check.limit, 6))},
+                              {"unit", check.unit},
+                              {"ok", check.ok}});
   json["outputs"] = output_list(outputs);
   return json_text(json, 1);
 }

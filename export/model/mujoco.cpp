@@ -60,8 +60,8 @@ std::string opening(const ModelProduct& product, const SimulatedBody& body, cons
   for (const auto& more : {of_curve(product.curves.physical, product, false), bounds_of(product), coupling, body.words})
     lines.insert(lines.end(), more.begin(), more.end());
   const double tilt = mechanism.load.tilt;
-  const std::string gravity = body.weighs ? number(-transmission::k_gravity * std::sin(tilt)) + " " +
-                                                number(-transmission::k_gravity * std::cos(tilt)) + " 0"
+  const std::string gravity = body.weighs ? number(-transmission::k_gravity * elementary::sin(tilt)) + " " +
+                                                number(-transmission::k_gravity * elementary::cos(tilt)) + " 0"
                                           : "0 0 " + number(-transmission::k_gravity);
   return "<mujoco model=\"" + xml_attribute(mechanism.name) + "\">\n" + xml_comment(lines) +
          "  <compiler angle=\"radian\" autolimits=\"true\"/>\n  <option timestep=\"" + number(body.timestep) +

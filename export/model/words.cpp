@@ -53,7 +53,7 @@ std::string at_most_deg(double angle) {
   const double value = std::abs(degrees(angle));
   constexpr double k_rounding = 1e-6;  // below this only rounding remains
   if (!(value > k_rounding)) return "0.000001";
-  const double scale = std::pow(10.0, 1 - std::floor(std::log10(value)));
+  const double scale = elementary::pow(10.0, 1 - std::floor(elementary::log10(value)));
   return rounded(std::ceil(value * scale * (1 - 1e-9)) / scale, 3);
 }
 

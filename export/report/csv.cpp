@@ -31,7 +31,7 @@ void put_outline(std::string& table, const profile::Outline& outline, double z) 
   const std::string pulley = std::string(transmission::pulley_name(outline.side)) + ",";
   for (std::size_t i = 0; i < outline.points.size(); ++i) {
     const profile::OutlinePoint& point = outline.points[i];
-    const double angle = std::atan2(point.position.y(), point.position.x());
+    const double angle = elementary::atan2(point.position.y(), point.position.x());
     table += pulley + csv_cell(degrees(angle)) + ',' + csv_cell(point.position.x()) + ',' +
              csv_cell(point.position.y()) + ',' + csv_cell(point.curvature_radius) +
              (outline.is_active(i) ? ",1," : ",0,") + csv_cell(degrees(point.psi)) + ',' +
@@ -45,8 +45,8 @@ void put_spiral(std::string& table, transmission::Side side, const helix::Spiral
   for (std::size_t i = 0; i < spiral.rows.size(); ++i) {
     const helix::SpiralRow& row = spiral.rows[i];
     const bool is_used = i >= spiral.first_used && i <= spiral.last_used;
-    table += pulley + csv_cell(degrees(std::atan2(row.y, row.x))) + ',' + csv_cell(row.x) + ',' + csv_cell(row.y) +
-             ',' + csv_cell(row.rho) + (is_used ? ",1," : ",0,") +
+    table += pulley + csv_cell(degrees(elementary::atan2(row.y, row.x))) + ',' + csv_cell(row.x) + ',' +
+             csv_cell(row.y) + ',' + csv_cell(row.rho) + (is_used ? ",1," : ",0,") +
              csv_cell(degrees(std::remainder(row.turn, k_two_pi))) + ',' + csv_cell(degrees(row.turn)) + ',' +
              csv_cell(place.height(row.z)) + '\n';
   }
@@ -56,7 +56,7 @@ void put_spiral(std::string& table, transmission::Side side, const helix::Spiral
 double sloped_cosine(const Product& product, std::size_t i, const transmission::PaperForces& forces) {
   if (!product.helix) return 1.0;
   const std::size_t carries = forces.T2 > 0 ? 1 : 0;
-  return std::cos(product.helix->synthesis.sides.at(carries).stroke[i].slope);
+  return elementary::cos(product.helix->synthesis.sides.at(carries).stroke[i].slope);
 }
 
 void add_slopes(std::vector<double>& row, const HelixProduct& helix, std::size_t i) {

@@ -54,7 +54,7 @@ std::string ink(transmission::Side side) { return side == transmission::Side::le
 /// A round length for a scale bar of about `px` pixels.
 double scale_bar_length(double scale, double px) {
   const double rough = px / scale;
-  const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+  const double decade = elementary::pow(10.0, std::floor(elementary::log10(rough)));
   for (const double factor : {5.0, 2.0}) {
     if (factor * decade <= rough) return factor * decade;
   }
@@ -196,7 +196,7 @@ std::string sheaths(const Mechanism& mechanism, const View& view) {
 
 std::string point_names(const Mechanism& mechanism, const View& view, double theta) {
   const double gap = mechanism.guide_pitch_radius() * view.scale + 12;
-  const Vec2 name_offset = 15 * Vec2(std::sin(theta), -std::cos(theta)) + Vec2(0, 4);
+  const Vec2 name_offset = 15 * Vec2(elementary::sin(theta), -elementary::cos(theta)) + Vec2(0, 4);
   const Vec2 c = view(attachment(mechanism, transmission::Side::left, theta)),
              other = view(attachment(mechanism, transmission::Side::right, theta));
   const bool plain = mechanism.joint.is_plain(), apart = !plain && (other - c).norm() > 1;
@@ -439,7 +439,7 @@ double radius_towards(const profile::Outline& outline, double angle) {
 double magnification(double difference, double r) {
   constexpr double k_seen = 0.22;  // relative to the radius
   const double most = k_seen * r / difference;
-  double factor = std::pow(10.0, std::floor(std::log10(most)));
+  double factor = elementary::pow(10.0, std::floor(elementary::log10(most)));
   for (const double step : {5.0, 2.0}) {
     if (step * factor <= most) return std::max(1.0, step * factor);
   }

@@ -55,7 +55,7 @@ Figure spiral_figure(const Product& product, transmission::Side side) {
   const helix::HelixSide& helix = product.helix->synthesis.sides.at(side == transmission::Side::left ? 0 : 1);
   const std::vector<helix::SpiralRow>& rows = helix.spiral.rows;
   double reach = 0;
-  for (const helix::SpiralRow& row : rows) reach = std::max(reach, std::hypot(row.x, row.y));
+  for (const helix::SpiralRow& row : rows) reach = std::max(reach, elementary::hypot(row.x, row.y));
   const double scale = (0.5 * k_size - k_margin) / reach;
   const auto drawn = [&](std::size_t first, std::size_t last) {
     std::vector<Vec2> points;

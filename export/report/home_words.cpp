@@ -28,7 +28,7 @@ std::string home_words(const Product& product) {
   if (product.pulley.has_home_mark()) return "the home mark pointing to +y";
   const std::optional<Vec2> knot = knot_of_tendon2(product);
   if (!knot) return "its +y of the drawings pointing to +y";
-  const double turn = degrees(std::remainder(std::atan2(knot->y(), knot->x()) - 0.5 * k_pi, k_two_pi));
+  const double turn = degrees(std::remainder(elementary::atan2(knot->y(), knot->x()) - 0.5 * k_pi, k_two_pi));
   return "tendon 2’s knot pocket " + fixed(std::abs(turn), 0) + "° " + (turn > 0 ? "counter-clockwise" : "clockwise") +
          " of +y, seen from above (it has no home mark)";
 }

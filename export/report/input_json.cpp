@@ -16,7 +16,7 @@ Json as_written(double value) {
   constexpr int k_digits = 12;
   double rounded_value = value;
   if (value != 0 && std::isfinite(value)) {
-    const double scale = std::pow(10.0, k_digits - 1 - std::floor(std::log10(std::abs(value))));
+    const double scale = elementary::pow(10.0, k_digits - 1 - std::floor(elementary::log10(std::abs(value))));
     rounded_value = std::round(value * scale) / scale;
   }
   return finite_or_null(rounded_value);

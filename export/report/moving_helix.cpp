@@ -46,7 +46,7 @@ std::string side_json(const Product& product, std::size_t i) {
   // Rise per mm in the direction of the joint. That distance is shorter than the path in the tendon's own plane.
   const auto rise = [&](std::size_t k) {
     const transmission::TendonPoint& tendon = i == 0 ? stroke[k].t1 : stroke[k].t2;
-    return -place.direction * std::tan(side.stroke[k].slope) / std::abs(std::cos(tendon.lower_normal));
+    return -place.direction * elementary::tan(side.stroke[k].slope) / std::abs(elementary::cos(tendon.lower_normal));
   };
   return "{\"rows\":" + drawn_rows(side.spiral, place) +
          ",\"z\":" + numbers_text(stroke.size(), 4, [&](std::size_t k) { return place.height(side.stroke[k].z); }) +

@@ -116,7 +116,7 @@ std::string row(std::initializer_list<std::string> cells) {
 
 std::string assumptions_text(const paper::PaperAssumptions& a) {
   return "Not in the paper, and assumed here: its unit of length " + rounded(a.unit) + " mm, r1 " + rounded(a.r1) +
-         " mm, EF " + rounded(a.EF) + " mm (so BG " + rounded(std::hypot(0.5 * a.unit, a.EF), 4) + " mm), μ " +
+         " mm, EF " + rounded(a.EF) + " mm (so BG " + rounded(elementary::hypot(0.5 * a.unit, a.EF), 4) + " mm), μ " +
          rounded(a.mu) + ", F_c " + rounded(a.tip_force) + " N. From the paper: θ ±30°, a tendon of " +
          rounded(a.diameter) + " mm and " + rounded(a.modulus) +
          " MPa, point pins. With these, T_b/F_c, r2 and θ do not depend on the tendon; elongation and error do.\n";

@@ -255,7 +255,7 @@ std::string readout_attributes(const Plot& plot, const Frame& frame) {
 
 std::vector<double> nice_ticks(double low, double high, int count, const std::string& unit) {
   const double rough = (high - low) / std::max(1, count);
-  const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+  const double decade = elementary::pow(10.0, std::floor(elementary::log10(rough)));
   std::vector<double> steps{decade, 2 * decade, 5 * decade, 10 * decade};
   if (unit == "°" && rough > 5 && rough <= 360) steps = {10, 15, 30, 45, 90, 180, 360};
   double step = steps.back();
@@ -274,7 +274,7 @@ std::vector<double> nice_ticks(double low, double high, int count, const std::st
 }
 
 int tick_decimals(double step) {
-  return std::clamp(static_cast<int>(-std::floor(std::log10(std::abs(step)) + 1e-9)), 0, 12);
+  return std::clamp(static_cast<int>(-std::floor(elementary::log10(std::abs(step)) + 1e-9)), 0, 12);
 }
 
 // The height of the narrowest strip of a given slope about the points is a convex function of the slope. Its minimum is

@@ -86,7 +86,8 @@ RimMargins rim_margins(const solid::FlangeRims& rims, const profile::Outline& p1
   const Vec2& n = p1.points[0].normal;
   const double h1 = p1.points[0].position.dot(n), h2 = p2.points[0].position.dot(n);
   const double blend = 0.5;
-  const double around = std::max(h1, h2) + blend * std::log1p(std::exp(-std::abs(h1 - h2) / blend)) + groove_edge;
+  const double around =
+      std::max(h1, h2) + blend * elementary::log1p(elementary::exp(-std::abs(h1 - h2) / blend)) + groove_edge;
   return {0, rims.middle[0].dot(n) - around, 0};
 }
 

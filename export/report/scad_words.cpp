@@ -58,7 +58,7 @@ std::string flat_sliders(const solid::BoreLayout& bore, double compensation) {
 
 std::string directions_text(const Polygon& points) {
   std::vector<std::string> angles;
-  for (const Vec2& point : points) angles.push_back(decimal(degrees(std::atan2(point.y(), point.x()))));
+  for (const Vec2& point : points) angles.push_back(decimal(degrees(elementary::atan2(point.y(), point.x()))));
   return fmt::format("{}", fmt::join(angles, ", "));
 }
 

@@ -63,7 +63,8 @@ TendonLength length_on_helix(const Product& product, const helical_solid::Helica
   result.side = anchor.side;
   result.joint_knot = attachment(product.joint.mechanism, anchor.side, 0.0);
   result.pulley_knot = product.pulley.layout.scale * anchor.pocket;
-  result.between_knots = home->free + std::hypot(rise, rise / side.spiral.slope) + (anchor.pocket - anchor.exit).norm();
+  result.between_knots =
+      home->free + elementary::hypot(rise, rise / side.spiral.slope) + (anchor.pocket - anchor.exit).norm();
   result.cut = cut_length(result.between_knots + 2.0 * tendon_end(product.joint.mechanism.tendon));
   result.lap_at_home = std::abs(end.turn - side.spiral.row_at(home->z).turn);
   const helix::SpiralRow& used = rows.at(left ? side.spiral.last_used : side.spiral.first_used);

@@ -14,8 +14,8 @@ namespace {
 /// inside the circle.
 double tangent_normal(const Vec2& centre, double rho, const Vec2& point, bool point_above, double sign) {
   const Vec2 to_point = point - centre;
-  const double opening = std::acos(rho / to_point.norm());
-  const double direction = std::atan2(to_point.y(), to_point.x());
+  const double opening = elementary::acos(rho / to_point.norm());
+  const double direction = elementary::atan2(to_point.y(), to_point.x());
   // Right tendon: the outer side is clockwise of a point above, counter-clockwise of a point below.
   return direction + (point_above ? -sign : sign) * opening;
 }
@@ -114,10 +114,10 @@ std::vector<Vec2> sheath_curve(const Mechanism& mechanism, transmission::Side si
 }
 
 Vec2 attachment(const Mechanism& mechanism, transmission::Side side, double theta) {
-  if (mechanism.joint.is_plain()) return mechanism.joint.R * Vec2(std::sin(theta), std::cos(theta));
+  if (mechanism.joint.is_plain()) return mechanism.joint.R * Vec2(elementary::sin(theta), elementary::cos(theta));
   const transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.guide_pitch_radius());
   const double angle = theta + transmission::mirror_sign(side) * place.twist;
-  return place.R * Vec2(std::sin(angle), std::cos(angle));
+  return place.R * Vec2(elementary::sin(angle), elementary::cos(angle));
 }
 
 // The tendon as a taut string over the drawn shapes: the tangent from C to the pin, the common tangent of the pin and

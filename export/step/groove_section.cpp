@@ -16,10 +16,10 @@ constexpr double k_widest_seat = radians(150);
 /// Angle of one wall's arc before its straight part; empty if the groove edge cuts the arc off.
 std::optional<double> seat_turn(const std::vector<solid::GroovePoint>& wall, double radius) {
   const solid::GroovePoint &groove_edge = wall.back(), &last = wall[wall.size() - 2];
-  const double lean = std::atan2(groove_edge.dz - last.dz, groove_edge.offset - last.offset);
+  const double lean = elementary::atan2(groove_edge.dz - last.dz, groove_edge.offset - last.offset);
   // The straight touches the arc: its distance from the centre equals the radius.
-  const double distance = std::abs((radius - last.offset) * std::sin(lean) + last.dz * std::cos(lean));
-  const double end = radius * (1 - std::sin(lean));
+  const double distance = std::abs((radius - last.offset) * elementary::sin(lean) + last.dz * elementary::cos(lean));
+  const double end = radius * (1 - elementary::sin(lean));
   if (std::abs(distance - radius) > k_touches || end > groove_edge.offset - 1e-3) return std::nullopt;
   return 0.5 * k_pi - lean;
 }

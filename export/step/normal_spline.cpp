@@ -271,8 +271,8 @@ std::optional<std::pair<SupportCurve::Sample, SupportCurve::Sample>> SupportCurv
   const Vec2 between = c1 - c0;
   const double half = 0.5 * k_straight_turn, along = (from.radius - to.radius) / between.norm();
   if (!(std::abs(along) < 1)) return std::nullopt;
-  const double psi =
-      profile::turned_into(from.psi - 0.5 * k_pi, std::atan2(between.y(), between.x()) - std::acos(along));
+  const double psi = profile::turned_into(from.psi - 0.5 * k_pi,
+                                          elementary::atan2(between.y(), between.x()) - elementary::acos(along));
   if (psi - from.psi < 2 * half || to.psi - psi < 2 * half) return std::nullopt;
   const auto on = [](const Vec2& centre, double radius, double at) {
     return Sample{at, centre + radius * unit(at), radius};

@@ -55,18 +55,18 @@ std::vector<SectionCorner> section_corners(const helical_solid::HelicalSection& 
   if (seat) {
     const std::vector<double> angles = seat->angles();
     const auto on_arc = [&](double angle, double radius) {
-      return Vec2(seat->radius - half - radius * std::cos(angle), radius * std::sin(angle));
+      return Vec2(seat->radius - half - radius * elementary::cos(angle), radius * elementary::sin(angle));
     };
     for (std::size_t i = 0; i < angles.size(); ++i) {
       const Vec2 place = on_arc(angles[i], seat->radius);
       SectionCorner corner{place.x(), place.y()};
       if (i + 1 < angles.size()) {
         const double turn = 0.5 * (angles[i + 1] - angles[i]);
-        const Vec2 tip = on_arc(angles[i] + turn, seat->radius / std::cos(turn));
+        const Vec2 tip = on_arc(angles[i] + turn, seat->radius / elementary::cos(turn));
         corner.arc = true;
         corner.arc_outward = tip.x();
         corner.arc_dz = tip.y();
-        corner.weight = std::cos(turn);
+        corner.weight = elementary::cos(turn);
       }
       corners.push_back(corner);
     }

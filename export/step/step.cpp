@@ -102,7 +102,8 @@ StepInspection inspect_step(const fs::path& path, const Product& product, double
     question.planes = {scale * layout.z_p1, scale * layout.z_p2};
   }
   const StepReading found = maker().read(path.string(), question);
-  const double expected = product.pulley.expected_volume + std::pow(scale, 3) * round_hole_excess(product.pulley);
+  const double expected =
+      product.pulley.expected_volume + elementary::pow(scale, 3) * round_hole_excess(product.pulley);
   inspection.checks.push_back(exactly("solids", found.solids, 1, "1"));
   inspection.checks.push_back(exactly("unpaired_edges", found.unpaired_edges, 0, "1"));
   inspection.checks.push_back(exactly("invalid_shapes", found.is_valid ? 0 : 1, 0, "1"));

@@ -112,7 +112,7 @@ class StepBuilder {
       double room = k_pi;
       for (const solid::Anchor& anchor : product_.pulley.anchors) {
         for (const Vec2& place : {anchor.exit, anchor.pocket})
-          room = std::min(room, std::abs(std::remainder(psi - std::atan2(place.y(), place.x()), k_two_pi)));
+          room = std::min(room, std::abs(std::remainder(psi - elementary::atan2(place.y(), place.x()), k_two_pi)));
       }
       return room;
     };
@@ -196,20 +196,20 @@ class StepBuilder {
   void add_seat(const ParallelRing& groove_edge, double plane, const Seat& seat) {
     const double floor = groove_edge.distance - layout_.groove_depth;
     const auto on_arc = [&](double angle, double radius) {
-      return ParallelRing{groove_edge.base, floor + seat.radius - radius * std::cos(angle),
-                          plane + radius * std::sin(angle)};
+      return ParallelRing{groove_edge.base, floor + seat.radius - radius * elementary::cos(angle),
+                          plane + radius * elementary::sin(angle)};
     };
     const auto add_arc = [&](double from, double to) {
       if (from == -seat.below) add(on_arc(from, seat.radius));
       const double half = 0.5 * (to - from);
       add(on_arc(to, seat.radius));
       StepBand& band = part_.bands.back();
-      const ParallelRing corner = on_arc(0.5 * (from + to), seat.radius / std::cos(half));
+      const ParallelRing corner = on_arc(0.5 * (from + to), seat.radius / elementary::cos(half));
       band.seat_radius = layout_.scale * seat.radius;
       band.seat_middle = layout_.scale * (floor + seat.radius);
       band.seat_z = layout_.scale * plane;
       band.corner_z = layout_.scale * corner.z;
-      band.weight = std::cos(half);
+      band.weight = elementary::cos(half);
       if (groove_edge.base) band.corner = pieces_of(corner);
     };
     const std::vector<double> angles = seat.angles();
@@ -267,7 +267,7 @@ class StepBuilder {
 StepPart helical_part(const Product& product) {
   double reach = 0;
   for (const helix::HelixSide& side : product.helix->synthesis.sides) {
-    for (const helix::SpiralRow& row : side.spiral.rows) reach = std::max(reach, std::hypot(row.x, row.y));
+    for (const helix::SpiralRow& row : side.spiral.rows) reach = std::max(reach, elementary::hypot(row.x, row.y));
   }
   refuse_beyond(reach);
   StepPart part;

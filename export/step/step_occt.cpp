@@ -282,14 +282,16 @@ class BodyMaker {
     const double from = part_.sectors[s], to = part_.sectors[s + 1];
     const double rise = high.z - low.z, out = high.radius - low.radius;
     if (band.seat_radius > 0) {
-      const auto angle = [&](const StepRow& row) { return M_PI - std::asin((row.z - band.seat_z) / band.seat_radius); };
+      const auto angle = [&](const StepRow& row) {
+        return M_PI - elementary::asin((row.z - band.seat_z) / band.seat_radius);
+      };
       return bounded(new Geom_ToroidalSurface(about_axis(band.seat_z), band.seat_middle, band.seat_radius), from, to,
                      angle(high), angle(low));
     }
     if (std::abs(out) < k_same_height)
       return bounded(new Geom_CylindricalSurface(about_axis(low.z), low.radius), from, to, 0, rise);
-    return bounded(new Geom_ConicalSurface(about_axis(low.z), std::atan2(out, rise), low.radius), from, to, 0,
-                   std::hypot(out, rise));
+    return bounded(new Geom_ConicalSurface(about_axis(low.z), elementary::atan2(out, rise), low.radius), from, to, 0,
+                   elementary::hypot(out, rise));
   }
 
   const StepPart& part_;
@@ -451,8 +453,8 @@ class ToolMaker {
   TopoDS_Shape operator()(const StepTurned& turned) const {
     BRepBuilderAPI_MakePolygon section;
     for (const Vec2& corner : turned.section)
-      section.Add(gp_Pnt(turned.centre.x() + corner.x() * std::cos(turned.from),
-                         turned.centre.y() + corner.x() * std::sin(turned.from), corner.y()));
+      section.Add(gp_Pnt(turned.centre.x() + corner.x() * elementary::cos(turned.from),
+                         turned.centre.y() + corner.x() * elementary::sin(turned.from), corner.y()));
     section.Close();
     const gp_Ax1 axis(point_at(turned.centre, 0), gp_Dir(0, 0, 1));
     const TopoDS_Face face = BRepBuilderAPI_MakeFace(section.Wire(), true);
@@ -498,7 +500,8 @@ class ToolMaker {
   };
   static RingEdges edges_of(const StepRing& ring) {
     const auto at = [&](double angle) {
-      return point_at(Vec3(ring.middle + ring.radius * (std::cos(angle) * ring.level + std::sin(angle) * ring.up)));
+      return point_at(
+          Vec3(ring.middle + ring.radius * (elementary::cos(angle) * ring.level + elementary::sin(angle) * ring.up)));
     };
     const gp_Pnt left = at(M_PI_2 + ring.gap), right = at(M_PI_2 - ring.gap), top = point_at(ring.ridge);
     return {BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(left, at(-M_PI_2), right).Value()),
@@ -894,7 +897,7 @@ class SurfaceSamples {
     return of_surface;
   }
 
-  static double radius_of(const gp_Pnt& point) { return std::hypot(point.X(), point.Y()); }
+  static double radius_of(const gp_Pnt& point) { return elementary::hypot(point.X(), point.Y()); }
 
   struct Crossing {
     gp_Pnt place;

@@ -20,6 +20,8 @@
 #include <utility>
 #include <vector>
 
+#include "fusee/base_elementary.h"
+
 namespace fusee {
 
 // ---- Failures -------------------------------------------------------------------------------------------------------
@@ -135,7 +137,7 @@ using Vec3 = Eigen::Vector3d;
 using Polygon = std::vector<Vec2>;
 
 /// Unit vector at `angle` (rad, counter-clockwise from +x).
-inline Vec2 unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
+inline Vec2 unit(double angle) { return {elementary::cos(angle), elementary::sin(angle)}; }
 /// `v` rotated counter-clockwise by `angle` (rad).
 Vec2 turned(const Vec2& v, double angle);
 /// `v` rotated by +90°.

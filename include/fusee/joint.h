@@ -140,8 +140,8 @@ struct JointModel {
   double dry_friction(double left, double right) const;
 
   /// Torque of weight and spring against +θ, N·mm, and its derivative.
-  double own_torque(double theta) const { return weight * std::sin(tilt - theta) + spring.torque(theta); }
-  double own_slope(double theta) const { return spring.stiffness - weight * std::cos(tilt - theta); }
+  double own_torque(double theta) const { return weight * elementary::sin(tilt - theta) + spring.torque(theta); }
+  double own_slope(double theta) const { return spring.stiffness - weight * elementary::cos(tilt - theta); }
 };
 
 /// Model of the joint as declared. Its law must exist over the range (Transmission::dead_centre() is null).

@@ -81,7 +81,7 @@ struct CableStiffening {
   double energy(double pull) const {
     if (!(rate > 0)) return 0;
     const double x = rate * pull;
-    return most / rate * (std::log1p(x) - x / (1.0 + x));
+    return most / rate * (elementary::log1p(x) - x / (1.0 + x));
   }
 
   bool operator==(const CableStiffening&) const = default;

@@ -38,8 +38,8 @@ struct LowerGuide {
   double rho = 0;  ///< radius to the tendon's centre line; 0 for a point such as a sheath exit
 
   /// Polar coordinates c and φ of the guide.
-  double c() const { return std::hypot(across, above); }
-  double phi() const { return std::atan2(above, across); }
+  double c() const { return elementary::hypot(across, above); }
+  double phi() const { return elementary::atan2(above, across); }
 };
 
 /// Geometry of one tendon in its right-hand image. mm.

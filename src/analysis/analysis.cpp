@@ -129,7 +129,7 @@ std::vector<DrumHold> drum_holds(const Mechanism& mechanism, const std::vector<A
         if (has_equilibrium(*point))
           enlarge(hold.at_end, (side == transmission::Side::left ? point->t1 : point->t2).end, row.declared.alpha);
     }
-    hold.ratio = std::exp(mechanism.joint.drum_mu * hold.wrap);
+    hold.ratio = elementary::exp(mechanism.joint.drum_mu * hold.wrap);
     if (hold.wrap > 0) all.push_back(hold);
   }
   return all;
@@ -148,7 +148,7 @@ bool stays_taut(Mechanism mechanism, double pretension, const std::vector<double
 
 /// `value` > 0 rounded up to three digits, as it is printed.
 double three_digits_up(double value) {
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  const double unit = elementary::pow(10.0, std::floor(elementary::log10(value)) - 2.0);
   return std::stod(rounded(std::ceil(value / unit) * unit, 3));
 }
 

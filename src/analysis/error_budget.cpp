@@ -152,8 +152,8 @@ Spread by_derivative(const std::vector<double>& alphas, const RigidJoint& joint,
 /// Variances of independent causes add.
 void add_squares(Spread& sum, const Spread& more) {
   for (std::size_t k = 0; k < sum.theta.size(); ++k) {
-    sum.theta[k] = std::hypot(sum.theta[k], more.theta[k]);
-    sum.excess[k] = std::hypot(sum.excess[k], more.excess[k]);
+    sum.theta[k] = elementary::hypot(sum.theta[k], more.theta[k]);
+    sum.excess[k] = elementary::hypot(sum.excess[k], more.excess[k]);
   }
 }
 

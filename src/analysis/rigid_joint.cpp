@@ -44,7 +44,7 @@ Vec2 end_direction(const transmission::PinPlace& pin, double theta) {
   return turned_left(unit(transmission::upper_span(pin, theta).end_normal));
 }
 double by_length(const transmission::PinPlace& pin, const joint::LowerPath&, transmission::Side, double theta, double) {
-  return pin.at_C ? end_direction(pin, theta).dot(Vec2(std::sin(theta), std::cos(theta))) : 0.0;
+  return pin.at_C ? end_direction(pin, theta).dot(Vec2(elementary::sin(theta), elementary::cos(theta))) : 0.0;
 }
 /// The tendon ends do not move in the link.
 double by_drum(const transmission::PinPlace& pin, const joint::LowerPath&, transmission::Side, double theta, double) {
@@ -55,7 +55,8 @@ template <transmission::Side moved, bool is_across>
 double by_end(const transmission::PinPlace& pin, const joint::LowerPath&, transmission::Side side, double theta,
               double) {
   if (side != moved || pin.at_C) return 0.0;
-  const Vec2 across(std::cos(theta), -std::sin(theta)), along(std::sin(theta), std::cos(theta));
+  const Vec2 across(elementary::cos(theta), -elementary::sin(theta)),
+      along(elementary::sin(theta), elementary::cos(theta));
   return end_direction(pin, theta).dot(is_across ? Vec2(transmission::mirror_sign(side) * across) : along);
 }
 template <transmission::Side moved>

@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "fusee/base_elementary.h"
+
 namespace fusee {
 
 SymmetricEigen eigendecomposition(const Eigen::MatrixXd& symmetric) {
@@ -17,7 +19,11 @@ Eigen::MatrixXd solved(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { ret
 
 Cholesky::Cholesky(const Eigen::MatrixXd& A) : factors_(A) {}
 Eigen::MatrixXd Cholesky::lower() const { return factors_.matrixL(); }
-double Cholesky::half_log_determinant() const { return factors_.matrixLLT().diagonal().array().log().sum(); }
+double Cholesky::half_log_determinant() const {
+  double sum = 0;
+  for (const double pivot : factors_.matrixLLT().diagonal()) sum += elementary::log(pivot);
+  return sum;
+}
 Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) const { return factors_.solve(b); }
 Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& B) const { return factors_.solve(B); }
 

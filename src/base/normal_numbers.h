@@ -16,8 +16,8 @@ class NormalNumbers {
   explicit NormalNumbers(std::uint64_t seed) : bits_(seed) {}
 
   double next() {
-    const double radius = std::sqrt(-2.0 * std::log(uniform()));
-    return radius * std::cos(k_two_pi * uniform());
+    const double radius = std::sqrt(-2.0 * elementary::log(uniform()));
+    return radius * elementary::cos(k_two_pi * uniform());
   }
 
  private:

@@ -6,7 +6,7 @@
 namespace fusee {
 
 Vec2 turned(const Vec2& v, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
+  const double c = elementary::cos(angle), s = elementary::sin(angle);
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
 

@@ -159,7 +159,7 @@ std::string rounded(double value, int digits) {
   if (value == 0 || !std::isfinite(value) || size < 1e-4 || size >= 1e7) {
     return without_negative_zero(fmt::format("{:.{}g}", value, digits));
   }
-  const int before_point = static_cast<int>(std::floor(std::log10(size))) + 1;
+  const int before_point = static_cast<int>(std::floor(elementary::log10(size))) + 1;
   return trimmed_fixed(value, std::max(0, digits - before_point));
 }
 

@@ -170,7 +170,7 @@ Auditor::SyntheticDataset Auditor::synthesize(std::size_t found, std::size_t num
     for (Eigen::Index k = 0; k < family.count; ++k) z += amplitude * normal(random) * all_.col(own_ + family.first + k);
   }
   const double found_size = size;
-  size *= std::exp(0.5 * normal(random));
+  size *= elementary::exp(0.5 * normal(random));
   std::vector<std::size_t> others, shapes;
   for (std::size_t i = 0; i < chords_.size(); ++i) {
     // Equally likely rivals are members of the group already.
@@ -284,7 +284,7 @@ bool Auditor::is_group_member(const SyntheticDataset& data, const Set& found, st
     return score_of(evidence_model_.best(sums(data, set), data.start, k_rounds + 2), set);
   };
   return reached(swapped) >
-         reached(found) - k_thresholds.temperature * std::log(1.0 / k_thresholds.complete_group_absence);
+         reached(found) - k_thresholds.temperature * elementary::log(1.0 / k_thresholds.complete_group_absence);
 }
 
 AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {

@@ -113,7 +113,8 @@ void apply_curve(const measurement::Measurement& measurement, const EmpiricalCur
   calibration.curve = curve;
   validate_curve(measurement, calibration.residuals_after, hold_out, calibration.curve);
   if (!calibration.curve.used) return;
-  const double square = std::pow(calibration.after_effects.held_out_rms, 2) - std::pow(calibration.curve.gain, 2);
+  const double square =
+      elementary::pow(calibration.after_effects.held_out_rms, 2) - elementary::pow(calibration.curve.gain, 2);
   add_curve(measurement, -1.0, std::sqrt(std::max(0.0, square)), calibration);
 }
 

@@ -141,7 +141,7 @@ StateDifference state_difference(const Evidence& evidence, const Fit& none, cons
       if (block.run < evidence.earlier->runs) continue;
       const double unchanged = none.residual[static_cast<Eigen::Index>(row)] - discrepancy;
       before += unchanged * unchanged;
-      after += std::pow(changed.residual[static_cast<Eigen::Index>(row)] - discrepancy, 2);
+      after += elementary::pow(changed.residual[static_cast<Eigen::Index>(row)] - discrepancy, 2);
       rows += 1;
     }
   }

@@ -92,7 +92,9 @@ class Variance {
     squares_ += value * value;
     count_ += 1;
   }
-  double value() const { return count_ > 0 ? std::max(0.0, squares_ / count_ - std::pow(sum_ / count_, 2)) : 0.0; }
+  double value() const {
+    return count_ > 0 ? std::max(0.0, squares_ / count_ - elementary::pow(sum_ / count_, 2)) : 0.0;
+  }
 
  private:
   double sum_ = 0, squares_ = 0, count_ = 0;

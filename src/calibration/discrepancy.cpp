@@ -46,7 +46,7 @@ Eigen::MatrixXd smooth_curves(const std::vector<RowFacts>& facts, Eigen::Index c
 /// likely anywhere.
 Eigen::MatrixXd rough_curves(const std::vector<RowFacts>& facts) {
   const auto kernel = [](double a, double b) {
-    return std::exp(-0.5 * (a - b) * (a - b) / (k_short_scale * k_short_scale));
+    return elementary::exp(-0.5 * (a - b) * (a - b) / (k_short_scale * k_short_scale));
   };
   const auto node = [](Eigen::Index i) { return static_cast<double>(i) / (k_nodes - 1); };
   Eigen::MatrixXd K(k_nodes, k_nodes);
@@ -120,7 +120,7 @@ Eigen::MatrixXd transients(const std::vector<RowFacts>& facts, const Part& part)
   for (std::size_t i = 0; i < facts.size(); ++i) {
     for (std::size_t k = 0; k < k_decay_lengths.size(); ++k)
       all(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-          part(facts[i]) * std::exp(-facts[i].since / k_decay_lengths[k]);
+          part(facts[i]) * elementary::exp(-facts[i].since / k_decay_lengths[k]);
   }
   return all;
 }

@@ -149,8 +149,8 @@ Harmonic strongest(const Eigen::VectorXd& angle, double row_step, const Eigen::V
   const double step = 0.25 * k_two_pi / span;
   for (double order = std::max(k_least_order, 1.5 * k_two_pi / span); order < most; order += step) {
     Eigen::MatrixXd wave(residual.size(), 2);
-    wave.col(0) = (order * angle).array().sin();
-    wave.col(1) = (order * angle).array().cos();
+    wave.col(0) = (order * angle).unaryExpr(&elementary::sin);
+    wave.col(1) = (order * angle).unaryExpr(&elementary::cos);
     const Eigen::VectorXd projection = wave.transpose() * residual;
     const Eigen::VectorXd size = solved(wave.transpose() * wave, projection);
     const double taken = size.dot(projection) / residual.squaredNorm();
@@ -243,7 +243,7 @@ namespace {
 
 /// Excess of the noise over the floor, rad². A floor from few repeats may be exceeded by chance.
 double noise_beyond_floor(const Evidence& evidence, double noise) {
-  const double ratio = std::pow(noise / evidence.floor, 2);
+  const double ratio = elementary::pow(noise / evidence.floor, 2);
   const double rows = evidence.evidence_model->independent_share() * static_cast<double>(evidence.rows_used());
   const bool is_badly_known = evidence.floor_freedom < k_thresholds.noise_freedom;
   if (is_badly_known && ratio < rarest_ratio(rows, evidence.floor_freedom)) return 0;
@@ -282,7 +282,7 @@ DiscrepancyFit describe_discrepancy(const Evidence& evidence, const Fit& fit, bo
     if (has_course(factor->factor)) draw(angles, normalized(angles, part, factor->factor), component);
     unmodelled.parts.push_back(std::move(component));
   }
-  unmodelled.rms = std::hypot(rms_of(sum), std::sqrt(excess));
+  unmodelled.rms = elementary::hypot(rms_of(sum), std::sqrt(excess));
   Eigen::VectorXd residual = tangent.residual - sum + part_of(discrepancy, all.posterior.coefficients, Factor::place);
   if (tangent.x.size() > 0) residual -= tangent.J * all.posterior.step;
   find_harmonic(angles, residual, evidence.floor, unmodelled.parts);

@@ -147,7 +147,7 @@ double error_of(const Evidence& evidence, const Gain& gain, double curve_rms) {
 
 std::string why_not(const Evidence& evidence, const HeldOutWithDiscrepancy& by_factor, const Gain& gain,
                     double curve_rms) {
-  if (gain.mean < std::pow(k_thresholds.least_residual * evidence.floor, 2) ||
+  if (gain.mean < elementary::pow(k_thresholds.least_residual * evidence.floor, 2) ||
       gain.mean < k_least_gain_in_errors * error_of(evidence, gain, curve_rms))
     return "on held-out data it corrects no more than chance would";
   if (harms_a_level(evidence, by_factor, gain))
@@ -176,7 +176,7 @@ void add(const measurement::Run& run, const std::vector<double>& residuals, cons
     for (std::size_t i = stroke.first; i <= stroke.last; ++i) {
       if (!std::isfinite(residuals[i]) || !covers(curve, run.samples[i].alpha)) continue;
       squares.without += residuals[i] * residuals[i];
-      squares.with += std::pow(residuals[i] - removed[i], 2);
+      squares.with += elementary::pow(residuals[i] - removed[i], 2);
       squares.rows += 1;
     }
   }

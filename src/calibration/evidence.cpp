@@ -215,7 +215,7 @@ std::vector<Fold> speed_levels(const Evidence& evidence) {
   for (const Block& block : evidence.blocks) {
     const measurement::Run& run = evidence.measurement.runs[block.run];
     speeds.push_back(!run.has_time                              ? 0.0
-                     : run.speed > 0                            ? std::log(run.speed)
+                     : run.speed > 0                            ? elementary::log(run.speed)
                      : measurement::is_from_point_to_point(run) ? held
                                                                 : 0.0);
   }

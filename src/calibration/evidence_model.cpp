@@ -20,9 +20,8 @@ constexpr double k_tail = 2.0;
 
 double square(double x) { return x * x; }
 
-/// Log density of Student's t at 0. Computed once, before any thread begins: lgamma writes a global sign.
-const double k_log_density_at_0 =
-    std::lgamma(0.5 * (k_tail + 1.0)) - std::lgamma(0.5 * k_tail) - 0.5 * std::log(k_tail * k_pi);
+/// Log density of Student's t at 0: of two degrees of freedom it is 1/√8.
+const double k_log_density_at_0 = -1.5 * elementary::log(2.0);
 
 /// Information of the prior near x: −d²/dx² of its log density, without the negative part.
 double information(double x, double prior) {
@@ -33,7 +32,8 @@ double information(double x, double prior) {
 
 double log_prior(double x, double prior) {
   if (!std::isfinite(prior)) return 0;
-  return k_log_density_at_0 - std::log(prior) - 0.5 * (k_tail + 1.0) * std::log1p(x * x / (k_tail * prior * prior));
+  return k_log_density_at_0 - elementary::log(prior) -
+         0.5 * (k_tail + 1.0) * elementary::log1p(x * x / (k_tail * prior * prior));
 }
 
 void add_numbers(const Eigen::VectorXd& prior, Tangent& tangent) {
@@ -127,7 +127,7 @@ double EvidenceModel::log_prior_of(const Amplitudes& amplitudes) const {
   for (std::size_t f = 0; f < discrepancy_.families.size(); ++f) {
     const double amplitude = amplitudes.families[static_cast<Eigen::Index>(f)];
     if (!(discrepancy_.families[f].fixed > 0))
-      sum -= std::log1p(square(amplitude / (k_thresholds.usual_discrepancy * floor_)));
+      sum -= elementary::log1p(square(amplitude / (k_thresholds.usual_discrepancy * floor_)));
   }
   return sum;
 }
@@ -145,8 +145,8 @@ EvidenceModel::Solved EvidenceModel::solved(const TangentSums& sums, const Scale
   const double rows = independent_share_ * sums.rows;
   const double freedom = k_thresholds.noise_freedom;
   const double excess = floor_ * floor_ / (u.amplitudes.noise * u.amplitudes.noise);
-  s.constant = log_prior_of(u.amplitudes) + 0.5 * rows * std::log(u.beta) - u.A.half_log_determinant() +
-               0.5 * freedom * (std::log(excess) - excess);
+  s.constant = log_prior_of(u.amplitudes) + 0.5 * rows * elementary::log(u.beta) - u.A.half_log_determinant() +
+               0.5 * freedom * (elementary::log(excess) - excess);
   return s;
 }
 
@@ -173,7 +173,7 @@ double log_evidence_of(const ReducedTangent& tangent, const std::vector<Eigen::I
   double log_evidence = tangent.constant - factor.half_log_determinant() -
                         0.5 * (tangent.rr + tangent.caliper_chi2 + step.dot(known * step) - 2.0 * step.dot(gradient));
   for (Eigen::Index k = 0; k < x.size(); ++k) {
-    if (std::isfinite(prior[k])) log_evidence += log_prior(x[k] + step[k], prior[k]) + 0.5 * std::log(k_two_pi);
+    if (std::isfinite(prior[k])) log_evidence += log_prior(x[k] + step[k], prior[k]) + 0.5 * elementary::log(k_two_pi);
   }
   return log_evidence;
 }
@@ -205,7 +205,7 @@ Posterior EvidenceModel::posterior_at(const TangentSums& tangent, const ScaledDi
     if (!std::isfinite(tangent.prior[k])) continue;
     posterior.log_density += log_prior(tangent.x[k], tangent.prior[k]);
     posterior.predicted_log_density += log_prior(tangent.x[k] + step[k], tangent.prior[k]);
-    width -= 0.5 * std::log(k_two_pi);
+    width -= 0.5 * elementary::log(k_two_pi);
   }
   posterior.log_evidence = posterior.predicted_log_density - width;
   posterior.log_evidence_here = posterior.log_density - width;

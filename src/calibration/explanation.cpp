@@ -181,7 +181,7 @@ std::vector<Detectable> detectable_sizes(const Evidence& evidence, FitterPool& p
     for (Eigen::Index k = best.x.size(); k < wider.x.size(); ++k) {
       const double sensitivity = wider.J.col(k).norm() / std::sqrt(static_cast<double>(wider.J.rows()));
       const double deviation = ranges[static_cast<std::size_t>(k)].deviation;
-      const double width = std::log(std::max(1.0, tangent_of(evidence, wider).prior[k] / deviation));
+      const double width = elementary::log(std::max(1.0, tangent_of(evidence, wider).prior[k] / deviation));
       const double named = std::sqrt(2.0 * (reporting_penalty(*others[i]) + width)) + k_thresholds.power;
       sizes[i] = std::max(sizes[i], named * deviation * sensitivity);
     }

@@ -11,7 +11,7 @@ namespace {
 double weight_of(double loose, double floor) {
   // Standard deviation of the place at which a loose joint rests, as a share of its play.
   constexpr double uncertain = 1.0 / 3.0;
-  return floor / std::hypot(floor, uncertain * loose);
+  return floor / elementary::hypot(floor, uncertain * loose);
 }
 
 }  // namespace
@@ -49,8 +49,8 @@ LooseRows loose_rows(const Eigen::VectorXd& residual, const Eigen::VectorXd& loo
   for (Eigen::Index i = 0; i < rows; ++i) {
     weight[i] = weight_of(loose[i], floor);
     const double squares = residual[i] * residual[i] / (floor * floor);
-    pushed[i] = std::exp(-0.5 * squares / (weight[i] * weight[i]));
-    anywhere[i] = weight[i] * std::exp(-0.5 * squares);
+    pushed[i] = elementary::exp(-0.5 * squares / (weight[i] * weight[i]));
+    anywhere[i] = weight[i] * elementary::exp(-0.5 * squares);
     if (loose[i] > 0) count += 1;
   }
   if (count == 0) return result;
@@ -65,11 +65,11 @@ LooseRows loose_rows(const Eigen::VectorXd& residual, const Eigen::VectorXd& loo
     }
     share = std::clamp(sum / count, 1e-9, 1.0 - 1e-9);
   }
-  result.nats = 0.5 * std::log(count);  // the share is one fitted number
+  result.nats = 0.5 * elementary::log(count);  // the share is one fitted number
   for (Eigen::Index i = 0; i < rows; ++i) {
     if (!(loose[i] > 0)) continue;
     const double squares = residual[i] * residual[i] / (floor * floor);
-    result.nats -= std::log((1.0 - share) * pushed[i] + share * anywhere[i]) + 0.5 * squares;
+    result.nats -= elementary::log((1.0 - share) * pushed[i] + share * anywhere[i]) + 0.5 * squares;
     result.extra_information[i] = pushed_probability(i, share) * (1.0 / (weight[i] * weight[i]) - 1.0);
   }
   return result;

@@ -205,7 +205,7 @@ class Proposals {
       for (const EffectParameter* number : numbers) {
         const double difference = reading_by_hand(*number, found_, *evidence_.declared) -
                                   reading_by_hand(*number, *other.at, *evidence_.declared);
-        squares += std::pow(difference / number->by_hand.uncertainty, 2);
+        squares += elementary::pow(difference / number->by_hand.uncertainty, 2);
       }
       proposal.margins.push_back(std::sqrt(squares) / k_thresholds.distinguished);
     }

@@ -81,7 +81,7 @@ NormalEquations sums_of_readings(const Evidence& evidence, const Fit& fit) {
 double caliper_chi2(const Evidence& evidence, const Imperfections& at) {
   double squares = 0;
   for (const HandReading& reading : evidence.readings)
-    squares += std::pow((reading.value - reading_of(reading, evidence, at)) / reading.uncertainty, 2);
+    squares += elementary::pow((reading.value - reading_of(reading, evidence, at)) / reading.uncertainty, 2);
   return squares;
 }
 

@@ -17,7 +17,7 @@ std::vector<double> weights_of(const std::vector<WeightedSet>& sets) {
   double most = -std::numeric_limits<double>::infinity();
   for (const WeightedSet& set : sets) most = std::max(most, set.log_weight);
   std::vector<double> weights;
-  for (const WeightedSet& set : sets) weights.push_back(std::exp(set.log_weight - most));
+  for (const WeightedSet& set : sets) weights.push_back(elementary::exp(set.log_weight - most));
   return weights;
 }
 

@@ -847,14 +847,14 @@ std::optional<double> Selector::square_deviation(const Fit& fit, Eigen::Index pl
 /// companion. An unexplained residual enlarges it.
 void Selector::estimate_variance() {
   const Fit& best = selection_.best;
-  const double wider = leaves_unexplained(best) ? std::pow(k_thresholds.interval_factor, 2) : 1.0;
+  const double wider = leaves_unexplained(best) ? elementary::pow(k_thresholds.interval_factor, 2) : 1.0;
   for (std::size_t k = 0; k < best.parameters.size(); ++k) {
     const auto place = static_cast<Eigen::Index>(k);
     double squares = 0, weights = 0;
     for (const auto& [key, fit] : seen_) {
       const std::optional<double> square = square_deviation(fit, place);
       if (!square) continue;
-      const double weight = std::exp((score(fit) - score(best)) / selection_.temperature);
+      const double weight = elementary::exp((score(fit) - score(best)) / selection_.temperature);
       squares += weight * *square;
       weights += weight;
     }

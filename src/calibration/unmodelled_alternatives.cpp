@@ -168,8 +168,8 @@ class Shapes {
     for (double periods = k_least_periods; periods <= std::min(k_most_periods, shown); periods += k_period_step) {
       const double order = k_two_pi * periods / span;
       add(dependence, 1, "a wave of " + rounded(order, 2) + " times a turn of the " + what,
-          {[=](const RowFacts& r) { return std::sin(order * (r.*angle)); },
-           [=](const RowFacts& r) { return std::cos(order * (r.*angle)); }},
+          {[=](const RowFacts& r) { return elementary::sin(order * (r.*angle)); },
+           [=](const RowFacts& r) { return elementary::cos(order * (r.*angle)); }},
           true);
     }
   }
@@ -185,7 +185,7 @@ class Shapes {
       for (const double width : k_widths) {
         add(dependence, 2, "a lump" + at, {[=](const RowFacts& r) {
               const double away = (r.place - place) / width;
-              return times(r) * std::exp(-0.5 * away * away);
+              return times(r) * elementary::exp(-0.5 * away * away);
             }},
             centred);
       }
@@ -195,7 +195,7 @@ class Shapes {
   /// Decays behind a reversal, different at the two ends: exponential, or linear to zero.
   void add_ways(const Part& times, const std::string& how) {
     for (const double way : k_shape_ways) {
-      const auto fading = [=](const RowFacts& r) { return times(r) * std::exp(-r.since / way); };
+      const auto fading = [=](const RowFacts& r) { return times(r) * elementary::exp(-r.since / way); };
       const auto ending = [=](const RowFacts& r) { return times(r) * std::max(0.0, 1.0 - r.since / way); };
       const std::string words = "a decay over " + rounded(100 * way, 2) + " % of the range after a reversal" + how;
       add(Dependence::reversal, 1, words,
@@ -232,7 +232,7 @@ class Shapes {
   void add_drifts(double RowFacts::*by, const std::string& what) {
     for (const double settling : k_settling) {
       add_drift("a drift that decays in " + rounded(100 * settling, 2) + " % of the session, by " + what,
-                [=](const RowFacts& r) { return std::exp(-(r.*by) / settling); });
+                [=](const RowFacts& r) { return elementary::exp(-(r.*by) / settling); });
     }
     for (int i = 1; i < k_late; ++i) {
       const double from = static_cast<double>(i) / k_late;

@@ -120,7 +120,8 @@ double HeldOutRows::standard_error(const std::vector<Block>& blocks) {
   const double more = (sum.after - sum.before) / sum.rows;
   const auto count = static_cast<double>(blocks.size());
   double squares = 0;
-  for (const Block& block : blocks) squares += std::pow(block.rows * (block.after - block.before - more) / sum.rows, 2);
+  for (const Block& block : blocks)
+    squares += elementary::pow(block.rows * (block.after - block.before - more) / sum.rows, 2);
   return std::sqrt(squares * count / (count - 1.0));
 }
 
@@ -130,7 +131,7 @@ bool HeldOutRows::gets_worse(const Level& level, const Level& all) const {
   const Block sum = sum_of(level.blocks);
   if (sum.rows == 0) return false;
   const double more = (sum.after - sum.before) / sum.rows;
-  if (more <= std::pow(k_thresholds.least_residual * evidence_.floor, 2)) return false;
+  if (more <= elementary::pow(k_thresholds.least_residual * evidence_.floor, 2)) return false;
   if (all.blocks.size() < 2) return true;
   const double error = level.blocks.size() > 1
                            ? standard_error(level.blocks)

@@ -132,12 +132,12 @@ std::string finding(const Calibration& calibration, const StrokeScatter& scatter
     case CalibrationVerdict::not_repeatable:
       if (is_scattering(calibration.noise)) return scatter_words(calibration, load_unit);
       return "The same angle, direction and load give joint angles that differ by " +
-             in_degrees(std::hypot(scatter.between, scatter.tilts)) +
+             in_degrees(elementary::hypot(scatter.between, scatter.tilts)) +
              " rms from stroke to stroke: look for something loose before any correction.";
     case CalibrationVerdict::unexplained:
       return (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + names) + "; " +
              (any_beside(calibration.effects) ? "with these alone " : "") +
-             in_degrees(std::hypot(calibration.unexplained_rms, floor)) + " rms remain, of which noise is " +
+             in_degrees(elementary::hypot(calibration.unexplained_rms, floor)) + " rms remain, of which noise is " +
              in_degrees(floor) + ": the residual is unexplained, " + calibration.unexplained_where + "." +
              (calibration.discrepancy.empty() ? "" : " It depends on " + calibration.discrepancy.front().factor + ".") +
              (calibration.dropped.empty() ? ""

@@ -27,10 +27,10 @@ std::string_view word(CalibrationVerdict verdict) {
 
 std::string odds(double log_odds) {
   const bool against = log_odds < 0;
-  const double decades = std::min(6.0, std::abs(log_odds) / std::log(10.0));
-  const double unit = std::pow(10.0, std::floor(decades));
-  const std::string times =
-      fixed(std::max(1.0, unit * std::round(std::pow(10.0, decades) / unit)), 0) + (decades < 6.0 ? "" : " or more");
+  const double decades = std::min(6.0, std::abs(log_odds) / elementary::log(10.0));
+  const double unit = elementary::pow(10.0, std::floor(decades));
+  const std::string times = fixed(std::max(1.0, unit * std::round(elementary::pow(10.0, decades) / unit)), 0) +
+                            (decades < 6.0 ? "" : " or more");
   return against ? "1 : " + times : times + " : 1";
 }
 

@@ -419,7 +419,7 @@ Correction correct(const DeclaredMechanism& declared, const measurement::Measure
   correction.error_with_table = rms(measurement, with_table(measurement, then, table), 0.0);
   const calibration::EmpiricalCurve* curve = calibration.curve.used ? &calibration.curve : nullptr;
   if (curve != nullptr) correction.by_curve = curve->gain;
-  correction.by_table = std::hypot(correction.by_table, correction.by_curve);
+  correction.by_table = elementary::hypot(correction.by_table, correction.by_curve);
   correction.table = compensation_rows(law, {table, curve, common_span(table, curve)});
   fill_reasons(calibration, correction);
   return correction;

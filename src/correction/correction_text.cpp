@@ -41,7 +41,7 @@ std::string found_text(const calibration::FoundEffect& effect) {
 /// Six digits exceed the accuracy of any bench and are shorter than a full double.
 double tidy(double value) {
   if (value == 0 || !std::isfinite(value)) return 0;
-  const double scale = std::pow(10.0, 5 - std::floor(std::log10(std::abs(value))));
+  const double scale = elementary::pow(10.0, 5 - std::floor(elementary::log10(std::abs(value))));
   return std::isfinite(scale) ? std::round(value * scale) / scale : 0;
 }
 

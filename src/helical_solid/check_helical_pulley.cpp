@@ -31,7 +31,7 @@ struct Minimum {
   void note(double here, double angle, double r, double z) {
     if (here >= value) return;
     value = here;
-    at = {r * std::cos(angle), r * std::sin(angle), z};
+    at = {r * elementary::cos(angle), r * elementary::sin(angle), z};
   }
   Check check(const std::string& name, double limit) const {
     return at_least(name, value, limit, "mm", value >= limit ? std::string() : "at " + solid::place_of(at));

@@ -82,7 +82,7 @@ class FloorJoiner {
       double nearest = k_next + k_two_pi / static_cast<double>(planes_) * floors_[here][i].r;
       for (std::size_t j = 0; j < floors_[there].size(); ++j) {
         const FloorPlace &a = floors_[here][i], &b = floors_[there][j];
-        const double away = std::hypot(a.z - b.z, a.r - b.r);
+        const double away = elementary::hypot(a.z - b.z, a.r - b.r);
         if (away >= nearest || has_before_[there][j]) continue;
         nearest = away;
         next_[here][i] = j;
@@ -129,10 +129,10 @@ std::vector<std::vector<OutlinePiece>> half_plane_cuts(const solid::TriangleMesh
   for (const auto& triangle : mesh.triangles) {
     const std::array<const Vec3*, 3> corners{&mesh.vertices[triangle[0]], &mesh.vertices[triangle[1]],
                                              &mesh.vertices[triangle[2]]};
-    const double at = std::atan2(corners[0]->y(), corners[0]->x());
+    const double at = elementary::atan2(corners[0]->y(), corners[0]->x());
     double low = at, high = at;
     for (const Vec3* corner : {corners[1], corners[2]}) {
-      const double angle = at + std::remainder(std::atan2(corner->y(), corner->x()) - at, k_two_pi);
+      const double angle = at + std::remainder(elementary::atan2(corner->y(), corner->x()) - at, k_two_pi);
       low = std::min(low, angle);
       high = std::max(high, angle);
     }

@@ -427,7 +427,7 @@ class BlankBuilder {
 
   Polygon hub_circle() const {
     const double radius = layout_.hub_radius;
-    const int facets = std::max(24, static_cast<int>(std::ceil(k_pi / std::acos(1.0 - k_hub_sagitta / radius))));
+    const int facets = std::max(24, static_cast<int>(std::ceil(k_pi / elementary::acos(1.0 - k_hub_sagitta / radius))));
     Polygon circle;
     for (int k = 0; k < facets; ++k) circle.push_back(radius * unit(k_two_pi * (k + 0.5) / facets));
     return circle;

@@ -128,7 +128,7 @@ class Planner {
 
   static double circumradius(const helix::Spiral& spiral) {
     double most = 0;
-    for (const helix::SpiralRow& row : spiral.rows) most = std::max(most, std::hypot(row.x, row.y));
+    for (const helix::SpiralRow& row : spiral.rows) most = std::max(most, elementary::hypot(row.x, row.y));
     return most;
   }
   double floor_radius(const helix::Spiral& spiral) const {
@@ -493,7 +493,7 @@ HelicalSection helical_section(const Mechanism& mechanism) {
 }
 
 double least_lead(const HelicalSection& section, double growth) {
-  const double step = section.ceiling_slope > 0 ? std::max(0.0, growth) * std::tan(section.ceiling_slope) : 0.0;
+  const double step = section.ceiling_slope > 0 ? std::max(0.0, growth) * elementary::tan(section.ceiling_slope) : 0.0;
   return section.width() + std::max(section.rib, step);
 }
 

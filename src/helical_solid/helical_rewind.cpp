@@ -99,7 +99,7 @@ class HelicalString {
   // Fleet angle: between the free path and the groove at the take-off.
   double fleet(double theta) const {
     const double rise = end_height_ - take_off_.height;
-    return std::atan2(rise, sloping(theta)) - std::atan(hand_ * take_off_.slope);
+    return elementary::atan2(rise, sloping(theta)) - elementary::atan(hand_ * take_off_.slope);
   }
 
  private:
@@ -116,7 +116,7 @@ class HelicalString {
 
   double length(double theta) const {
     const double rise = end_height_ - take_off_.height, flat = planar(theta) - sloping(theta);
-    return hand_ * take_off_.wound + std::hypot(sloping(theta), rise) + flat;
+    return hand_ * take_off_.wound + elementary::hypot(sloping(theta), rise) + flat;
   }
   double planar(double theta) const { return span_ + above_.length(theta, normal_ - alpha_); }
   double sloping(double theta) const { return collar_ ? span_ : planar(theta); }
@@ -131,7 +131,7 @@ class HelicalString {
     }
     wound_.push_back(0.0);
     for (std::size_t i = 1; i <= last; ++i)
-      wound_.push_back(wound_[i - 1] + (planar_[i] - planar_[i - 1]) * std::hypot(1.0, slope_between(i - 1, i)));
+      wound_.push_back(wound_[i - 1] + (planar_[i] - planar_[i - 1]) * elementary::hypot(1.0, slope_between(i - 1, i)));
   }
 
   double slope_between(std::size_t a, std::size_t b) const {

@@ -42,7 +42,7 @@ std::vector<Vec3> ring_of(const Vec3& centre, const Vec3& across, const Vec3& up
   std::vector<Vec3> ring;
   for (int k = 0; k < facets; ++k) {
     const double angle = k_two_pi * (k + start) / facets;
-    ring.push_back(centre + radius * (std::cos(angle) * across + std::sin(angle) * up));
+    ring.push_back(centre + radius * (elementary::cos(angle) * across + elementary::sin(angle) * up));
   }
   return ring;
 }
@@ -63,7 +63,7 @@ Vec3 start_of(const GrooveEnd& end) { return {end.row.position.x(), end.row.posi
 
 Vec3 arc_point(const GrooveEnd& end, double radius, double turn) {
   const auto [along, towards] = directions_of(end);
-  return start_of(end) + radius * (std::sin(turn) * along + (1.0 - std::cos(turn)) * towards);
+  return start_of(end) + radius * (elementary::sin(turn) * along + (1.0 - elementary::cos(turn)) * towards);
 }
 
 double arc_turn(int step) { return 0.5 * k_pi * step / k_arc_steps; }
@@ -84,8 +84,8 @@ ChannelRing ring_across(const Vec3& middle, const Vec3& ahead, double radius, do
           level,
           up,
           radius,
-          std::acos(std::cos(ceiling_slope) / up.z()),
-          middle + radius / std::cos(ceiling_slope) * Vec3::UnitZ()};
+          elementary::acos(elementary::cos(ceiling_slope) / up.z()),
+          middle + radius / elementary::cos(ceiling_slope) * Vec3::UnitZ()};
 }
 
 // Shrinks a ring nearly to a point.
@@ -137,7 +137,7 @@ void set_entry(RunOutSizes& sizes, const Body& body, double d) {
   double radius = body.seat_ratio;
   if (body.groove != Groove::u) {
     sizes.entry_outward = k_further_out * d;
-    radius = k_least + k_further_out * std::sin(0.5 * body.groove_angle);
+    radius = k_least + k_further_out * elementary::sin(0.5 * body.groove_angle);
   }
   sizes.entry_radius = std::min(std::max(radius - k_inside, k_least) * d, sizes.channel_radius);
 }
@@ -186,7 +186,7 @@ double entry_cover(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& 
 std::vector<double> channel_radii(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes,
                                   const ChannelRoom& room) {
   // The peaked ceiling points up, away from the face, in the lower part only.
-  const double upwards = end.outward < 0 ? 1.0 / std::cos(sizes.ceiling_slope) : 1.0;
+  const double upwards = end.outward < 0 ? 1.0 / elementary::cos(sizes.ceiling_slope) : 1.0;
   std::vector<double> radii;
   for (int k = 1; k <= k_arc_steps; ++k) {
     const Vec3 place = arc_place(end, sizes, k);
@@ -243,7 +243,7 @@ std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& 
     add(entry + place * along, along, sizes.entry_radius);
   for (int k = 1; k <= k_arc_steps; ++k) {
     const double turn = arc_turn(k);
-    add(arc_place(end, sizes, k), std::cos(turn) * along + std::sin(turn) * towards,
+    add(arc_place(end, sizes, k), elementary::cos(turn) * along + elementary::sin(turn) * towards,
         sizes.channel_radii[static_cast<std::size_t>(k - 1)]);
   }
   // A straight channel continues into the pocket. Below the lower face it ends in a point where ball and cone meet in
@@ -256,7 +256,8 @@ std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& 
   if ((last - rings.back().middle).norm() > k_shortest_way * sizes.channel_radius)
     add(last, towards, sizes.channel_radius);
   const Vec3 inwards(-end.row.normal.x(), -end.row.normal.y(), 0.0);
-  const Vec3 front = std::sin(sizes.ceiling_slope) * inwards + std::cos(sizes.ceiling_slope) * Vec3::UnitZ();
+  const Vec3 front =
+      elementary::sin(sizes.ceiling_slope) * inwards + elementary::cos(sizes.ceiling_slope) * Vec3::UnitZ();
   rings.push_back(narrowed(rings.back(), last + sizes.channel_radius * front));
   return rings;
 }

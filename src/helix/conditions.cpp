@@ -45,8 +45,8 @@ profile::Condition number_of_turns(const transmission::Transmission& planar, tra
 profile::Condition fleet(const HelixSide& side, transmission::Side which, const HelixGroove& groove,
                          double largest_radius) {
   constexpr double k_none = 1e-9;  // tolerance of rounding about zero
-  const double limit =
-      std::max(k_none, std::atan(groove.room_at_groove_edge / std::sqrt(2.0 * largest_radius * groove.groove_edge)));
+  const double limit = std::max(
+      k_none, elementary::atan(groove.room_at_groove_edge / std::sqrt(2.0 * largest_radius * groove.groove_edge)));
   const std::string number = which == transmission::Side::left ? "1" : "2";
   profile::Condition condition =
       at_most("fleet_angle_" + number, side.fleet_at, degrees(side.fleet), degrees(limit), "deg");

@@ -21,7 +21,7 @@ Taper taper(double u, double length) {
 /// ∫ sin u w(u) du from 0, Simpson's rule.
 double tapered_integral(double u, double length) {
   constexpr int k_steps = 64;
-  const auto value = [length](double v) { return std::sin(v) * taper(v, length).w; };
+  const auto value = [length](double v) { return elementary::sin(v) * taper(v, length).w; };
   double sum = value(0.0) + value(u);
   for (int i = 1; i < k_steps; ++i) sum += (i % 2 == 1 ? 4.0 : 2.0) * value(u * i / k_steps);
   return sum * u / (3.0 * k_steps);
@@ -88,12 +88,12 @@ SpiralPoint PitchSpiral::beyond(double turned, const SpiralPoint& from, double d
   const double u = std::min(turned, spare_);
   const double d = direction * from.curve.dh;
   const Taper w = taper(u, spare_);
-  const double slope = d * (std::cos(u) * w.w + std::sin(u) * w.d1);
+  const double slope = d * (elementary::cos(u) * w.w + elementary::sin(u) * w.d1);
   SpiralPoint point;
   point.curve.psi = from.curve.psi + direction * u;
-  point.curve.h = from.curve.h + d * std::sin(u) * w.w;
+  point.curve.h = from.curve.h + d * elementary::sin(u) * w.w;
   point.curve.dh = direction * slope;
-  point.curve.radius = from.curve.h + d * (2.0 * std::cos(u) * w.d1 + std::sin(u) * w.d2);
+  point.curve.radius = from.curve.h + d * (2.0 * elementary::cos(u) * w.d1 + elementary::sin(u) * w.d2);
   const double length = slope - d + from.curve.h * u + d * tapered_integral(u, spare_);
   point.sigma = from.sigma + direction * length;
   return point;

@@ -71,7 +71,7 @@ double smallest_fleet(HelixGeometry geometry, transmission::Side side, const std
 
 double q_of(const HelixGeometry& geometry, transmission::Side side, const WindingPlace& place) {
   const double up = rise(geometry, side, place.sigma);
-  const double sloping = std::hypot(place.path.sloping, up);
+  const double sloping = elementary::hypot(place.path.sloping, up);
   const double secant = std::sqrt(1.0 + geometry.slope * geometry.slope);
   return -up * up / (sloping + place.path.sloping) - place.sigma * (secant - 1.0);
 }
@@ -114,9 +114,9 @@ SideIteration solve_side(const Mechanism& mechanism, const transmission::Transmi
 HelixPoint helix_point(const HelixGeometry& geometry, transmission::Side side, const FreePath& path, double sigma) {
   HelixPoint point;
   const double up = rise(geometry, side, sigma);
-  point.slope = std::atan2(up, path.sloping);
-  point.fleet = point.slope + helix_sign(side) * std::atan(geometry.slope);
-  point.free = path.whole - path.sloping + std::hypot(path.sloping, up);
+  point.slope = elementary::atan2(up, path.sloping);
+  point.fleet = point.slope + helix_sign(side) * elementary::atan(geometry.slope);
+  point.free = path.whole - path.sloping + elementary::hypot(path.sloping, up);
   point.wound = sigma * std::sqrt(1.0 + geometry.slope * geometry.slope);
   return point;
 }

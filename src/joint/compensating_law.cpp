@@ -129,7 +129,8 @@ class ChebyshevSmoother {
                  half = 0.5 * (rows.back().alpha - rows.front().alpha);
     for (Eigen::Index i = 0; i < basis.rows(); ++i) {
       const double x = std::clamp((rows[static_cast<std::size_t>(i)].alpha - middle) / half, -1.0, 1.0);
-      for (Eigen::Index k = 0; k < k_terms; ++k) basis(i, k) = std::cos(static_cast<double>(k) * std::acos(x));
+      for (Eigen::Index k = 0; k < k_terms; ++k)
+        basis(i, k) = elementary::cos(static_cast<double>(k) * elementary::acos(x));
     }
     return basis;
   }

@@ -108,7 +108,8 @@ struct PinDirections {
   Vec2 up, down;
 
   PinDirections(double upper_normal, double lower_normal)
-      : up(-std::sin(upper_normal), std::cos(upper_normal)), down(std::sin(lower_normal), -std::cos(lower_normal)) {}
+      : up(-elementary::sin(upper_normal), elementary::cos(upper_normal)),
+        down(elementary::sin(lower_normal), -elementary::cos(lower_normal)) {}
   Vec2 push(double upper, double lower) const { return upper * up + lower * down; }
 };
 
@@ -319,7 +320,7 @@ Trial evaluate_trial(const TendonHistory& tendon, const TendonAtAlpha& at, const
       trial.threaded->slid = balance(spans, tendon.sheath.slides);
       trial.balance = from_ends(trial.threaded->slid);
     } else {
-      trial.spans.capstan = std::exp(on_pin);
+      trial.spans.capstan = elementary::exp(on_pin);
       trial.balance = balance(trial.spans);
     }
     return trial.balance.upper;

@@ -21,7 +21,7 @@ constexpr double k_least_stiffness = 1e-3;  // fraction of the declared EA
 void tie_on_drum(std::optional<Attachment>& end, const Joint& joint) {
   if (!end) return;
   const double across = end->across - joint.drum_centre.across, along = end->along - joint.drum_centre.along;
-  const double away = std::hypot(across, along);
+  const double away = elementary::hypot(across, along);
   if (away >= joint.drum_radius || away == 0) return;
   const double out = joint.drum_radius / away;
   end = Attachment{joint.drum_centre.across + out * across, joint.drum_centre.along + out * along};
@@ -97,8 +97,8 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
   if (!as_made) {
     model.lower = [larger, pins = model.pins, scale = 1.0 + at.pulley.scale, x = outline.runout_x,
                    y = outline.runout_y](double alpha) {
-      const double c = std::cos(alpha);
-      const double s = std::sin(alpha);
+      const double c = elementary::cos(alpha);
+      const double s = elementary::sin(alpha);
       const Vec2 centre(c * x + s * y, c * y - s * x);  // turned clockwise
       std::array<transmission::LowerGuide, 2> seen;
       for (std::size_t i = 0; i < 2; ++i) {
@@ -109,8 +109,8 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
       std::array<LowerPath, 2> paths = larger.paths(seen, alpha);
       for (std::size_t i = 0; i < 2; ++i) {
         const double sign = i == 0 ? -1.0 : 1.0;
-        paths[i].p =
-            paths[i].p * scale + sign * centre.x() * std::cos(paths[i].normal) + centre.y() * std::sin(paths[i].normal);
+        paths[i].p = paths[i].p * scale + sign * centre.x() * elementary::cos(paths[i].normal) +
+                     centre.y() * elementary::sin(paths[i].normal);
         paths[i].reach *= scale;
         paths[i].wound *= scale;
       }
@@ -136,9 +136,9 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
 
 Weight with_error(const Weight& declared, const WeightError& error) {
   if (error == WeightError{}) return declared;
-  const double cos_part = declared.moment * std::sin(declared.tilt) + error.cos;
-  const double sin_part = error.sin - declared.moment * std::cos(declared.tilt);
-  return {std::hypot(cos_part, sin_part), std::atan2(cos_part, -sin_part)};
+  const double cos_part = declared.moment * elementary::sin(declared.tilt) + error.cos;
+  const double sin_part = error.sin - declared.moment * elementary::cos(declared.tilt);
+  return {elementary::hypot(cos_part, sin_part), elementary::atan2(cos_part, -sin_part)};
 }
 
 void set_imperfect_statics(JointModel& model, const Mechanism& declared, const Imperfections& at) {

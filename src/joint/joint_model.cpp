@@ -103,8 +103,8 @@ LowerPath MadePulleys::path(transmission::Side side, const transmission::LowerGu
   for (int i = 0; i < 20; ++i) {
     const CurveElement curve = element(place, side, at, offset_);
     const double normal = curve.normal - sign * alpha;
-    const double reach = c * std::sin(phi - normal);
-    const double miss = c * std::cos(phi - normal) + mounted.rho - curve.support;
+    const double reach = c * elementary::sin(phi - normal);
+    const double miss = c * elementary::cos(phi - normal) + mounted.rho - curve.support;
     if (std::abs(miss) <= 1e-12 * c) return {curve.support, normal, reach - curve.ahead, curve.arc};
     const double step = sign * miss / (reach * (1.0 + curve.slope / curve.reach) - curve.slope);
     // Iterates over the declared joint angle, in which the usual laws are closed formulas.
@@ -149,7 +149,7 @@ JointModel joint_model(const MadePulleys& made, const MountedMechanism& in) {
 double JointModel::dry_friction(double left, double right) const {
   if (rubbing == RubbingError{}) return bearing_friction;
   const double first = std::max(0.0, left) / k_usual_pull, second = std::max(0.0, right) / k_usual_pull;
-  const double area = 0.5 * (std::pow(first, 2.0 / 3.0) + std::pow(second, 2.0 / 3.0));
+  const double area = 0.5 * (elementary::pow(first, 2.0 / 3.0) + elementary::pow(second, 2.0 / 3.0));
   return bearing_friction + rubbing.by_area * area + rubbing.by_lesser * std::min(first, second);
 }
 

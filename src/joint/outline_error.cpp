@@ -30,7 +30,7 @@ void correct_wave(profile::OutlinePoint& point, const OutlineError& outline) {
 Vec2 made_between(const Vec2& point, const Vec2& before, const Vec2& after, const OutlineError& outline) {
   const Vec2 along = (after - before).normalized(), normal(along.y(), -along.x());
   return point + Vec2(outline.runout_x, outline.runout_y) +
-         outline_wave(std::atan2(normal.y(), normal.x()), outline).outward * normal;
+         outline_wave(elementary::atan2(normal.y(), normal.x()), outline).outward * normal;
 }
 
 // Inward turn above the rounding of neighbouring points.
@@ -48,7 +48,7 @@ CornerTurn least_turn(const std::vector<profile::OutlinePoint>& points) {
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 before = points[i].position - points[(i + n - 1) % n].position,
                after = points[(i + 1) % n].position - points[i].position;
-    const double turn = std::atan2(cross(before, after), before.dot(after));
+    const double turn = elementary::atan2(cross(before, after), before.dot(after));
     if (turn < least.turn) least = {turn, points[i].psi};
   }
   return least;
@@ -58,8 +58,8 @@ CornerTurn least_turn(const std::vector<profile::OutlinePoint>& points) {
 
 OutlineWave outline_wave(double psi, const OutlineError& outline) {
   const double n = outline.wave_order;
-  const double outward = outline.wave_sin * std::sin(n * psi) + outline.wave_cos * std::cos(n * psi);
-  const double slope = n * (outline.wave_sin * std::cos(n * psi) - outline.wave_cos * std::sin(n * psi));
+  const double outward = outline.wave_sin * elementary::sin(n * psi) + outline.wave_cos * elementary::cos(n * psi);
+  const double slope = n * (outline.wave_sin * elementary::cos(n * psi) - outline.wave_cos * elementary::sin(n * psi));
   return {outward, slope, -n * n * outward};
 }
 
@@ -69,8 +69,8 @@ SupportWave support_wave(double psi, double support, const OutlineError& outline
   const double n = outline.wave_order;
   const double s = outline.wave_sin;
   const double c = outline.wave_cos;
-  const double sine = std::sin(n * psi);
-  const double cosine = std::cos(n * psi);
+  const double sine = elementary::sin(n * psi);
+  const double cosine = elementary::cos(n * psi);
   const OutlineWave w = outline_wave(psi, outline);
   const double squares =
       0.5 * n * n *

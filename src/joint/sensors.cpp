@@ -45,7 +45,7 @@ std::vector<double> filtered(const BenchRun& run, const std::vector<double>& the
       smooth[i] = smooth[i - 1];
     } else if (std::isfinite(smooth[i - 1]) && !has_unknown_arrival(run, i)) {
       const double behind = lag * (theta[i] - theta[i - 1]) / time;  // lag behind a ramp in steady state
-      smooth[i] = theta[i] - behind + (smooth[i - 1] - theta[i - 1] + behind) * std::exp(-time / lag);
+      smooth[i] = theta[i] - behind + (smooth[i - 1] - theta[i - 1] + behind) * elementary::exp(-time / lag);
     }
   }
   return smooth;
@@ -54,13 +54,13 @@ std::vector<double> filtered(const BenchRun& run, const std::vector<double>& the
 /// sin · sin nφ + cos · (cos nφ − 1)
 double wave(double angle, double order, double sin_part, double cos_part) {
   if (sin_part == 0 && cos_part == 0) return 0;
-  return sin_part * std::sin(order * angle) + cos_part * (std::cos(order * angle) - 1.0);
+  return sin_part * elementary::sin(order * angle) + cos_part * (elementary::cos(order * angle) - 1.0);
 }
 
 /// Transforms the coefficients of sin n(x + a) and cos n(x + a) to those of nx.
 void turn_wave(double angle, double& sin_part, double& cos_part) {
   if (angle == 0) return;
-  const double c = std::cos(angle), s = std::sin(angle);
+  const double c = elementary::cos(angle), s = elementary::sin(angle);
   const double turned_sin = sin_part * c - cos_part * s;
   cos_part = sin_part * s + cos_part * c;
   sin_part = turned_sin;

@@ -33,7 +33,7 @@ struct SlidingSpans {
       : spans(all), first(begin), last(begin) {
     ratio[first] = 1.0;
     while (last < k_bends && slides[last] != 0) {
-      ratio[last + 1] = ratio[last] * std::exp(-slides[last] * spans.holds[last]);
+      ratio[last + 1] = ratio[last] * elementary::exp(-slides[last] * spans.holds[last]);
       ++last;
     }
   }
@@ -123,7 +123,7 @@ bool let_slide(const ThreadedSpans& spans, const ThreadedBalance& now, Slides& s
   bool any = false;
   for (std::size_t j = 0; j < k_bends; ++j) {
     if (slides[j] != 0) continue;
-    const double most = std::exp(spans.holds[j]);
+    const double most = elementary::exp(spans.holds[j]);
     if (now.tension[j] > most * now.tension[j + 1]) slides[j] = 1;
     if (now.tension[j + 1] > most * now.tension[j]) slides[j] = -1;
     any = any || slides[j] != 0;

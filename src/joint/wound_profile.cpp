@@ -40,7 +40,7 @@ constexpr double k_panel = 1.0;
 /// Strain that counts as zero in logarithms.
 constexpr double k_no_strain = 1e-17;
 
-double log_of(double strain) { return std::log(std::max(strain, k_no_strain)); }
+double log_of(double strain) { return elementary::log(std::max(strain, k_no_strain)); }
 
 /// e^x and e^−x to machine precision, for |x| ≤ 0.4.
 std::array<double, 2> both_ways(double x) {
@@ -71,7 +71,7 @@ SlidContent sliding(const GrooveArc& groove, const GroovePlace& from, const Groo
     const int panels = static_cast<int>(std::ceil(turn * std::max(1.0, std::abs(fall)) / k_panel));
     const double origin = groove.arc(to.turn) - arc;
     const double width = turn / panels;
-    const double half_fall = std::exp(0.5 * fall * width);
+    const double half_fall = elementary::exp(0.5 * fall * width);
     const auto [ahead, behind] = both_ways(0.5 * fall * width * k_gauss[2][0]);
     const std::array<double, 3> at_places{half_fall * behind, half_fall, half_fall * ahead};
     double material = 0, energy = 0, length = 0;
@@ -107,7 +107,7 @@ WoundContent operator-(const WoundContent& all, const WoundContent& part) {
 WoundPiece below(const GrooveArc& groove, WoundPiece piece, const GroovePlace& place, double swelling) {
   if (piece.slid) {
     const double above = strain_of(piece.density_to, swelling);
-    const double here = above * std::exp(piece.fall * (piece.to.turn - place.turn));
+    const double here = above * elementary::exp(piece.fall * (piece.to.turn - place.turn));
     const bool takes_little = piece.swelling == swelling && piece.to.turn - place.turn < place.turn - piece.from.turn;
     piece.held = takes_little ? piece.held - sliding(groove, place, piece.to, above, piece.fall, swelling).held
                               : sliding(groove, piece.from, place, here, piece.fall, swelling).held;
@@ -262,7 +262,7 @@ Slide WoundProfile::slide(const TurnedPulley& turned, double strain, double swel
   const double falls = bound.fall * (turned.take_off.turn - turned.before.turn);
   bound.log_strain = log_of(strain) + falls;
   slide.slides = turned.has_top && bound.beyond(bound.turn, turned.log_wound_strain) > 0;
-  const double q = slide.slides ? std::exp(falls) : 1.0;
+  const double q = slide.slides ? elementary::exp(falls) : 1.0;
   const double top = slide.slides ? strain * q : wound_strain;
   slide.at_before = laid > 0 ? top : strain;
   const double ratio = (1.0 + strain) / (1.0 + top);
@@ -315,7 +315,7 @@ WoundContent WoundProfile::accept(const TurnedPulley& turned, const Slide& slide
   if (slide.has_remainder) put(slide.remainder);
   const double at_before = density_of(slide.at_before, swelling);
   if (slide.slides && turned.before.arc > slide.cut.arc) {
-    const double at_cut = slide.at_before * std::exp(slide.fall * (turned.before.turn - slide.cut.turn));
+    const double at_cut = slide.at_before * elementary::exp(slide.fall * (turned.before.turn - slide.cut.turn));
     put({slide.cut, turned.before, density_of(at_cut, swelling), at_before, true, slide.fall, slide.sliding, swelling});
   }
   if (const double laid = turned.take_off.arc - turned.before.arc; laid > 0) {

@@ -173,7 +173,7 @@ SlabBody trimmed(const SlabBody& body, const PrintTrim& trim) {
       // Engraved lines are not widened.
       if (least < k_finest_hole) continue;
       const double wider = std::max(0.5 * trim.hole, 0.1 - least);
-      const double more = wider + (least + wider) * (1 / std::cos(k_pi / loop.hull.corners) - 1);
+      const double more = wider + (least + wider) * (1 / elementary::cos(k_pi / loop.hull.corners) - 1);
       loop.grow_low += more;
       loop.grow_high += more;
     }

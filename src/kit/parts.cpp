@@ -29,7 +29,7 @@ struct LinkFrame {
   Vec2 along, across;
 };
 LinkFrame link_frame(double theta) {
-  const Vec2 along(std::sin(theta), std::cos(theta));
+  const Vec2 along(elementary::sin(theta), elementary::cos(theta));
   return {along, {along.y(), -along.x()}};
 }
 
@@ -399,7 +399,7 @@ SlideLengths slide_lengths(const Thread& thread) {
 
 // 8° steeper than the printer's limit. At the limit, slicers that round add supports, as PrusaSlicer does at 45°.
 double post_steepness(const Mechanism& mechanism) {
-  return std::tan(std::clamp(mechanism.print.overhang + radians(8), radians(53), radians(80)));
+  return elementary::tan(std::clamp(mechanism.print.overhang + radians(8), radians(53), radians(80)));
 }
 
 double tensioner_axis(const Thread& thread) { return 2.3 + nut_corner_radius(thread); }
@@ -453,7 +453,7 @@ namespace {
 PrintTrim trim_of(const Mechanism& mechanism, const solid::BodyLayout& layout) {
   const double overhang = mechanism.print.supports ? 0.0 : mechanism.print.overhang;
   return {layout.scale, mechanism.material.hole_compensation, layout.elephant_foot,
-          overhang > radians(45) ? std::tan(overhang) : 1.0};
+          overhang > radians(45) ? elementary::tan(overhang) : 1.0};
 }
 
 }  // namespace

@@ -49,8 +49,9 @@ std::vector<Vec2> tendon_path(const Mechanism& mechanism, const transmission::Tr
   const transmission::PinPlace place = transmission::pin_place(mechanism, side, rho);
   const transmission::TendonPoint& tendon = side == transmission::Side::left ? at.t1 : at.t2;
   const Vec2 pin(sign * place.pin().x(), place.pin().y());
-  return {mechanism.joint.R * Vec2(std::sin(at.theta), std::cos(at.theta)), pin + rho * unit(tendon.upper_normal),
-          pin + rho * unit(tendon.lower_normal), place.pulley_axis() + tendon.p * unit(tendon.lower_normal)};
+  return {mechanism.joint.R * Vec2(elementary::sin(at.theta), elementary::cos(at.theta)),
+          pin + rho * unit(tendon.upper_normal), pin + rho * unit(tendon.lower_normal),
+          place.pulley_axis() + tendon.p * unit(tendon.lower_normal)};
 }
 
 /// Positions and tendon paths of the mechanism, computed once.
@@ -216,9 +217,9 @@ Minimum tendon_past(const Scene& scene, int tendon, const Vec2& place, double ra
 Minimum post_past(const Scene& scene, const KitSizes& sizes, const Vec2& place, double radius) {
   Minimum least;
   for (const transmission::TransmissionPoint& at : scene.stroke)
-    least.see(
-        (scene.mechanism.joint.R * Vec2(std::sin(at.theta), std::cos(at.theta)) - place).norm() - sizes.post - radius,
-        at.alpha);
+    least.see((scene.mechanism.joint.R * Vec2(elementary::sin(at.theta), elementary::cos(at.theta)) - place).norm() -
+                  sizes.post - radius,
+              at.alpha);
   return least;
 }
 
@@ -299,7 +300,7 @@ void check_link(Conditions& checks, const Scene& scene, const KitPlan& plan) {
   const Polygon scale = scale_outline(plan, scene.mechanism);
   Minimum post;
   for (const transmission::TransmissionPoint& at : scene.stroke)
-    post.see(outside_of(scale, R * Vec2(std::sin(at.theta), std::cos(at.theta))) - sizes.post, at.alpha);
+    post.see(outside_of(scale, R * Vec2(elementary::sin(at.theta), elementary::cos(at.theta))) - sizes.post, at.alpha);
   checks.at_least("post_beside_scale", post, k_clear, "the post at C is too close to the scale",
                   "joint.length_mm larger by {}, or a smaller range (joint.range_deg)");
   const double magnet = sizes.link_low + sizes.link + sizes.cap_height;
@@ -354,7 +355,7 @@ class FootRoom {
  private:
   /// True behind the axis, where the scale's lines are.
   bool on_scale(const Vec2& place, double own) const {
-    const double theta = std::atan2(-place.x(), -place.y()), more = radians(15);
+    const double theta = elementary::atan2(-place.x(), -place.y()), more = radians(15);
     return place.norm() < plan_.sizes.pointer + k_scale_reach + own &&
            theta > scene_.mechanism.joint.theta_min - more && theta < scene_.mechanism.joint.theta_max + more;
   }
@@ -370,7 +371,7 @@ std::optional<Vec2> foot_on(const FootRoom& room, double side, double reach) {
     for (int step = 0; step < 21; ++step) {
       // Starts straight to the side and alternates below and above.
       const double angle = radians(step % 2 ? -5.0 * ((step + 1) / 2) : 2.0 * (step / 2));
-      const Vec2 place = radius * Vec2(side * std::cos(angle), std::sin(angle));
+      const Vec2 place = radius * Vec2(side * elementary::cos(angle), elementary::sin(angle));
       if (room.holds(place)) return place;
     }
   }

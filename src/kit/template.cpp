@@ -132,7 +132,7 @@ class TemplateMaker {
     const Joint& joint = mechanism_.joint;
     double least = joint.drum_radius > 0 ? joint.drum_radius : joint.R;
     for (const auto& end : {joint.attachment1, joint.attachment2})
-      if (end) least = std::min(least, std::hypot(end->across, end->along));
+      if (end) least = std::min(least, elementary::hypot(end->across, end->along));
     return least;
   }
 

@@ -488,7 +488,7 @@ double step_error(const Measurement& measurement) {
     const double alpha = span(&Sample::alpha);
     if (alpha > 0) slope = std::max(slope, span(&Sample::theta) / alpha);
   }
-  return std::hypot(measurement.theta_quantum, slope * measurement.alpha_quantum) / std::sqrt(12.0);
+  return elementary::hypot(measurement.theta_quantum, slope * measurement.alpha_quantum) / std::sqrt(12.0);
 }
 
 }  // namespace
@@ -521,7 +521,7 @@ NoiseFloor noise_floor(const Measurement& measurement) {
 }
 
 double NoiseFloor::effective_rows(double rows, double every) const {
-  const double r = std::pow(colour, every);
+  const double r = elementary::pow(colour, every);
   return rows * (1 - r) / (1 + r);
 }
 

@@ -203,7 +203,7 @@ class UnitFinder {
     double least = 1e300;
     for (const char* const spelling : {"deg", "rad", "turns", "mdeg"}) {
       const double off =
-          std::abs(std::log((column.most - column.least) * find_unit(Quantity::angle, spelling)->factor / span));
+          std::abs(elementary::log((column.most - column.least) * find_unit(Quantity::angle, spelling)->factor / span));
       if (off >= least) continue;
       least = off;
       best = spelling;

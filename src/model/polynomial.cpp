@@ -131,7 +131,7 @@ PolynomialFit least_largest_error(const std::vector<FitPoint>& points, int degre
   const double middle = 0.5 * (points.front().x + points.back().x), half = 0.5 * (points.back().x - points.front().x);
   std::vector<std::size_t> reference;
   for (std::size_t i = 0; i < n; ++i) {
-    const double t = 0.5 - 0.5 * std::cos(k_pi * static_cast<double>(i) / static_cast<double>(n - 1));
+    const double t = 0.5 - 0.5 * elementary::cos(k_pi * static_cast<double>(i) / static_cast<double>(n - 1));
     const auto at = static_cast<std::size_t>(std::lround(t * static_cast<double>(points.size() - 1)));
     reference.push_back(reference.empty() ? at : std::max(at, reference.back() + 1));
   }

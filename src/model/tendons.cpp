@@ -27,7 +27,7 @@ Vec2 mirrored(const Vec2& point, transmission::Side side) {
 
 /// Position of a point of the link at the joint angle, mirrored.
 Vec2 at_angle(const Vec2& home, double theta) {
-  const double c = std::cos(theta), s = std::sin(theta);
+  const double c = elementary::cos(theta), s = elementary::sin(theta);
   return {c * home.x() + s * home.y(), c * home.y() - s * home.x()};
 }
 
@@ -36,8 +36,8 @@ Span span_at(const WrappedTendon& tendon, double theta) {
   const Vec2 to_end = at_angle(mirrored(tendon.end, tendon.side), theta) - pin;
   const double distance = to_end.norm();
   // Measured from the vertical, so that no turn is lost when the end comes down beside the pin.
-  const double towards = 0.5 * k_pi + std::atan2(-to_end.x(), to_end.y());
-  const double normal = towards - std::acos(std::min(1.0, tendon.rho / distance));
+  const double towards = 0.5 * k_pi + elementary::atan2(-to_end.x(), to_end.y());
+  const double normal = towards - elementary::acos(std::min(1.0, tendon.rho / distance));
   return {std::sqrt(std::max(0.0, (distance - tendon.rho) * (distance + tendon.rho))) + tendon.rho * normal, normal};
 }
 
@@ -112,7 +112,7 @@ void set_tendon_on_drum(WrappedTendon& tendon, const transmission::PinPlace& pla
   tendon.off_drum =
       mirrored(0.5 * (rho * unit(home.normal) + place.pin() + place.rho * unit(home.normal)), tendon.side);
   tendon.home_length = home.length;
-  if (chords > 0) tendon.home_length += 2 * just * chords * std::sin(0.5 * always / chords) - rho * always;
+  if (chords > 0) tendon.home_length += 2 * just * chords * elementary::sin(0.5 * always / chords) - rho * always;
   set_anchor(tendon, place, home.normal, home.normal, R);
 }
 
@@ -124,8 +124,8 @@ std::string set_tendon(WrappedTendon& tendon, const Mechanism& mechanism, transm
   tendon.side = side;
   tendon.pin = mirrored(place.pin(), side);
   tendon.rho = place.rho;
-  tendon.end =
-      place.at_C ? Vec2(0, place.R) : mirrored(place.R * Vec2(std::sin(place.twist), std::cos(place.twist)), side);
+  tendon.end = place.at_C ? Vec2(0, place.R)
+                          : mirrored(place.R * Vec2(elementary::sin(place.twist), elementary::cos(place.twist)), side);
   const double sign = transmission::mirror_sign(side), low = std::min(sign * map.theta_min, sign * map.theta_max),
                high = std::max(sign * map.theta_min, sign * map.theta_max);
   const auto leaves = transmission::lift_off(place);

@@ -125,7 +125,7 @@ class BranchAndBound {
     if (stopped_) return true;
     const double gap = (best_value_ - bound) / std::abs(best_value_);
     // The gap closes by powers of ten.
-    const double done = gap > 0 && gap < 1 ? std::min(1.0, std::log(gap) / std::log(options_.gap)) : 0.0;
+    const double done = gap > 0 && gap < 1 ? std::min(1.0, elementary::log(gap) / elementary::log(options_.gap)) : 0.0;
     const auto best = best_.empty() ? std::nullopt : std::optional(best_value_);
     stopped_ = !may_continue(context_, done, best) || (best && options_.sufficient && *best < *options_.sufficient);
     return stopped_;

@@ -34,7 +34,7 @@ WideFileNumbers<double> wide_file_numbers(const Mechanism& mechanism) {
 
 double twist_of(double across, double along, transmission::Domain&) {
   // An end straight below O is reached from the right, as in pin_place().
-  return across == 0 && along < 0 ? k_pi : std::atan2(across, along);
+  return across == 0 && along < 0 ? k_pi : elementary::atan2(across, along);
 }
 
 transmission::Jet twist_of(const transmission::Jet& across, const transmission::Jet& along,

@@ -32,7 +32,7 @@ class ReachAround {
   explicit ReachAround(const solid::Pulley& pulley) {
     for (const Vec3& vertex : pulley.mesh.vertices) {
       const Vec2 flat = vertex.head<2>() / pulley.layout.scale;
-      double& reach = reach_.at(sector_of(std::atan2(flat.y(), flat.x())));
+      double& reach = reach_.at(sector_of(elementary::atan2(flat.y(), flat.x())));
       reach = std::max(reach, flat.norm());
     }
   }
@@ -40,8 +40,8 @@ class ReachAround {
   /// Reach towards a place of the joint, within the angle that the thinnest axle there subtends. The pulley is turned
   /// clockwise by `alpha`.
   double reach_towards(const Vec2& place, double alpha) const {
-    const double away = place.norm(), direction = std::atan2(place.y(), place.x()) + alpha;
-    const double half = away > k_thinnest_radius ? std::asin(k_thinnest_radius / away) : k_pi;
+    const double away = place.norm(), direction = elementary::atan2(place.y(), place.x()) + alpha;
+    const double half = away > k_thinnest_radius ? elementary::asin(k_thinnest_radius / away) : k_pi;
     double reach = 0;
     for (double turn = -half; turn <= half; turn += k_sector)
       reach = std::max(reach, reach_.at(sector_of(direction + turn)));

@@ -66,11 +66,12 @@ void put_drum(Mechanism& mechanism, double rho, double reach) {
   const double flange = reach - 0.5 * d + mechanism.groove_depth();
   mechanism.pulley.EF = tidy(guides.radius + flange + std::max(3.0, 0.4 * flange));
   const Vec2 pin(guides.ED, -guides.OE);
-  const double normal = std::atan2(pin.y(), pin.x()) + std::acos((rho - guide) / pin.norm());
+  const double normal = elementary::atan2(pin.y(), pin.x()) + elementary::acos((rho - guide) / pin.norm());
   // Ends between the drum's surface and its pitch circle are moved onto the pitch circle when the file is read.
   const double end = rho - 0.25 * d;
   const auto written = [end](double angle) {
-    return Attachment{std::stod(fixed(end * std::cos(angle), 3)), std::stod(fixed(end * std::sin(angle), 3))};
+    return Attachment{std::stod(fixed(end * elementary::cos(angle), 3)),
+                      std::stod(fixed(end * elementary::sin(angle), 3))};
   };
   joint.attachment1 = written(k_pi - normal - k_least_wrap + joint.theta_min);
   joint.attachment2 = written(normal + k_least_wrap + joint.theta_max);
@@ -215,7 +216,7 @@ std::optional<std::string> quick_obstacle(const DeclaredMechanism& declared) {
 
 double diameter_of(const solid::TriangleMesh& mesh) {
   double reach = 0;
-  for (const Vec3& vertex : mesh.vertices) reach = std::max(reach, std::hypot(vertex.x(), vertex.y()));
+  for (const Vec3& vertex : mesh.vertices) reach = std::max(reach, elementary::hypot(vertex.x(), vertex.y()));
   return 2.0 * reach;
 }
 

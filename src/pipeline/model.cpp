@@ -55,7 +55,7 @@ void demand_countable(const formats::ModelProduct& product, const model::MotorUn
 
 /// Rounded up to three digits, deg.
 std::string limit_deg(double angle) {
-  const double value = degrees(angle), scale = std::pow(10.0, 2 - std::floor(std::log10(value)));
+  const double value = degrees(angle), scale = elementary::pow(10.0, 2 - std::floor(elementary::log10(value)));
   return rounded(std::ceil(value * scale) / scale, 3);
 }
 

@@ -35,7 +35,7 @@ std::vector<std::string> notes_of(const Mechanism& mechanism, const formats::Hel
   const helical_solid::TendonsLaid ends = helix.laid(mechanism.guides.collar);
   const std::string where = mechanism.guides.collar ? "the guides' collars hold the tendons at the heights "
                                                     : "the tendons end on the joint at the heights ";
-  const double share_at_knot = std::exp(-mechanism.pulley.mu * k_two_pi * mechanism.body.spare_turns);
+  const double share_at_knot = elementary::exp(-mechanism.pulley.mu * k_two_pi * mechanism.body.spare_turns);
   std::vector<std::string> notes = {
       where + rounded(ends.z1, 4) + " mm (tendon 1) and " + rounded(ends.z2, 4) +
           " mm (tendon 2) above the pulley's lower face, where the fleet angle is smallest",
@@ -108,7 +108,9 @@ std::string words_on_slopes(const Mechanism& mechanism) {
     for (const helix::HelixSide& side : helix.sides) steepest = std::max(steepest, std::abs(side.stroke[i].slope));
     off = std::max(off, std::abs(level.theta(helix.stroke[i].alpha) - helix.stroke[i].theta));
   }
-  const auto more = [steepest](int power) { return rounded(100.0 * (std::pow(std::cos(steepest), -power) - 1.0), 2); };
+  const auto more = [steepest](int power) {
+    return rounded(100.0 * (elementary::pow(elementary::cos(steepest), -power) - 1.0), 2);
+  };
   std::string words = start + ". Their paths slope by up to " + rounded(degrees(steepest), 3) +
                       "°, which increases tensions by up to " + more(1) + " % and their stretch by up to " + more(3) +
                       " %";
@@ -409,7 +411,7 @@ kit::TendonHeights tendon_heights(const formats::Product& product) {
     for (std::size_t k = 0; k < stroke.size(); ++k) {
       const transmission::TransmissionPoint& at = product.synthesis.stroke.at(k);
       const transmission::TendonPoint& tendon = i == 0 ? at.t1 : at.t2;
-      const double rise = lies.direction * std::tan(stroke[k].slope);
+      const double rise = lies.direction * elementary::tan(stroke[k].slope);
       guide.see(end + rise * tendon.free_upper);
       guide.see(end + rise * (tendon.free_upper + rho * tendon.wrap));
       heights.drum.see(end + rise * place.drum *

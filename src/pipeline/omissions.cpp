@@ -75,7 +75,7 @@ bool has(const std::vector<std::string>& features, const std::string& feature) {
 
 /// Rounded to two digits away from the present value, as a person would write it.
 double in_two_digits(double value, bool up) {
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0), scaled = value / unit;
+  const double unit = elementary::pow(10.0, std::floor(elementary::log10(value)) - 1.0), scaled = value / unit;
   return std::stod(rounded((up ? std::ceil(scaled - 1e-9) : std::floor(scaled + 1e-9)) * unit, 3));
 }
 

@@ -96,7 +96,7 @@ const optimize::FrontPoint& balanced_point(const std::vector<optimize::FrontPoin
       low = std::min(low, sign * point.values[k]), high = std::max(high, sign * point.values[k]);
     if (!(high > low)) continue;
     for (std::size_t i = 0; i < distances.size(); ++i)
-      distances[i] += std::pow((sign * front[i].values[k] - low) / (high - low), 2);
+      distances[i] += elementary::pow((sign * front[i].values[k] - low) / (high - low), 2);
   }
   return front.at(static_cast<std::size_t>(std::min_element(distances.begin(), distances.end()) - distances.begin()));
 }

@@ -140,7 +140,7 @@ std::string change_text(const DesignVariable& variable, double to) {
 std::array<double, 2> in_three_digits(double value_in_key_unit, double direction, LengthUnit units) {
   if (value_in_key_unit == 0) return {0, 0};
   const double value = from_mm(value_in_key_unit, units);
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2.0);
+  const double unit = elementary::pow(10.0, std::floor(elementary::log10(std::abs(value))) - 2.0);
   const double scaled = value / unit;
   // Rounded via the text, so that the tested number is the one that the user writes.
   const auto written = [units](double number) { return to_mm(std::stod(rounded(number, 3)), units); };

@@ -22,7 +22,7 @@ Condition attachment_outside_drum(const Mechanism& mechanism, transmission::Side
   condition.name = "attachment_outside_drum_" + tendon;
   const Attachment end = own.value_or(Attachment{0, joint.R});
   condition.value =
-      std::hypot(end.across - joint.drum_centre.across, end.along - joint.drum_centre.along) - joint.drum_radius;
+      elementary::hypot(end.across - joint.drum_centre.across, end.along - joint.drum_centre.along) - joint.drum_radius;
   condition.unit = "mm";
   condition.ok = condition.value >= -rounding * joint.drum_radius;
   if (!condition.ok) {
@@ -61,13 +61,13 @@ std::vector<Condition> place_conditions(const Mechanism& mechanism) {
 double upper_clearance(const transmission::PinPlace& place, double theta, const Vec2& point) {
   const transmission::UpperSpan span = transmission::upper_span(place, theta);
   const double turned = theta + place.twist;
-  const Vec2 end = place.R * Vec2(std::sin(turned), std::cos(turned)),
+  const Vec2 end = place.R * Vec2(elementary::sin(turned), elementary::cos(turned)),
              at_pin = place.pin() + place.rho * unit(span.normal);
   if (span.on_drum == 0) return distance_to_segment(point, end, at_pin);
   const Vec2 centre = transmission::drum_centre(place, theta), seen = point - centre;
   const double clearance = std::min(distance_to_segment(point, end, centre + place.drum * unit(span.end_normal)),
                                     distance_to_segment(point, centre + place.drum * unit(span.normal), at_pin));
-  const double beyond = std::atan2(seen.y(), seen.x()) - span.normal;
+  const double beyond = elementary::atan2(seen.y(), seen.x()) - span.normal;
   if (beyond - k_two_pi * std::floor(beyond / k_two_pi) > span.on_drum) return clearance;
   return std::min(clearance, std::abs(seen.norm() - place.drum));
 }

@@ -16,7 +16,7 @@ struct PolarPoint {
   double slope = 0;  ///< dr/dangle
 };
 
-double normal_of(const PolarPoint& point) { return point.angle - std::atan2(point.slope, point.r); }
+double normal_of(const PolarPoint& point) { return point.angle - elementary::atan2(point.slope, point.r); }
 Vec2 position_of(const PolarPoint& point) { return point.r * unit(point.angle); }
 
 /// The radius at the fraction u of the closing side: a cubic with the radii and slopes of both ends, bounded by the
@@ -64,7 +64,7 @@ std::vector<double> edge_normals(const Polygon& hull) {
   std::vector<double> normals;
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Vec2 edge = hull[(i + 1) % hull.size()] - hull[i];
-    const double normal = std::atan2(edge.y(), edge.x()) - 0.5 * k_pi;
+    const double normal = elementary::atan2(edge.y(), edge.x()) - 0.5 * k_pi;
     normals.push_back(i == 0 ? normal : turned_into(normals.back(), normal));
   }
   return normals;

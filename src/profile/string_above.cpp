@@ -29,8 +29,8 @@ Vec2 above_pulley(const Mechanism& mechanism, double hand) {
 
 /// A point of the link at home, turned clockwise with the link.
 Vec2 with_link(const Vec2& home, double theta) {
-  return {std::cos(theta) * home.x() + std::sin(theta) * home.y(),
-          std::cos(theta) * home.y() - std::sin(theta) * home.x()};
+  return {elementary::cos(theta) * home.x() + elementary::sin(theta) * home.y(),
+          elementary::cos(theta) * home.y() - elementary::sin(theta) * home.x()};
 }
 
 }  // namespace
@@ -54,13 +54,13 @@ StringAbove::StringAbove(const Mechanism& mechanism, double hand)
 
 /// In the frame of the pulley, which turns clockwise, the world turns counter-clockwise.
 Vec2 StringAbove::guide_seen_from_pulley(double alpha) const {
-  return {std::cos(alpha) * from_axis_.x() - std::sin(alpha) * from_axis_.y(),
-          std::sin(alpha) * from_axis_.x() + std::cos(alpha) * from_axis_.y()};
+  return {elementary::cos(alpha) * from_axis_.x() - elementary::sin(alpha) * from_axis_.y(),
+          elementary::sin(alpha) * from_axis_.x() + elementary::cos(alpha) * from_axis_.y()};
 }
 
 double StringAbove::lower_normal(const Vec2& guide, const Vec2& corner) const {
   const Vec2 away = guide - corner;
-  return direction(away) - hand_ * std::acos(std::clamp((half_ - lower_rho()) / away.norm(), -1.0, 1.0));
+  return direction(away) - hand_ * elementary::acos(std::clamp((half_ - lower_rho()) / away.norm(), -1.0, 1.0));
 }
 
 double StringAbove::lower_span(const Vec2& guide, const Vec2& corner) const {
@@ -72,7 +72,7 @@ double StringAbove::lower_span(const Vec2& guide, const Vec2& corner) const {
 StringAbove::Piece StringAbove::from_pin_to(const Vec2& centre, double radius) const {
   const Vec2 away = centre - pin_;
   const double distance = away.norm(), larger = rho_ - radius;
-  return {direction(away) - hand_ * std::acos(std::clamp(larger / distance, -1.0, 1.0)),
+  return {direction(away) - hand_ * elementary::acos(std::clamp(larger / distance, -1.0, 1.0)),
           std::sqrt(std::max(0.0, (distance - larger) * (distance + larger)))};
 }
 
@@ -100,7 +100,8 @@ double StringAbove::wound_on_drum(double theta) const {
     return turned_near(own, 0.5 * k_pi);
   };
   const Vec2 from_centre = end_ - drum_centre_;
-  const double tangent = counted(direction(from_centre)) - std::acos(std::clamp(drum_ / from_centre.norm(), -1.0, 1.0));
+  const double tangent =
+      counted(direction(from_centre)) - elementary::acos(std::clamp(drum_ / from_centre.norm(), -1.0, 1.0));
   return tangent - counted(from_pin_to(with_link(drum_centre_, theta), drum_).normal) - hand_ * theta;
 }
 

@@ -13,7 +13,7 @@ namespace fusee::profile {
 inline double turned_near(double angle, double near) {
   return angle - k_two_pi * std::round((angle - near) / k_two_pi);
 }
-inline double direction(const Vec2& v) { return std::atan2(v.y(), v.x()); }
+inline double direction(const Vec2& v) { return elementary::atan2(v.y(), v.x()); }
 
 /// The string from its sheath, if any, over its pin and its drum, if any, to its end in the link. `hand` is +1 for
 /// tendon 2 on the right, −1 for tendon 1 on the left.

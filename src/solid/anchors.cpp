@@ -101,7 +101,7 @@ class AnchorSearch {
     if (is_at_floor(bars)) return false;
     // The cut bulges out over the chords of the arc and over both sides of the straight at the pocket. In a joint of 24
     // mm this consumed 0.35 µm of a wall of 0.4 mm.
-    const double bulge = path.fillet * (1.0 - std::cos(0.5 * path.turn / k_fillet_steps));
+    const double bulge = path.fillet * (1.0 - elementary::cos(0.5 * path.turn / k_fillet_steps));
     const auto keeps = [this](const Bar& bar, double wall) {
       return std::all_of(site_.holes.begin(), site_.holes.end(),
                          [&](const Bar& hole) { return gap(bar, hole) >= wall; });
@@ -259,7 +259,7 @@ std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, do
 }
 
 int pocket_facets(double radius) {
-  return std::clamp(static_cast<int>(std::ceil(k_pi / std::acos(1.0 - std::min(0.5, 0.02 / radius)))), 12, 64);
+  return std::clamp(static_cast<int>(std::ceil(k_pi / elementary::acos(1.0 - std::min(0.5, 0.02 / radius)))), 12, 64);
 }
 
 // Order of the corners: outer edge, pocket from the outer edge round to the inner one, inner edge backwards, and the
@@ -267,9 +267,9 @@ int pocket_facets(double radius) {
 Keyhole keyhole(const AnchorPath& path, double width, double radius, int facets) {
   demand(radius > 0.5 * width, "a pocket narrower than its channel");
   const Vec2 centre = path.pocket(), heading = path.heading(), inner = -path.outer();
-  const double entry = std::asin(0.5 * width / radius);
+  const double entry = elementary::asin(0.5 * width / radius);
   const auto on_pocket = [&](double angle) {
-    return Vec2(centre + radius * (std::cos(angle) * heading + std::sin(angle) * inner));
+    return Vec2(centre + radius * (elementary::cos(angle) * heading + elementary::sin(angle) * inner));
   };
   std::vector<Vec2> points = path.edge(0.5 * width, k_fillet_steps);
   const auto pocket_first = static_cast<std::uint32_t>(points.size());

@@ -26,7 +26,7 @@ Polygon circle_like(const profile::Outline& outline, double radius) {
 
 // The hub's circle, with enough points for its sagitta.
 Polygon circle(double radius) {
-  const int sides = std::max(24, static_cast<int>(std::ceil(k_pi / std::acos(1.0 - k_hub_sagitta / radius))));
+  const int sides = std::max(24, static_cast<int>(std::ceil(k_pi / elementary::acos(1.0 - k_hub_sagitta / radius))));
   Polygon points;
   for (int k = 0; k < sides; ++k) points.push_back(radius * unit(k_two_pi * (k + 0.37) / sides));
   return points;
@@ -56,8 +56,8 @@ Polygon around_both(const profile::Outline& p1, const profile::Outline& p2, doub
     const Vec2 tangent = turned_left(normal);
     const double h1 = p1.points[i].position.dot(normal), h2 = p2.points[i].position.dot(normal);
     const double larger = std::max(h1, h2);
-    const double e1 = std::exp((h1 - larger) / k_blend), e2 = std::exp((h2 - larger) / k_blend);
-    const double h = larger + k_blend * std::log(e1 + e2) + offset + margin;
+    const double e1 = elementary::exp((h1 - larger) / k_blend), e2 = elementary::exp((h2 - larger) / k_blend);
+    const double h = larger + k_blend * elementary::log(e1 + e2) + offset + margin;
     const double dh = (e1 * p1.points[i].position.dot(tangent) + e2 * p2.points[i].position.dot(tangent)) / (e1 + e2);
     points.push_back(h * normal + dh * tangent);
   }
@@ -239,7 +239,7 @@ double cone_height(const Polygon& inner, const Polygon& outer, double slope) {
     for (const Vec2& corner : {outer[i], outer[j]}) widest = std::max(widest, gap_to_line(corner, inner[i], inner[j]));
     for (const Vec2& corner : {inner[i], inner[j]}) widest = std::max(widest, gap_to_line(corner, outer[i], outer[j]));
   }
-  return widest * std::tan(slope);
+  return widest * elementary::tan(slope);
 }
 
 RingStack body_stack(const profile::Outline& p1, const profile::Outline& p2, double tendon_diameter, Flange kind,

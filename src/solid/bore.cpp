@@ -31,13 +31,13 @@ Polygon tangent_polygon(double inner, int sides, double direction, const Vec2& c
   Polygon points;
   const double step = k_two_pi / sides;
   for (int k = 0; k < sides; ++k)
-    points.push_back(centre + inner / std::cos(0.5 * step) * unit(direction + (k + 0.5) * step));
+    points.push_back(centre + inner / elementary::cos(0.5 * step) * unit(direction + (k + 0.5) * step));
   return points;
 }
 
 // The circle's points from angle `from` counter-clockwise to angle `to`, both included.
 Polygon arc(double radius, double from, double to) {
-  const double finest = 2.0 * std::acos(1.0 - std::min(1.0, k_arc_sagitta / radius));
+  const double finest = 2.0 * elementary::acos(1.0 - std::min(1.0, k_arc_sagitta / radius));
   const int steps = std::max(2, static_cast<int>(std::ceil((to - from) / finest)));
   Polygon points;
   for (int k = 0; k <= steps; ++k) points.push_back(radius * unit(from + (to - from) * k / steps));
@@ -47,7 +47,7 @@ Polygon arc(double radius, double from, double to) {
 // `flat`: distance from the flat to the far side of the shaft.
 Polygon d_outline(double radius, double flat) {
   const double height = std::clamp(flat - radius, -0.95 * radius, 0.95 * radius);
-  const double half = std::acos(height / radius);
+  const double half = elementary::acos(height / radius);
   return arc(radius, 0.5 * k_pi + half, 2.5 * k_pi - half);
 }
 
@@ -73,7 +73,7 @@ Polygon keyway_outline(double diameter, double compensation) {
       std::find_if(k_keys.begin(), k_keys.end() - 1, [diameter](const Key& row) { return diameter <= row.shaft; });
   const double radius = 0.5 * (diameter + compensation);
   const double half_width = std::min(0.5 * (key->width + compensation), 0.9 * radius);
-  const double half = std::asin(half_width / radius);
+  const double half = elementary::asin(half_width / radius);
   Polygon points = arc(radius, 0.5 * k_pi + half, 2.5 * k_pi - half);
   const double top = 0.5 * diameter + key->depth + 0.5 * compensation;
   points.emplace_back(half_width, top);
@@ -95,7 +95,7 @@ Polygon toothed_outline(const Horn& horn, double compensation) {
     const double tooth = 0.5 * k_pi + k * pitch;
     // The shaft's crest touches the middle of the flat above it, as a shaft touches a polyhole's side.
     for (const double side : {-1.0, 1.0})
-      points.push_back(crest / std::cos(half_flat) * unit(tooth + side * half_flat));
+      points.push_back(crest / elementary::cos(half_flat) * unit(tooth + side * half_flat));
     for (const double side : {-1.0, 1.0})
       points.push_back((crest - horn.spline_depth) * unit(tooth + 0.5 * pitch + side * half_flat));
   }
@@ -148,9 +148,11 @@ void fit_shaft(BoreLayout& bore, const Body& body, double diameter, double compe
 // of a tooth's flat.
 constexpr double k_same_ray = 0.01;
 
-double angle_of(const Vec2& point) { return std::atan2(point.y(), point.x()); }
+double angle_of(const Vec2& point) { return elementary::atan2(point.y(), point.x()); }
 
-bool on_one_ray(const Vec2& a, const Vec2& b) { return std::abs(std::atan2(cross(a, b), a.dot(b))) < k_same_ray; }
+bool on_one_ray(const Vec2& a, const Vec2& b) {
+  return std::abs(elementary::atan2(cross(a, b), a.dot(b))) < k_same_ray;
+}
 
 bool has_corner_on_ray(const Polygon& polygon, const Vec2& ray) {
   return std::any_of(polygon.begin(), polygon.end(), [&ray](const Vec2& corner) { return on_one_ray(corner, ray); });

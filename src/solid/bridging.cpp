@@ -101,7 +101,7 @@ std::vector<double> directions_of(const OverhangPatch& patch) {
   std::map<int, std::pair<double, double>> bins;
   const auto add = [&bins](const Vec3& a, const Vec3& b) {
     const Vec2 edge = (b - a).head<2>();
-    double direction = std::atan2(edge.y(), edge.x());
+    double direction = elementary::atan2(edge.y(), edge.x());
     if (direction < 0) direction += k_pi;
     auto& [length, sum] = bins[static_cast<int>(direction / k_same_direction)];
     length += edge.norm();
@@ -283,7 +283,7 @@ class Ceiling {
       const double across = static_cast<double>(chord->line) * spacing_ - point.y();
       if (across > least + spacing_) break;
       const double beyond = std::max({chord->from - point.x(), point.x() - chord->to, 0.0});
-      least = std::min(least, std::hypot(std::max(std::abs(across) - spacing_, 0.0), beyond));
+      least = std::min(least, elementary::hypot(std::max(std::abs(across) - spacing_, 0.0), beyond));
     }
     return least;
   }

@@ -86,7 +86,7 @@ class Flare {
 
   double turn_of(const Vec2& place) const {
     const Vec2 from_centre = place - centre_;
-    return path_.sense * std::atan2(cross(path_.normal, from_centre), path_.normal.dot(from_centre));
+    return path_.sense * elementary::atan2(cross(path_.normal, from_centre), path_.normal.dot(from_centre));
   }
 
   // Evenly spaced, with both ends of the second wall replacing angles that are too close to them.

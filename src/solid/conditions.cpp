@@ -197,7 +197,7 @@ class Conditions {
 
   /// Reach of the flanges within the angle that a disc subtends at the axis.
   double reach_within(const Vec2& centre, double radius) const {
-    const double half = std::asin(std::min(1.0, radius / centre.norm()));
+    const double half = elementary::asin(std::min(1.0, radius / centre.norm()));
     double reach = 0;
     for (int i = -4; i <= 4; ++i) reach = std::max(reach, reach_towards(turned(centre, half * i / 4.0)));
     return reach;
@@ -206,13 +206,13 @@ class Conditions {
   // The pulley turns clockwise by α under the pin. In the pulley's frame the pin moves counter-clockwise.
   double reach_towards(const Vec2& pin) const {
     if (synthesis_.stroke.empty()) return 0;
-    const double home = std::atan2(pin.y(), pin.x());
+    const double home = elementary::atan2(pin.y(), pin.x());
     const double first = home + synthesis_.stroke.front().alpha,
                  span = synthesis_.stroke.back().alpha - synthesis_.stroke.front().alpha;
     double reach = 0;
     for (const Polygon* rim : {&rims_.lower, &rims_.middle, &rims_.upper}) {
       for (const Vec2& point : *rim) {
-        double turned = std::fmod(std::atan2(point.y(), point.x()) - first, k_two_pi);
+        double turned = std::fmod(elementary::atan2(point.y(), point.x()) - first, k_two_pi);
         if (turned < 0) turned += k_two_pi;
         if (turned <= span) reach = std::max(reach, point.norm());
       }
@@ -271,7 +271,7 @@ Wall wall_between(const Polygon& floor, const Polygon& hole) {
   Wall wall{std::numeric_limits<double>::infinity(), 0};
   for (const Vec2& corner : hole) {
     const double depth = depth_inside(floor, corner);
-    if (depth < wall.thickness) wall = {depth, std::atan2(corner.y(), corner.x())};
+    if (depth < wall.thickness) wall = {depth, elementary::atan2(corner.y(), corner.x())};
   }
   return wall;
 }

@@ -91,7 +91,7 @@ std::optional<std::pair<Vec2, Vec2>> pin_places(double reach, double diameter, d
   }
   std::vector<double> from_axis;
   for (const Vec2& place : free) from_axis.push_back(place.norm());
-  const double least_sine = std::sin(radians(20));
+  const double least_sine = elementary::sin(radians(20));
   std::optional<std::pair<Vec2, Vec2>> best;
   double widest = diameter + wall;
   for (std::size_t i = 0; i < free.size(); ++i) {

@@ -17,14 +17,15 @@ constexpr double k_flat_floor_ratio = 1.4;
 // is the first, exactly at offset 0. Corners are at the half steps, at radius s / cos(δ/2).
 std::vector<GroovePoint> seat_corners(double seat, double lean) {
   const double turn = 0.5 * k_pi - lean;
-  const double finest = 2.0 * std::acos(1.0 / (1.0 + k_seat_sagitta / seat));
+  const double finest = 2.0 * elementary::acos(1.0 / (1.0 + k_seat_sagitta / seat));
   const int steps = std::max(1, static_cast<int>(std::ceil(turn / finest)));
   const double step = turn / steps;
-  const double corner_radius = seat / std::cos(0.5 * step);
+  const double corner_radius = seat / elementary::cos(0.5 * step);
   std::vector<GroovePoint> corners;
   for (int k = 0; k < steps; ++k) {
     const double angle = (k + 0.5) * step;
-    corners.push_back({k == 0 ? 0.0 : seat - corner_radius * std::cos(angle), corner_radius * std::sin(angle)});
+    corners.push_back(
+        {k == 0 ? 0.0 : seat - corner_radius * elementary::cos(angle), corner_radius * elementary::sin(angle)});
   }
   return corners;
 }
@@ -35,7 +36,7 @@ void finish_at_groove_edge(std::vector<GroovePoint>& points, double depth, doubl
   // A removed corner leaves its own, flatter tangent. The wall's lean is the steepest tangent and holds the tendon
   // best.
   const GroovePoint& last = points.back();
-  points.push_back({depth, last.dz + (depth - last.offset) * std::tan(lean)});
+  points.push_back({depth, last.dz + (depth - last.offset) * elementary::tan(lean)});
 }
 
 }  // namespace
@@ -52,7 +53,7 @@ std::vector<GroovePoint> groove_half(const Body& body, double lean, double tendo
     }
     case Groove::v:
       // Half-width at which a circle of diameter d touches the floor and both walls.
-      points.push_back({0.0, 0.5 * tendon_diameter * std::tan(0.25 * k_pi - 0.5 * lean)});
+      points.push_back({0.0, 0.5 * tendon_diameter * elementary::tan(0.25 * k_pi - 0.5 * lean)});
       break;
     case Groove::flat:
       points.push_back({0.0, 0.5 * k_flat_floor_ratio * tendon_diameter});
@@ -66,8 +67,8 @@ std::vector<GroovePoint> groove_half(const Body& body, double lean, double tendo
 // centre is d/2 / cos λ inside the wall. The sum is d/2 (1 − sin λ)/cos λ closer than the groove edge.
 double room_at_groove_edge(const std::vector<GroovePoint>& half, double tendon_diameter) {
   const GroovePoint &low = half[half.size() - 2], &groove_edge = half.back();
-  const double lean = std::atan2(groove_edge.dz - low.dz, groove_edge.offset - low.offset);
-  return std::max(0.0, groove_edge.dz - 0.5 * tendon_diameter * std::tan(0.25 * k_pi - 0.5 * lean));
+  const double lean = elementary::atan2(groove_edge.dz - low.dz, groove_edge.offset - low.offset);
+  return std::max(0.0, groove_edge.dz - 0.5 * tendon_diameter * elementary::tan(0.25 * k_pi - 0.5 * lean));
 }
 
 }  // namespace fusee::solid

@@ -146,7 +146,7 @@ KnotHold worst_knot(transmission::Side side, const StrokeLoads& loads, double mu
   KnotHold most{side, 0, 0, 0, -1};
   for (const TakeOffLoad& load : loads[index_of(side)]) {
     const double wrap = lap + load.turn;
-    const double at_knot = load.tension * std::exp(-mu * wrap);
+    const double at_knot = load.tension * elementary::exp(-mu * wrap);
     if (at_knot > most.at_knot) most = {side, load.alpha, wrap, load.tension, at_knot};
   }
   return most;

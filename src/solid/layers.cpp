@@ -195,7 +195,7 @@ std::vector<Triangles> triangles_by_layer(const TriangleMesh& mesh, const std::v
 }  // namespace
 
 std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang, Corners corners) {
-  const double steepness = std::tan(overhang + k_threshold), reach = k_layer / steepness;
+  const double steepness = elementary::tan(overhang + k_threshold), reach = k_layer / steepness;
   const Bounds box = bounds(lying);
   // Overhangs over the first layer sink onto the bed. PrusaSlicer puts no support that low.
   std::vector<double> heights{box.low.z() + 1.5 * k_layer};

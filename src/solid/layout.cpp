@@ -24,7 +24,7 @@ bool BodyLayout::lacks(std::string_view feature) const {
 }
 
 double rise_of(const BodyLayout& layout, double width) {
-  return width * std::tan(layout.ceiling_slope > 0 ? layout.ceiling_slope : radians(45));
+  return width * elementary::tan(layout.ceiling_slope > 0 ? layout.ceiling_slope : radians(45));
 }
 
 // Slicers close a slit when less than 0.1 mm of it remains (PrusaSlicer's gap closing radius is 0.049 mm). The closing

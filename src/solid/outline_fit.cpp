@@ -36,7 +36,7 @@ class HullSupport {
     double last = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const Vec2 edge = corners_[(i + 1) % n] - corners_[i];
-      double normal = std::atan2(-edge.x(), edge.y());
+      double normal = elementary::atan2(-edge.x(), edge.y());
       if (i > 0) normal += k_two_pi * std::ceil((last - normal) / k_two_pi);
       normals_.push_back(normal);
       last = normal;

@@ -99,7 +99,7 @@ bool within_first_layer(const Surface& surface, std::uint32_t facet, double firs
   return top <= surface.bed + first_layer + k_float_grain;
 }
 
-double slope_of(const Vec3& normal) { return std::acos(std::clamp(-normal.z(), -1.0, 1.0)); }
+double slope_of(const Vec3& normal) { return elementary::acos(std::clamp(-normal.z(), -1.0, 1.0)); }
 
 // Tests for material below side k of an overhanging facet, whose neighbour there does not overhang. A downward or
 // vertical neighbour supports the edge if it goes down from it. An upward neighbour has material below it: it supports

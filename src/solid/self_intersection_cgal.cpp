@@ -227,7 +227,7 @@ struct FacetBoxes {
 FacetBoxes boxes_of(const TriangleMesh& mesh) {
   std::vector<double> angles;
   angles.reserve(mesh.vertices.size());
-  for (const Vec3& vertex : mesh.vertices) angles.push_back(std::atan2(vertex.y(), vertex.x()));
+  for (const Vec3& vertex : mesh.vertices) angles.push_back(elementary::atan2(vertex.y(), vertex.x()));
   FacetBoxes of;
   std::vector<Box3> polar;
   of.facets.reserve(mesh.triangles.size());

@@ -40,7 +40,9 @@ const Screw* find_screw(const std::string& name) {
 }
 
 double nut_corner(const SetScrewLayout& screw) { return screw.nut_width / std::numbers::sqrt3; }
-double teardrop_top(const SetScrewLayout& screw) { return 0.5 * screw.hole_diameter / std::cos(screw.ceiling_slope); }
+double teardrop_top(const SetScrewLayout& screw) {
+  return 0.5 * screw.hole_diameter / elementary::cos(screw.ceiling_slope);
+}
 
 SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compensation, double wall,
                                 const BodyLayout& layout) {

@@ -44,7 +44,7 @@ class TailPlacer {
     TailSlot slot;
     slot.width = layout_.channel_width;
     const bool peaked = is_pocket_face_on_bed(layout_, anchor.side);
-    slot.ceiling = peaked ? 0.5 * slot.width * std::tan(ridge_slope(layout_)) : 0.0;
+    slot.ceiling = peaked ? 0.5 * slot.width * elementary::tan(ridge_slope(layout_)) : 0.0;
     slot.depth = std::max(k_peaked_ratio * d_, k_depth_ratio * d_ - slot.ceiling);
     const double deep = slot.depth + slot.ceiling;
     // Obstacles at the groove's plane are only its floor and tie-offs.

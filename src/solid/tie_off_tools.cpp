@@ -61,7 +61,7 @@ TriangleMesh channel(const ChannelEdges& edges, double width, const Heights& hei
 // wall across it. The circle alone would meet the channel's slope at too sharp an angle.
 std::vector<Vec2> pocket_outline(double radius, double width, bool tab, int facets) {
   // Slightly wider than the channel, so that no two of their faces coincide.
-  const double half = half_tab(width, radius), behind = std::asin(half / radius);
+  const double half = half_tab(width, radius), behind = elementary::asin(half / radius);
   const double step = k_two_pi / facets;
   std::vector<Vec2> points;
   if (!tab) {

@@ -79,7 +79,7 @@ Polygon teardrop(double radius, double ceiling_slope, int facets) {
   Polygon points;
   const double round = k_two_pi - 2.0 * ceiling_slope;
   for (int k = 0; k <= facets; ++k) points.push_back(radius * unit(0.5 * k_pi + ceiling_slope + round * k / facets));
-  points.push_back(radius / std::cos(ceiling_slope) * unit(0.5 * k_pi));
+  points.push_back(radius / elementary::cos(ceiling_slope) * unit(0.5 * k_pi));
   return points;
 }
 

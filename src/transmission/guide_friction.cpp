@@ -10,7 +10,9 @@ namespace {
 /// below.
 constexpr double k_max_loss = 0.999;
 
-double loss(double turning, double wrap) { return std::min(k_max_loss, turning * std::sin(0.5 * std::max(0.0, wrap))); }
+double loss(double turning, double wrap) {
+  return std::min(k_max_loss, turning * elementary::sin(0.5 * std::max(0.0, wrap)));
+}
 
 }  // namespace
 
@@ -24,7 +26,7 @@ double GuideFriction::log_ratio(double wrap) const {
 double GuideFriction::slope(double wrap) const {
   if (!is_idler) return mu;
   const double epsilon = loss(turning, wrap);
-  return turning * std::cos(0.5 * wrap) / (1.0 - epsilon * epsilon);
+  return turning * elementary::cos(0.5 * wrap) / (1.0 - epsilon * epsilon);
 }
 
 GuideFriction guide_friction(const Mechanism& mechanism) {

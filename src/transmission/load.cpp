@@ -11,16 +11,16 @@ double weight_moment(const Load& load) { return load.mass_kg * k_gravity * load.
 double load_torque(const Mechanism& mechanism, double theta) {
   const Load& load = mechanism.load;
   const double torque =
-      load.tip_force * mechanism.joint.R + load.torque + weight_moment(load) * std::sin(load.tilt - theta);
+      load.tip_force * mechanism.joint.R + load.torque + weight_moment(load) * elementary::sin(load.tilt - theta);
   return mechanism.spring == Spring{} ? torque : torque + mechanism.spring.torque(theta);
 }
 
 TorqueOverTheta law_load_torque(const Mechanism& mechanism, double theta) {
   const JointLoad carried = mechanism.law_load.value_or(JointLoad{mechanism.joint.R, mechanism.load, mechanism.spring});
   const Load& load = carried.load;
-  const double weight = weight_moment(load), sine = weight * std::sin(load.tilt - theta);
+  const double weight = weight_moment(load), sine = weight * elementary::sin(load.tilt - theta);
   return {load.tip_force * carried.lever + load.torque + sine + carried.spring.torque(theta),
-          carried.spring.stiffness - weight * std::cos(load.tilt - theta), -sine};
+          carried.spring.stiffness - weight * elementary::cos(load.tilt - theta), -sine};
 }
 
 void keep_law(Mechanism& mechanism) {

@@ -16,7 +16,8 @@ struct Domain {
   bool whole = true;     ///< false: a part was cut off, and derivatives are meaningless
 };
 
-using std::acos, std::atan, std::cos, std::exp, std::hypot, std::sin, std::sqrt;
+using elementary::acos, elementary::atan, elementary::cos, elementary::exp, elementary::hypot, elementary::sin,
+    std::sqrt;
 inline double squared(double x) { return x * x; }
 inline double larger(double a, double b) { return std::max(a, b); }
 inline double positive_part(double x, Domain& domain) {
@@ -40,7 +41,7 @@ inline double cathetus(double hypotenuse, double other, Domain& domain) {
 /// Direction of (x, y), within −90° … 270°. Seen from its pin, C is never straight below, so the cut there keeps wraps
 /// above 90° continuous.
 inline double direction(double x, double y, Domain&) {
-  const double angle = std::atan2(y, x);
+  const double angle = elementary::atan2(y, x);
   return angle < -0.5 * k_pi ? angle + k_two_pi : angle;
 }
 

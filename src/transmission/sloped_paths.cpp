@@ -35,7 +35,7 @@ double node_angle(int i, int count) { return k_pi * (i + 0.5) / count; }
 std::vector<double> ChebyshevSeries::nodes(double low, double high, int count) {
   std::vector<double> places;
   for (int i = 0; i < count; ++i)
-    places.push_back(0.5 * (low + high) + 0.5 * (high - low) * std::cos(node_angle(i, count)));
+    places.push_back(0.5 * (low + high) + 0.5 * (high - low) * elementary::cos(node_angle(i, count)));
   return places;
 }
 
@@ -45,7 +45,8 @@ ChebyshevSeries::ChebyshevSeries(double low, double high, const std::vector<doub
   std::vector<double>& c = coefficients_[0];
   for (int k = 0; k < count; ++k) {
     double sum = 0;
-    for (int i = 0; i < count; ++i) sum += values[static_cast<std::size_t>(i)] * std::cos(k * node_angle(i, count));
+    for (int i = 0; i < count; ++i)
+      sum += values[static_cast<std::size_t>(i)] * elementary::cos(k * node_angle(i, count));
     c.push_back((k == 0 ? 1.0 : 2.0) * sum / count);
   }
   while (c.size() > 1 && std::abs(c.back()) < least) c.pop_back();

@@ -30,7 +30,7 @@ std::optional<DrumLine> drum_line(const PinPlace& place, const Vec2& centre) {
   const double distance = to_pin.norm();
   const double beyond = place.drum - place.rho;
   if (!(std::abs(beyond) < distance)) return std::nullopt;
-  return DrumLine{std::atan2(to_pin.y(), to_pin.x()) + std::acos(beyond / distance),
+  return DrumLine{elementary::atan2(to_pin.y(), to_pin.x()) + elementary::acos(beyond / distance),
                   std::sqrt((distance - beyond) * (distance + beyond))};
 }
 
@@ -43,12 +43,12 @@ struct DrumOffset {
 DrumOffset end_offset_from_drum(const PinPlace& place) {
   if (place.drum_offset == 0) return {place.R, place.twist};
   const double ahead = place.drum_twist - place.twist;
-  const Vec2 seen(-place.drum_offset * std::sin(ahead), place.R - place.drum_offset * std::cos(ahead));
-  return {std::max(place.drum, seen.norm()), place.twist + std::atan2(seen.x(), seen.y())};
+  const Vec2 seen(-place.drum_offset * elementary::sin(ahead), place.R - place.drum_offset * elementary::cos(ahead));
+  return {std::max(place.drum, seen.norm()), place.twist + elementary::atan2(seen.x(), seen.y())};
 }
 
 /// Angle between the direction of the tendon's end and the normal of its tangent to the drum.
-double opening(const PinPlace& place, const DrumOffset& end) { return std::acos(place.drum / end.away); }
+double opening(const PinPlace& place, const DrumOffset& end) { return elementary::acos(place.drum / end.away); }
 
 double wound_on(const PinPlace& place, const DrumOffset& end, const DrumLine& line, double theta) {
   const double turned = end.twist == 0 ? theta : theta + end.twist;
@@ -75,7 +75,7 @@ UpperSpan span_on_drum(const PinPlace& place, const DrumOffset& end, const DrumL
   span.length = span.free + place.rho * span.normal;
   if (place.drum_offset == 0) return span;
   const double direction = theta + place.drum_twist + line.normal;
-  const double arm = place.drum_offset * std::sin(direction), a = place.drum_offset * std::cos(direction);
+  const double arm = place.drum_offset * elementary::sin(direction), a = place.drum_offset * elementary::cos(direction);
   const double omega = 1.0 - a / line.length;
   const double dlength = -arm - (place.rho - place.drum) * (omega - 1.0);
   span.dnormal = omega - 1.0;
@@ -91,12 +91,12 @@ UpperSpan free_span(const PinPlace& place, double theta);
 /// Moves an end inside an eccentric drum onto the drum's pitch circle.
 void keep_out_of_drum(PinPlace& place) {
   const Vec2 centre = drum_centre(place, 0.0);
-  const Vec2 end = place.R * Vec2(std::sin(place.twist), std::cos(place.twist));
+  const Vec2 end = place.R * Vec2(elementary::sin(place.twist), elementary::cos(place.twist));
   const Vec2 away = end - centre;
   if (away.norm() >= place.drum) return;
   const Vec2 out = centre + place.drum * away.normalized();
   place.R = out.norm();
-  place.twist += std::atan2(cross(out, end), out.dot(end));  // clockwise
+  place.twist += elementary::atan2(cross(out, end), out.dot(end));  // clockwise
 }
 
 }  // namespace
@@ -113,15 +113,15 @@ PinPlace pin_place(const Mechanism& mechanism, Side side, double rho) {
   if (const auto& own = side == Side::left ? joint.attachment1 : joint.attachment2) {
     const double x = mirror_sign(side) * own->across;
     place.at_C = false;
-    place.R = std::hypot(x, own->along);
+    place.R = elementary::hypot(x, own->along);
     // An end straight below O is reached over the drum's outer side, from the right.
-    place.twist = x == 0 && own->along < 0 ? k_pi : std::atan2(x, own->along);
+    place.twist = x == 0 && own->along < 0 ? k_pi : elementary::atan2(x, own->along);
   }
   if (joint.drum_centre == Attachment{}) place.R = std::max(place.R, place.drum);
   if (const Attachment& centre = joint.drum_centre; place.drum > 0 && centre != Attachment{}) {
     const double x = mirror_sign(side) * centre.across;
-    place.drum_offset = std::hypot(x, centre.along);
-    place.drum_twist = std::atan2(x, centre.along);
+    place.drum_offset = elementary::hypot(x, centre.along);
+    place.drum_twist = elementary::atan2(x, centre.along);
     keep_out_of_drum(place);
   }
   return place;
@@ -130,7 +130,7 @@ PinPlace pin_place(const Mechanism& mechanism, Side side, double rho) {
 Vec2 drum_centre(const PinPlace& place, double theta) {
   if (place.drum_offset == 0) return Vec2(0.0, 0.0);
   const double turned = theta + place.drum_twist;
-  return place.drum_offset * Vec2(std::sin(turned), std::cos(turned));
+  return place.drum_offset * Vec2(elementary::sin(turned), elementary::cos(turned));
 }
 
 std::optional<double> lift_off(const PinPlace& place) {
@@ -189,8 +189,8 @@ UpperSpan free_span(const PinPlace& place, double theta) {
     span.normal += k_two_pi * std::round((0.5 * k_pi - theta - span.normal) / k_two_pi);
   span.free = line.free;
   span.length = span.free + place.rho * span.normal;
-  span.m = place.R * std::sin(theta + span.normal);
-  const double a = place.R * std::cos(theta + span.normal);
+  span.m = place.R * elementary::sin(theta + span.normal);
+  const double a = place.R * elementary::cos(theta + span.normal);
   const double dpsi = -a / span.free;
   const double omega = 1.0 + dpsi;
   const double dfree = -span.m - place.rho * dpsi;

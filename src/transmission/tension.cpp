@@ -14,7 +14,7 @@ double turned_by_law_of_cosines(const PinPlace& place, double span, double elong
   const double to_pin = place.pin().norm();
   const auto angle_at_joint = [&](double opposite) {
     const double cosine = (place.R * place.R + to_pin * to_pin - opposite * opposite) / (2.0 * place.R * to_pin);
-    return std::acos(std::clamp(cosine, -1.0, 1.0));
+    return elementary::acos(std::clamp(cosine, -1.0, 1.0));
   };
   return angle_at_joint(span + elongation) - angle_at_joint(span);
 }
@@ -25,7 +25,7 @@ double length_relieved_by_drum(const Mechanism& mechanism, const PinPlace& place
   const double mu = mechanism.joint.drum_mu;
   if (!(mu > 0 && place.drum > 0)) return 0;
   const UpperSpan span = upper_span(place, image_theta);
-  const double decay = std::exp(-mu * span.on_drum);
+  const double decay = elementary::exp(-mu * span.on_drum);
   return place.drum * (span.on_drum - (1.0 - decay) / mu) + span.behind_drum * (1.0 - decay);
 }
 
@@ -57,7 +57,7 @@ PaperForces paper_forces(const Mechanism& mechanism, const TransmissionPoint& po
   (by_first ? forces.T1 : forces.T2) = T;
   forces.phi = point.t2.wrap;
   forces.Tb = mechanism.guides.kind == GuideKind::idler
-                  ? T * std::exp(guide_friction(mechanism).log_ratio(tendon.wrap))
+                  ? T * elementary::exp(guide_friction(mechanism).log_ratio(tendon.wrap))
                   : tension_below_pin(T, mechanism.guides.mu, std::max(0.0, tendon.wrap));
   const double on_pin = tendon.length - tendon.free_upper - tendon.lower_reach - tendon.in_sheath;
   const SheathLoad sheath = sheath_load(mechanism);
@@ -65,7 +65,7 @@ PaperForces paper_forces(const Mechanism& mechanism, const TransmissionPoint& po
   const double sheathed = sheath.length + stiffness * sheath.compliance;
   if (mechanism.sheath.is_there()) {
     const double off_pin = forces.Tb;
-    forces.Tb *= std::exp(sheath.log_ratio);
+    forces.Tb *= elementary::exp(sheath.log_ratio);
     forces.elongation = elongation_of_tendon(T, off_pin, tendon.free_upper, on_pin, 0.0, stiffness) +
                         elongation_of_tendon(off_pin, forces.Tb, 0.0, sheathed, tendon.lower_reach, stiffness);
   } else {

@@ -12,7 +12,7 @@ PENDING = ()
 GENERATED = ("docs/reference/commands.md", "docs/reference/keys.md", "docs/reference/catalogue.md", "docs/reference/columns.md",
              "docs/reference/json.md", "docs/background/paper.md")
 # This file quotes what it refuses; a corpus and pictures have no comments of ours.
-EXEMPT = ("tests/pipeline/words_test.py", "tests/fuzz/corpus/", "docs/pictures/", "profiles/pictures/")
+EXEMPT = ("tests/pipeline/words_test.py", "tests/fuzz/corpus/", "docs/pictures/", "profiles/pictures/", "src/base/musl/")
 
 MOST_WORDS_IN_SENTENCE = 25
 MOST_WORDS_IN_TITLE = 8
@@ -67,6 +67,10 @@ WORDS = {re.compile(rf"(?<!-)\b(?:{expression})\b", re.I): instead for expressio
 NAMES = {re.compile(rf"(?<![\"\w-])(?:{expression})(?![\"\w])"): instead for expression, instead in RENAMED.items()}
 ANY_NAME = re.compile("|".join(rf"(?<![\"\w-])(?:{expression})(?![\"\w])" for expression in RENAMED))
 ANY_WORD = re.compile("|".join(rf"(?<!-)\b(?:{expression})\b" for expression in REPLACED), re.I)
+
+#: Their digits depend on the machine.
+ELEMENTARY = re.compile(r"std::(a?(?:sin|cos|tan)|atan2|exp|log|log1p|log10|pow|hypot)\b")
+COMPUTING = ("src/", "export/", "include/")
 
 CPP_COMMENT = re.compile(r"\s*//[/!]?(?!<)\s?(.*)")
 CPP_TEXT = re.compile(r'//.*|"(?:[^"\\]|\\.)*"')
@@ -194,6 +198,12 @@ KINDS = {".cpp": cpp_faults, ".h": header_faults, ".py": script_faults, ".pyi": 
          "": script_faults, ".md": page_faults}
 
 
+def elementary_faults(lines):
+    for number, line in enumerate(lines, 1):
+        for match in ELEMENTARY.finditer(line):
+            yield number, f"'{match[0]}' differs between machines", f"elementary::{match[1]}"
+
+
 def files(root, under=()):
     listed = subprocess.run(["git", "-C", root, "ls-files", *under], capture_output=True, text=True)
     names = listed.stdout.splitlines() if listed.returncode == 0 else [str(path.relative_to(root)) for path in root.rglob("*") if path.is_file()]
@@ -213,6 +223,8 @@ def faults(root, under=()):
         lines = (root / name).read_text(errors="replace").splitlines()
         found += [f"{name}: {rule}; write: {instead}" for rule, instead in names_in(name.replace("/", " ").replace(".", " "))]
         found += [f"{name}:{number}: {rule}; write: {instead}" for number, rule, instead in KINDS[Path(name).suffix](lines)]
+        if name.startswith(COMPUTING):
+            found += [f"{name}:{number}: {rule}; write: {instead}" for number, rule, instead in elementary_faults(lines)]
     return found
 
 
@@ -239,6 +251,9 @@ class Words(unittest.TestCase):
         self.assertEqual(self.refused(".cpp", 'json["joint"] = "as_it_is";  // a key keeps its name\n'), [])
         self.assertEqual(self.refused(".txt", "fusee_room(base ROOMS a)\n"), [(1, "'fusee_room'"), (1, "'ROOMS'")])
         self.assertEqual([rule for rule, _ in names_in("tests pipeline doubts_test cpp")], ["'doubts_test'"])
+
+    def test_detects_functions_of_the_machine(self):
+        self.assertEqual([number for number, _, _ in elementary_faults(["elementary::sin(x);", "y = std::atan2(a, b) + std::sqrt(c);"])], [2])
 
     def test_detects_titles(self):
         self.assertEqual(len(self.refused(".cpp", "TEST(Part, WhatIsMade) {\n")), 1)

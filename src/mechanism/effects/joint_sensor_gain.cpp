@@ -19,7 +19,7 @@ double excess_of_reading(const Imperfections& joint, const Mechanism& declared) 
   const double low = declared.joint.theta_min, high = declared.joint.theta_max;
   if (!(high > low)) return error.gain;
   const auto wave = [](double theta, double sin_part, double cos_part) {
-    return sin_part * std::sin(theta) + cos_part * std::cos(theta);
+    return sin_part * elementary::sin(theta) + cos_part * elementary::cos(theta);
   };
   const auto shown = [&](double theta) {
     return wave(theta, error.eccentricity_sin, error.eccentricity_cos) +

@@ -7,7 +7,7 @@ namespace {
 
 double as_written(double order) { return order; }
 
-double size(const OutlineError& outline) { return std::hypot(outline.wave_sin, outline.wave_cos); }
+double size(const OutlineError& outline) { return elementary::hypot(outline.wave_sin, outline.wave_cos); }
 
 /// Adds harmonics of equal order. Of different orders it keeps the larger one.
 void larger_wave(const Imperfections& before, Imperfections& joint) {

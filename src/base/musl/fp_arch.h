@@ -1,0 +1,1 @@
+/* Of musl: instructions of a processor. None is used, for equal bytes. */
