@@ -251,7 +251,7 @@ std::size_t planned_shortcomings(const DeclaredMechanism& declared) {
   const Curves curves = curves_of(declared);
   if (!curves.obstacles.empty()) return 0;
   const solid::BodyPlan plan = solid::plan_body(curves.joint.mechanism, curves.synthesis);
-  return plan.possible() ? shortcomings(plan.layout, curves.joint.mechanism) : 0;
+  return plan.is_possible() ? shortcomings(plan.layout, curves.joint.mechanism) : 0;
 }
 
 /// Fewer warnings are better, then fewer shortcomings.

@@ -1,16 +1,19 @@
 """The build backend for pip (PEP 517): CMake compiles the module, and the package is packed as a wheel. It needs only
 the standard library.
 
-`pip install --no-build-isolation --config-settings build-dir=build/release .` uses an existing build.
+`pip install --no-build-isolation --config-settings build-dir=build/release .` uses an existing build. With
+`--config-settings portable=yes`, the wheel also holds the program and all libraries, and needs none on the system.
 """
 
 import base64
 import hashlib
+import platform
 import re
 import shutil
 import subprocess
 import sys
 import sysconfig
+import tempfile
 import zipfile
 from pathlib import Path
 
@@ -33,12 +36,12 @@ def configure(build):
     subprocess.run(["cmake", "-S", ROOT, "-B", build, *generator, *options], check=True)
 
 
-def compiled(given):
+def compiled(given, targets=("fusee_python",)):
     """The package's folder in the given build, or in a new one; compiled on return."""
     build = ROOT / (given or "build/wheel")
     if not given:
         configure(build)
-    subprocess.run(["cmake", "--build", build, "--target", "fusee_python"], check=True)
+    subprocess.run(["cmake", "--build", build, "--target", *targets], check=True)
     return build / "python/fusee"
 
 
@@ -49,9 +52,30 @@ def step_module(package):
     return {f"fusee/{path.relative_to(build)}": path.read_bytes() for path in sorted(build.glob("lib/**/fusee/modules/fusee-step.so"))}
 
 
-def tag():
+def portable_tree(package, top):
+    """Copies the package, the program and its modules below `top`, with the libraries that they need."""
+    build = package.parents[1]
+    library = package / ("_core" + sysconfig.get_config_var("EXT_SUFFIX"))
+    binaries = {library: library.name, build / "fusee": "bin/fusee",
+                **{path: str(path.relative_to(build)) for path in sorted(build.glob("lib/**/fusee/modules/*.so"))}}
+    for path, name in binaries.items():
+        (top / name).parent.mkdir(parents=True, exist_ok=True)
+        subprocess.run(["strip", "--strip-unneeded", "-o", top / name, path], check=True)
+    files = ";".join(str(top / name) for name in binaries.values())
+    script = ROOT / "src/bundled_libraries.cmake"
+    subprocess.run(["cmake", f"-DFILES={files}", f"-DLIBRARIES={top / 'lib/fusee/bundled'}", "-P", script], check=True)
+
+
+def is_portable(settings):
+    return (settings or {}).get("portable", "no") == "yes"
+
+
+def tag(portable=False):
     number = f"cp{sys.version_info[0]}{sys.version_info[1]}"
-    return f"{number}-{number}-" + re.sub("[-.]", "_", sysconfig.get_platform())
+    system = sysconfig.get_platform()
+    if portable:
+        system = system.replace("linux", "manylinux-" + platform.libc_ver()[1])  # PEP 600
+    return f"{number}-{number}-" + re.sub("[-.]", "_", system)
 
 
 def metadata():
@@ -59,20 +83,27 @@ def metadata():
             f"Requires-Python: {about('requires-python')}\nRequires-Dist: numpy\n")
 
 
-def about_wheel():
+def about_wheel(portable):
     """The metadata files of the wheel: name → bytes."""
     info = f"fusee-{version()}.dist-info"
-    wheel = f"Wheel-Version: 1.0\nGenerator: fusee_wheel\nRoot-Is-Purelib: false\nTag: {tag()}\n"
+    wheel = f"Wheel-Version: 1.0\nGenerator: fusee_wheel\nRoot-Is-Purelib: false\nTag: {tag(portable)}\n"
     return {f"{info}/METADATA": metadata().encode(), f"{info}/WHEEL": wheel.encode(), f"{info}/LICENSE": (ROOT / "LICENSE").read_bytes()}
 
 
-def contents(package):
+def contents(package, portable):
     """Name in the wheel → bytes, without RECORD."""
     library = "_core" + sysconfig.get_config_var("EXT_SUFFIX")
     if not (package / library).exists():
         raise SystemExit(f"fusee: {package} was compiled for another Python: {library} is missing")
-    files = [path for path in sorted(package.iterdir()) if path.suffix in (".py", ".pyi", ".typed") or path.name == library]
-    return {**{f"fusee/{path.name}": path.read_bytes() for path in files}, **step_module(package), **about_wheel()}
+    files = [path for path in sorted(package.iterdir()) if path.suffix in (".py", ".pyi", ".typed")]
+    held = {f"fusee/{path.name}": path.read_bytes() for path in files}
+    if not portable:
+        return {**held, f"fusee/{library}": (package / library).read_bytes(), **step_module(package), **about_wheel(portable)}
+    with tempfile.TemporaryDirectory() as folder:
+        top = Path(folder) / "fusee"
+        portable_tree(package, top)
+        tree = {str(path.relative_to(folder)): path.read_bytes() for path in sorted(top.rglob("*")) if path.is_file()}
+    return {**held, **tree, **about_wheel(portable)}
 
 
 def record(held, name):
@@ -84,7 +115,7 @@ def record(held, name):
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
     """Called before anything is compiled."""
-    for name, data in about_wheel().items():
+    for name, data in about_wheel(is_portable(config_settings)).items():
         path = Path(metadata_directory) / name
         path.parent.mkdir(exist_ok=True)
         path.write_bytes(data)
@@ -92,14 +123,16 @@ def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    held = contents(compiled((config_settings or {}).get("build-dir")))
+    portable = is_portable(config_settings)
+    targets = ("fusee_python", "fusee_cli", "fusee_step", "fusee_evolution_module") if portable else ("fusee_python",)
+    held = contents(compiled((config_settings or {}).get("build-dir"), targets), portable)
     name = f"fusee-{version()}.dist-info/RECORD"
     held[name] = record(held, name).encode()
-    wheel = f"fusee-{version()}-{tag()}.whl"
+    wheel = f"fusee-{version()}-{tag(portable)}.whl"
     with zipfile.ZipFile(Path(wheel_directory) / wheel, "w", zipfile.ZIP_DEFLATED) as packed:
         for path, data in held.items():
             entry = zipfile.ZipInfo(path)  # dated 1980, so that equal input gives equal bytes
-            entry.external_attr = (0o755 if path.endswith(".so") else 0o644) << 16
+            entry.external_attr = (0o755 if path.endswith("bin/fusee") or ".so" in path else 0o644) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
             packed.writestr(entry, data)
     return wheel
