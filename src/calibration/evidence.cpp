@@ -358,6 +358,15 @@ Eigen::VectorXd measured_theta(const measurement::Measurement& measurement) {
   return flat(theta);
 }
 
+double largest_load(const measurement::Measurement& measurement) {
+  double most = 0;
+  for (const measurement::Run& run : measurement.runs) {
+    for (const measurement::Sample& sample : run.samples)
+      most = std::max(most, run.has_load ? std::abs(sample.load) : 0.0);
+  }
+  return most;
+}
+
 /// Properties by which two segments of a run repeat each other.
 struct SegmentKind {
   int direction = 0;
@@ -551,6 +560,7 @@ Evidence gather(const DeclaredMechanism& declared, const measurement::Measuremen
   evidence.measurement = thinned(declared, measurement, counted);
   evidence.log = measurement::bench_log(evidence.measurement);
   evidence.theta = measured_theta(evidence.measurement);
+  evidence.largest_load = largest_load(evidence.measurement);
   evidence.blocks = BlockMaker(evidence, counted).made();
   evidence.run_folds = run_folds(evidence);
   choose_factor_folds(evidence);

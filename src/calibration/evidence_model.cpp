@@ -1,5 +1,8 @@
 #include "calibration/evidence_model.h"
 
+#include <array>
+#include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -28,6 +31,36 @@ const double k_log_density_at_0 =
 double information(double x, double prior) {
   return std::isfinite(prior) ? (k_tail + 1.0) / (k_tail * prior * prior + x * x) : 1e-12;
 }
+
+std::uint64_t hash_of(const Eigen::Ref<const Eigen::VectorXd>& column) {
+  std::uint64_t hash = 0;
+  for (const double value : column) hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15ULL;
+  return hash ^ (hash >> 32);
+}
+
+std::uint64_t new_id() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
+
+/// Products Dᵀ v that a thread computed before, by the hash of v. Tangents share the columns of their base, and each
+/// product reads the whole of D.
+class ProjectionCache {
+ public:
+  /// `id`: of D. Valid until the next call.
+  const Eigen::VectorXd& of(const Eigen::MatrixXd& D, std::uint64_t id, const Eigen::Ref<const Eigen::VectorXd>& v) {
+    Entry& entry = entries_[hash_of(v) % entries_.size()];
+    if (entry.id != id || entry.v.size() != v.size() || entry.v != v) entry = {id, v, D.transpose() * v};
+    return entry.product;
+  }
+
+ private:
+  struct Entry {
+    std::uint64_t id = 0;
+    Eigen::VectorXd v, product;
+  };
+  std::array<Entry, 256> entries_;
+};
 
 }  // namespace
 
@@ -63,6 +96,7 @@ struct EvidenceModel::Solved {
 
 EvidenceModel::EvidenceModel(Discrepancy discrepancy, double floor, double independent_share)
     : discrepancy_(std::move(discrepancy)),
+      id_(new_id()),
       gram_(discrepancy_.columns.transpose() * discrepancy_.columns),
       floor_(floor),
       independent_share_(independent_share),
@@ -86,12 +120,12 @@ Amplitudes EvidenceModel::without_discrepancy() const {
 TangentSums EvidenceModel::sums_of(const Tangent& tangent) const {
   TangentSums sums;
   sums.JJ = tangent.J.transpose() * tangent.J;
-  // Column by column: a product of a few columns with many costs Eigen twice as much.
+  static thread_local ProjectionCache projections;
   sums.JD.resize(tangent.J.cols(), discrepancy_.columns.cols());
   for (Eigen::Index k = 0; k < tangent.J.cols(); ++k)
-    sums.JD.row(k) = (discrepancy_.columns.transpose() * tangent.J.col(k)).transpose();
+    sums.JD.row(k) = projections.of(discrepancy_.columns, id_, tangent.J.col(k)).transpose();
   sums.Jr = tangent.J.transpose() * tangent.residual;
-  sums.Dr = discrepancy_.columns.transpose() * tangent.residual;
+  sums.Dr = projections.of(discrepancy_.columns, id_, tangent.residual);
   sums.rr = tangent.residual.squaredNorm();
   sums.rows = static_cast<double>(tangent.residual.size());
   sums.x = tangent.x;

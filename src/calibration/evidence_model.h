@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cstdint>
 #include <vector>
 
 #include "base/decompositions.h"
@@ -102,9 +103,6 @@ class EvidenceModel {
   Amplitudes without_discrepancy() const;
 
   TangentSums sums_of(const Tangent& tangent) const;
-  /// DᵀD
-  const Eigen::MatrixXd& gram() const { return gram_; }
-
   /// `deflection_ratio`: as TangentSums.
   ScaledDiscrepancy sized(const Amplitudes& amplitudes, double deflection_ratio) const;
 
@@ -135,7 +133,8 @@ class EvidenceModel {
                         const Solved& solved) const;
 
   Discrepancy discrepancy_;
-  Eigen::MatrixXd gram_;
+  std::uint64_t id_;      ///< of the discrepancy, shared by copies
+  Eigen::MatrixXd gram_;  ///< DᵀD
   double floor_;
   double independent_share_;
   Amplitudes first_guess_;

@@ -38,21 +38,12 @@ constexpr double k_more_damping = 10.0;
 /// Prior size of a number without known sizes, in its steps.
 constexpr double k_steps_in_practice = 100.0;
 
-double largest_load(const measurement::Measurement& measurement) {
-  double most = 0;
-  for (const measurement::Run& run : measurement.runs) {
-    for (const measurement::Sample& sample : run.samples)
-      most = std::max(most, run.has_load ? std::abs(sample.load) : 0.0);
-  }
-  return most;
-}
-
 /// Prior size, in steps of the parameter.
 double size_in_practice(const Evidence& evidence, const EffectParameter& parameter) {
   if (&parameter == free_offset(*evidence.declared)) return std::numeric_limits<double>::infinity();
   if (const auto known = evidence.sizes.find(&parameter); known != evidence.sizes.end()) return known->second;
   if (!(parameter.prior > 0)) return k_steps_in_practice;
-  return prior_of(parameter, largest_load(evidence.measurement)) / parameter.step;
+  return prior_of(parameter, evidence.largest_load) / parameter.step;
 }
 
 /// Numbers after a step, clamped to their bounds.

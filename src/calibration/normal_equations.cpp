@@ -8,11 +8,6 @@
 namespace fusee::calibration {
 namespace {
 
-/// dθ/dx of a row. J of a fit without parameters has no storage.
-Eigen::VectorXd slopes_of(const Fit& fit, Eigen::Index row) {
-  return fit.x.size() > 0 ? Eigen::VectorXd(fit.J.row(row).transpose()) : Eigen::VectorXd();
-}
-
 double reading_of(const HandReading& reading, const Evidence& evidence, const Imperfections& at) {
   return reading_by_hand(*reading.parameter, at, *evidence.declared);
 }
@@ -30,9 +25,10 @@ Eigen::VectorXd slopes_of(const HandReading& reading, const Evidence& evidence, 
 }
 
 void add_row(const Fit& fit, Eigen::Index row, double floor, NormalEquations& normal) {
-  const Eigen::VectorXd J = slopes_of(fit, row);
-  normal.JJ.noalias() += J * J.transpose();
-  normal.Jr.noalias() += J * fit.residual[row];
+  for (Eigen::Index k = 0; k < fit.x.size(); ++k) {
+    for (Eigen::Index i = 0; i < fit.x.size(); ++i) normal.JJ(i, k) += fit.J(row, i) * fit.J(row, k);
+    normal.Jr[k] += fit.J(row, k) * fit.residual[row];
+  }
   normal.rr += fit.residual[row] * fit.residual[row] + play_correction(fit.loose[row], floor);
   normal.rows += 1;
 }
@@ -93,7 +89,10 @@ NormalEquations sums_of_all(const Evidence& evidence, const Fit& fit) {
 
 bool is_finite(const Evidence& evidence, const Fit& fit) {
   for (const Eigen::Index row : evidence.rows()) {
-    if (!std::isfinite(fit.residual[row]) || !slopes_of(fit, row).allFinite()) return false;
+    if (!std::isfinite(fit.residual[row])) return false;
+    for (Eigen::Index k = 0; k < fit.x.size(); ++k) {
+      if (!std::isfinite(fit.J(row, k))) return false;
+    }
   }
   return true;
 }
