@@ -15,6 +15,9 @@
 namespace fusee::calibration {
 namespace {
 
+constexpr int k_data_sets = 200;
+/// True causes that join a group.
+constexpr std::size_t k_most_true_causes = 6;
 constexpr int k_rounds = 4;
 constexpr int k_most_added = 3;
 constexpr std::size_t k_tries = 3;
@@ -293,7 +296,7 @@ AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {
   for (std::size_t i = 0; i < chords_.size(); ++i) {
     if (chords_[i].effect != named && contains(selection_.best.effects, *chords_[i].effect)) others.push_back(i);
   }
-  const auto data_sets = static_cast<std::size_t>(k_thresholds.data_sets);
+  const auto data_sets = std::size_t{k_data_sets};
   std::vector<char> is_false_positive(data_sets, 0);
   std::vector<const fusee::Effect*> true_cause(data_sets, nullptr);
   pool.each(data_sets, [&](const Fitter&, std::size_t i) {
@@ -305,7 +308,7 @@ AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {
     true_cause[i] = data.true_cause;
   });
   AuditResult audited;
-  audited.counts.data_sets = k_thresholds.data_sets;
+  audited.counts.data_sets = k_data_sets;
   std::vector<std::pair<int, const fusee::Effect*>> causes;
   for (std::size_t i = 0; i < data_sets; ++i) {
     if (!is_false_positive[i]) continue;
@@ -316,7 +319,7 @@ AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {
   int unattributed = audited.counts.false_positives;
   for (const auto& [joints, effect] : causes) {
     if (unattributed <= k_thresholds.most_false_positives * audited.counts.data_sets ||
-        audited.true_causes.size() == k_thresholds.most_true_causes)
+        audited.true_causes.size() == k_most_true_causes)
       break;
     audited.true_causes.push_back(effect);
     unattributed -= joints;

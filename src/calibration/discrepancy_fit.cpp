@@ -230,7 +230,7 @@ FactorSelection select_factors(const EvidenceModel& evidence_model, const Tangen
       taken = &factor;
     }
     const double gain = better.log_evidence - found.posterior.log_evidence;
-    if (taken == nullptr || gain < k_thresholds.least_component) break;
+    if (taken == nullptr || gain < k_thresholds.strong) break;
     found.posterior = std::move(better);
     found.factors.emplace_back(taken, gain);
   }

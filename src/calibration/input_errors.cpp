@@ -151,7 +151,7 @@ std::vector<LikelyInputError> find_input_errors(const DeclaredMechanism& declare
   std::vector<LikelyInputError> errors;
   double best = 0;  // held-out rms of the best
   for (Trial& trial : test_hypotheses(declared, data, floor)) {
-    const bool ties = errors.empty() || trial.residual <= k_thresholds.input_error_tie * best;
+    const bool ties = errors.empty() || trial.residual <= best / k_thresholds.residual_share;
     if (!ties || !explains(trial, data, baseline)) break;
     if (errors.empty()) best = trial.residual;
     errors.push_back(trial.hypothesis.error);

@@ -62,7 +62,7 @@ double score_under(const Evidence& evidence, const Fit& without, double times) {
   const Evidence other = with_loads(evidence, times);
   joint::Forward forward(*other.declared, other.log);
   const Fit fit = Fitter(other, forward).fit(without.effects, without.at);
-  return fit.usable ? score(fit) - k_thresholds.neg_log_prior_odds - k_thresholds.search_penalty
+  return fit.usable ? score(fit) - k_thresholds.neg_log_prior_odds - k_thresholds.strong
                     : -std::numeric_limits<double>::infinity();
 }
 

@@ -188,7 +188,7 @@ class Proposals {
     const std::string unit = evidence_.declared->transmission ? evidence_.measurement.load_unit : "N";
     Proposal proposal{plan::next_run(run, as_before(evidence_.measurement).speed, unit), {}};
     for (const Alternative& other : others_)
-      proposal.margins.push_back(rms_from(other, run) / noise / k_thresholds.distinguished);
+      proposal.margins.push_back(rms_from(other, run) / noise / k_thresholds.sure);
     all_.push_back(std::move(proposal));
   }
 
@@ -202,7 +202,7 @@ class Proposals {
                                   reading_by_hand(*number, *other.at, *evidence_.declared);
         squares += std::pow(difference / number->by_hand.uncertainty, 2);
       }
-      proposal.margins.push_back(std::sqrt(squares) / k_thresholds.distinguished);
+      proposal.margins.push_back(std::sqrt(squares) / k_thresholds.sure);
     }
     all_.push_back(std::move(proposal));
   }
@@ -240,7 +240,7 @@ class Proposals {
     };
     for (std::size_t i = 0; i < others_.size(); ++i) {
       if (proposal.margins[i] < k_least_told) continue;
-      const double margin = proposal.margins[i] * k_thresholds.distinguished;
+      const double margin = proposal.margins[i] * k_thresholds.sure;
       const std::string unit = distinguished.empty() ? " × the uncertainty)" : " ×)";
       distinguished += distinguished.empty() ? "" : ", ";
       if (others_[i].found != named) distinguished += others_[i].found->name + " from ";

@@ -29,6 +29,19 @@ namespace {
 /// score() without the penalty of the discrepancy.
 double score_of_names(const Fit& fit) { return fit.log_evidence - neg_log_prior_odds(fit.effects); }
 
+// Extent of the search, a matter of time.
+constexpr std::size_t k_most_effects = 5;
+/// Sets that are widened, and linearized candidates of each that are fitted.
+constexpr std::size_t k_beam = 4;
+constexpr std::size_t k_most_candidates = 6;
+/// Pairs of linearized candidates that one effect may be in.
+constexpr std::size_t k_most_of_each = 2;
+/// Effects beside the best set that are tested as members of its groups.
+constexpr std::size_t k_most_companions = 10;
+/// Nats below the best set from which a linearized candidate is not fitted, and a fit is not continued.
+constexpr double k_hopeless = 15.0;
+/// Accuracy of a fit in nats: a set that is better by less does not replace the best.
+constexpr double k_least_improvement = 0.1;
 /// Rounds of amplitudes in a linearization.
 constexpr int k_linearized_rounds = 4;
 
@@ -241,7 +254,7 @@ Fit Selector::fit_briefly(const Fitter& fitter, const LinearizedCandidate& added
 /// Full fit, unless it is far below the best.
 Fit Selector::fit_fully(const Fitter& fitter, const LinearizedCandidate& added) const {
   Fit fit = fitter.add_effect(*added.base, *added.effect);
-  const bool is_near = fit.usable && score(fit) > score(selection_.best) - k_thresholds.hopeless;
+  const bool is_near = fit.usable && score(fit) > score(selection_.best) - k_hopeless;
   return is_near || (fit.usable && ended_early(fit, added)) ? fitter.fit(fit.effects, fit.at) : fit;
 }
 
@@ -366,7 +379,7 @@ std::vector<Fit> Selector::widen_without_discrepancy(const std::vector<FitWithou
   pool_.each(beam.size(), [&](const Fitter& fitter, std::size_t i) {
     const Fit& base = beam[i].fit;
     candidates[i] =
-        rank_by_linearization(fitter, base, explain_without_discrepancy(base).amplitudes, k_thresholds.most_candidates);
+        rank_by_linearization(fitter, base, explain_without_discrepancy(base).amplitudes, k_most_candidates);
   });
   std::map<Key, LinearizedCandidate> added;
   for (const std::vector<LinearizedCandidate>& linearized : candidates) {
@@ -414,7 +427,7 @@ std::vector<FitWithoutDiscrepancy> Selector::select_beam(std::vector<Fit> fits) 
   });
   std::stable_sort(all.begin(), all.end(),
                    [](const FitWithoutDiscrepancy& a, const FitWithoutDiscrepancy& b) { return a.score > b.score; });
-  all.resize(std::min(all.size(), k_thresholds.beam));
+  all.resize(std::min(all.size(), k_beam));
   return all;
 }
 
@@ -422,8 +435,8 @@ std::vector<FitWithoutDiscrepancy> Selector::select_beam(std::vector<Fit> fits) 
 /// another mode than one beside it, so its set is fitted again by score.
 void Selector::search_without_discrepancy() {
   std::vector<FitWithoutDiscrepancy> beam = select_beam(fit_singles_without_discrepancy());
-  while (beam.front().score < score_of_names(beam.front().fit) - k_thresholds.least_component &&
-         beam.front().fit.effects.size() < k_thresholds.most_effects) {
+  while (beam.front().score < score_of_names(beam.front().fit) - k_thresholds.strong &&
+         beam.front().fit.effects.size() < k_most_effects) {
     std::vector<Fit> wider = widen_without_discrepancy(beam);
     if (wider.empty()) break;
     for (const Fit& fit : wider) record(fit);
@@ -439,21 +452,19 @@ void Selector::search_without_discrepancy() {
 /// Fits wider sets than those of the beam. True if one has a better score than the best so far.
 bool Selector::widen() {
   std::vector<const Fit*> beam = ranked();
-  beam.resize(std::min(beam.size(), k_thresholds.beam));
+  beam.resize(std::min(beam.size(), k_beam));
   const double before = score(*beam.front());
   std::vector<std::vector<LinearizedCandidate>> candidates(beam.size());
   pool_.each(beam.size(), [&](const Fitter& fitter, std::size_t i) {
-    if (beam[i]->effects.size() < k_thresholds.most_effects)
-      candidates[i] =
-          rank_by_linearization(fitter, *beam[i], beam[i]->posterior.amplitudes, k_thresholds.most_candidates);
+    if (beam[i]->effects.size() < k_most_effects)
+      candidates[i] = rank_by_linearization(fitter, *beam[i], beam[i]->posterior.amplitudes, k_most_candidates);
   });
   std::vector<LinearizedCandidate> added;
   for (const std::vector<LinearizedCandidate>& linearized : candidates) {
     for (const LinearizedCandidate& candidate : linearized) {
       EffectSet effects = candidate.base->effects;
       effects.push_back(candidate.effect);
-      if (candidate.predicted_score > before - k_thresholds.hopeless && !is_tried(key_of(effects)))
-        added.push_back(candidate);
+      if (candidate.predicted_score > before - k_hopeless && !is_tried(key_of(effects))) added.push_back(candidate);
     }
   }
   std::vector<Fit> fits = fit_candidates("trying wider sets of effects", added, &Selector::fit_briefly);
@@ -471,7 +482,7 @@ std::vector<Fit> Selector::refit(const std::vector<const Fit*>& fits) {
 /// Full fits of the best few.
 void Selector::refit_best() {
   std::vector<const Fit*> all = ranked();
-  all.resize(std::min(all.size(), k_thresholds.beam));
+  all.resize(std::min(all.size(), k_beam));
   for (Fit& fit : refit(all)) record_tried(std::move(fit));
   const Fit* likeliest = ranked().front();
   Fit best = pool_.one().fit(likeliest->effects, likeliest->at);
@@ -518,8 +529,7 @@ bool Selector::test_rivals() {
                      [&](const LinearizedCandidate& candidate) { return candidate.effect == best.effects[i]; });
     for (const LinearizedCandidate& candidate : candidates[i]) {
       const bool is_unpredictable = is_searched(*candidate.effect) || candidate.effect->sticks;
-      const bool is_worse =
-          candidate.predicted_score < std::min(own->predicted_score, score(best) - k_thresholds.hopeless);
+      const bool is_worse = candidate.predicted_score < std::min(own->predicted_score, score(best) - k_hopeless);
       const bool given_up = is_worse && !is_unpredictable;
       if (given_up || contains(best.effects, *candidate.effect)) continue;
       selection_.rivals.push_back({best.effects[i], candidate.effect, {}});
@@ -532,7 +542,7 @@ bool Selector::test_rivals() {
   const double before = score(best);
   for (const Fit& fit : selection_.without) record_tried(fit);
   for (const Rival& rival : selection_.rivals) record_tried(rival.fit);
-  return score(*ranked().front()) > before + k_thresholds.least_improvement;
+  return score(*ranked().front()) > before + k_least_improvement;
 }
 
 /// `best` without one or two of its members, likeliest first.
@@ -553,7 +563,7 @@ std::vector<Fit> Selector::reduce_best() const {
   all.push_back(best);
   std::erase_if(all, [](const Fit& fit) { return !fit.usable; });
   std::stable_sort(all.begin(), all.end(), [](const Fit& a, const Fit& b) { return score(a) > score(b); });
-  all.resize(std::min(all.size(), k_thresholds.most_candidates));
+  all.resize(std::min(all.size(), k_most_candidates));
   return all;
 }
 
@@ -568,7 +578,7 @@ std::vector<CandidatePair> best_of_each(std::vector<CandidatePair> pairs, std::s
   for (const CandidatePair& pair : pairs) {
     if (best.size() == most) break;
     std::size_t &one = times[pair.one->effect], &other = times[pair.other->effect];
-    if (std::max(one, other) >= k_thresholds.most_of_each) continue;
+    if (std::max(one, other) >= k_most_of_each) continue;
     ++one, ++other;
     best.push_back(pair);
   }
@@ -596,7 +606,7 @@ std::vector<CandidatePair> Selector::pairs_beside(const Fit& base, const Amplitu
       pairs.push_back({&base, owners[i], owners[j], shared.log_evidence({i, j}) - cost});
     }
   }
-  pairs = best_of_each(std::move(pairs), 2 * k_thresholds.most_candidates);
+  pairs = best_of_each(std::move(pairs), 2 * k_most_candidates);
   for (CandidatePair& pair : pairs)
     pair.predicted_score = predict_score(base, {pair.one->effect, pair.other->effect},
                                          {&pair.one->linearized, &pair.other->linearized}, amplitudes);
@@ -618,7 +628,7 @@ std::vector<CandidatePair> Selector::pairs_beside(const Fit& base,
       known->predicted_score = std::max(known->predicted_score, pair.predicted_score);
     }
   }
-  return best_of_each(std::move(pairs), k_thresholds.most_candidates);
+  return best_of_each(std::move(pairs), k_most_candidates);
 }
 
 /// Exchanges none, one or two members for one or two other effects, since either exchange alone may lower the score.
@@ -629,25 +639,25 @@ bool Selector::exchange_members() {
   const std::vector<Fit> bases = reduce_best();
   std::vector<std::vector<LinearizedCandidate>> candidates(bases.size());
   pool_.each(bases.size(), [&](const Fitter& fitter, std::size_t i) {
-    if (bases[i].effects.size() < k_thresholds.most_effects)
+    if (bases[i].effects.size() < k_most_effects)
       candidates[i] =
           rank_by_linearization(fitter, bases[i], bases[i].posterior.amplitudes, selection_.catalogue.size());
   });
   std::vector<std::vector<CandidatePair>> pairs(bases.size());
   pool_.each(bases.size(), [&](const Fitter&, std::size_t i) {
-    if (bases[i].effects.size() + 2 <= k_thresholds.most_effects) pairs[i] = pairs_beside(bases[i], candidates[i]);
+    if (bases[i].effects.size() + 2 <= k_most_effects) pairs[i] = pairs_beside(bases[i], candidates[i]);
   });
   std::vector<LinearizedCandidate> singles;
   std::vector<CandidatePair> both;
   for (std::size_t i = 0; i < bases.size(); ++i) {
-    for (std::size_t k = 0; k < std::min(candidates[i].size(), k_thresholds.most_candidates); ++k) {
+    for (std::size_t k = 0; k < std::min(candidates[i].size(), k_most_candidates); ++k) {
       EffectSet effects = bases[i].effects;
       effects.push_back(candidates[i][k].effect);
-      if (candidates[i][k].predicted_score > before - k_thresholds.hopeless && !is_tried(key_of(effects)))
+      if (candidates[i][k].predicted_score > before - k_hopeless && !is_tried(key_of(effects)))
         singles.push_back(candidates[i][k]);
     }
     for (const CandidatePair& pair : pairs[i]) {
-      if (pair.predicted_score > before - k_thresholds.hopeless) both.push_back(pair);
+      if (pair.predicted_score > before - k_hopeless) both.push_back(pair);
     }
   }
   std::vector<Fit> fits = fit_candidates("exchanging effects", singles, &Selector::fit_briefly);
@@ -658,7 +668,7 @@ bool Selector::exchange_members() {
   });
   for (Fit& fit : fits) record_tried(std::move(fit));
   for (Fit& fit : wider) record_tried(std::move(fit));
-  return score(*ranked().front()) > before + k_thresholds.least_improvement;
+  return score(*ranked().front()) > before + k_least_improvement;
 }
 
 /// True if one of the effect's numbers is at a bound. The data then require more of the effect than any joint has, so the
@@ -813,11 +823,11 @@ std::optional<std::size_t> Selector::find_trading_member(const Fit& wider) const
 /// smaller member.
 void Selector::add_companions() {
   const Fit& best = selection_.best;
-  if (best.effects.empty() || best.effects.size() >= k_thresholds.most_effects) return;
+  if (best.effects.empty() || best.effects.size() >= k_most_effects) return;
   const double least = score(best) - k_thresholds.as_good * selection_.temperature;
   std::vector<LinearizedCandidate> likely;
   for (const LinearizedCandidate& candidate : candidates_beside_best()) {
-    if (candidate.predicted_score > least && likely.size() < k_thresholds.most_companions) likely.push_back(candidate);
+    if (candidate.predicted_score > least && likely.size() < k_most_companions) likely.push_back(candidate);
   }
   std::vector<Fit> fits = fit_candidates("trying further effects beside them", likely, &Selector::fit_briefly);
   for (Fit& fit : fits) {
@@ -910,15 +920,13 @@ Selection Selector::run() {
 
 }  // namespace
 
-double search_penalty(const fusee::Effect& effect) { return is_searched(effect) ? k_thresholds.search_penalty : 0.0; }
+double search_penalty(const fusee::Effect& effect) { return is_searched(effect) ? k_thresholds.strong : 0.0; }
 
 double neg_log_prior_odds(const fusee::Effect& effect) {
   return k_thresholds.neg_log_prior_odds + search_penalty(effect);
 }
 
-double reporting_penalty(const fusee::Effect& effect) {
-  return k_thresholds.reporting_penalty + search_penalty(effect);
-}
+double reporting_penalty(const fusee::Effect& effect) { return k_thresholds.decisive + search_penalty(effect); }
 
 double neg_log_prior_odds(const EffectSet& effects) {
   double sum = 0;

@@ -105,9 +105,8 @@ double beyond_noise(const Within& sums) {
 }  // namespace
 
 double rarest_ratio(double upper_freedom, double lower_freedom) {
-  constexpr double k_deviations = 3.0;
   const double a = 2.0 / (9.0 * std::max(1.0, upper_freedom)), b = 2.0 / (9.0 * std::max(1.0, lower_freedom));
-  const double square = k_deviations * k_deviations;
+  const double square = k_thresholds.sure * k_thresholds.sure;
   const double leading = (1.0 - b) * (1.0 - b) - square * b;
   if (leading <= 0) return std::numeric_limits<double>::infinity();
   const double half = (1.0 - a) * (1.0 - b);

@@ -310,8 +310,7 @@ class ShapeSearch {
 
   double penalty(const std::vector<std::size_t>& shapes) const {
     double sum = 0;
-    for (const std::size_t i : shapes)
-      sum += k_thresholds.neg_log_prior_odds + k_thresholds.search_penalty * shape(i).searched;
+    for (const std::size_t i : shapes) sum += k_thresholds.neg_log_prior_odds + k_thresholds.strong * shape(i).searched;
     return sum;
   }
 
