@@ -488,9 +488,6 @@ class BlockMaker {
   std::vector<Block> blocks_;
 };
 
-}  // namespace
-
-namespace {
 
 /// Deflection of the declared joint, all rows, rad. For a joint declared by its ratio, which is rigid, the load.
 Eigen::VectorXd deflection(const Evidence& evidence, const Eigen::VectorXd& declared) {

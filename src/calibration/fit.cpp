@@ -1,10 +1,13 @@
 #include "calibration/fit.h"
 
+#include <atomic>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "base/decompositions.h"
-#include "calibration/starts.h"
+#include "base/thread_pool.h"
+#include "calibration/catalogue.h"
 #include "calibration/thresholds.h"
 
 // Gauss-Newton steps to the posterior mode, with the discrepancy marginalised: parameters are not biased by what the
@@ -542,6 +545,22 @@ std::vector<Fit> Fitter::add_chords_of_starts(const Fit& fit, const fusee::Effec
     all.push_back(std::move(wider));
   }
   return all;
+}
+
+FitterPool::FitterPool(const Evidence& evidence, std::stop_token stop) : evidence_(evidence), stop_(std::move(stop)) {
+  for (unsigned i = 0; i < ThreadPool::shared().threads(); ++i)
+    forwards_.emplace_back(*evidence.declared, evidence.log, evidence.earlier);
+}
+
+void FitterPool::each(std::size_t count, const std::function<void(const Fitter&, std::size_t)>& job,
+                      const std::function<void(std::size_t)>& done) {
+  std::atomic<std::size_t> ended = 0;
+  const auto fit = [&](std::size_t index, std::size_t slot) {
+    job(Fitter(evidence_, forwards_[slot]), index);
+    ++ended;
+    if (done && slot == 0) done(ended);
+  };
+  ThreadPool::shared().each(count, fit, 0, stop_);
 }
 
 }  // namespace fusee::calibration

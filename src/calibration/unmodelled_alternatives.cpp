@@ -9,7 +9,6 @@
 
 #include "base/text.h"
 #include "calibration/evidence_model.h"
-#include "calibration/load_scale.h"
 #include "calibration/row_facts.h"
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
