@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "calibration/thresholds.h"
@@ -18,9 +19,7 @@ namespace {
 constexpr int k_data_sets = 200;
 /// True causes that join a group.
 constexpr std::size_t k_most_true_causes = 6;
-constexpr int k_rounds = 4;
-constexpr int k_most_added = 3;
-constexpr std::size_t k_tries = 3;
+constexpr int k_rounds = 6;
 /// Least size of a true cause, as a share of the size of the found effect.
 constexpr double k_as_large = 0.5;
 
@@ -63,8 +62,9 @@ class Auditor {
   SyntheticDataset synthesize(std::size_t found, std::size_t number) const;
   Eigen::VectorXd noise(std::mt19937_64& random) const;
   TangentSums sums(const SyntheticDataset& data, const Set& set) const;
-  double score_of(const Posterior& posterior, const Set& set) const;
-  Set search(const SyntheticDataset& data, Set set) const;
+  double penalty(const Set& set) const;
+  LinearizedSet evaluate(const SyntheticDataset& data, const Set& set) const;
+  Set search(const SyntheticDataset& data, const Set& set) const;
   bool is_group_member(const SyntheticDataset& data, const Set& found, std::size_t named) const;
 
   const Evidence& evidence_;
@@ -231,45 +231,25 @@ TangentSums Auditor::sums(const SyntheticDataset& data, const Set& set) const {
   return sums;
 }
 
-double Auditor::score_of(const Posterior& posterior, const Set& set) const {
-  double score = posterior.log_evidence;
-  for (const std::size_t i : set) score -= reporting_penalty(*chords_[i].effect);
-  return score;
+double Auditor::penalty(const Set& set) const {
+  double sum = 0;
+  for (const std::size_t i : set) sum += reporting_penalty(*chords_[i].effect);
+  return sum;
 }
 
-/// Greedy search: adds the effect that improves the score most.
-Auditor::Set Auditor::search(const SyntheticDataset& data, Set set) const {
-  Posterior here = evidence_model_.best(sums(data, set), data.start, k_rounds + 2);
-  for (int step = 0; step < k_most_added; ++step) {
-    std::vector<std::pair<double, std::size_t>> candidates;
-    const ScaledDiscrepancy beside = evidence_model_.sized(here.amplitudes, deflection_ratio_);
-    for (std::size_t i = 0; i < chords_.size(); ++i) {
-      if (chords_[i].count == 0 || chords_[i].effect == data.excluded || std::count(set.begin(), set.end(), i))
-        continue;
-      Set wider = set;
-      wider.push_back(i);
-      candidates.emplace_back(-score_of(evidence_model_.at(sums(data, wider), beside), wider), i);
-    }
-    std::sort(candidates.begin(), candidates.end());
-    candidates.resize(std::min(candidates.size(), k_tries));
-    double reached = score_of(here, set);
-    Set better;
-    Posterior better_posterior;
-    for (const auto& [predicted, i] : candidates) {
-      Set wider = set;
-      wider.push_back(i);
-      Posterior posterior = evidence_model_.best(sums(data, wider), here.amplitudes, k_rounds);
-      const double score = score_of(posterior, wider);
-      if (!(score > reached)) continue;
-      reached = score;
-      better = wider;
-      better_posterior = std::move(posterior);
-    }
-    if (better.empty()) break;
-    set = better;
-    here = std::move(better_posterior);
+LinearizedSet Auditor::evaluate(const SyntheticDataset& data, const Set& set) const {
+  Posterior posterior = evidence_model_.best(sums(data, set), data.start, k_rounds);
+  return {set, std::move(posterior.amplitudes), posterior.log_evidence - penalty(set)};
+}
+
+Auditor::Set Auditor::search(const SyntheticDataset& data, const Set& set) const {
+  std::vector<double> penalties;
+  for (const ChordColumns& chord : chords_) {
+    const bool is_known = chord.count > 0 && chord.effect != data.excluded;
+    penalties.push_back(is_known ? reporting_penalty(*chord.effect) : std::numeric_limits<double>::infinity());
   }
-  return set;
+  const auto sums_of = [&](const Set& wider) { return sums(data, wider); };
+  return add_greedily(evidence_model_, penalties, sums_of, evaluate(data, set)).members;
 }
 
 /// True if the true cause would be a member of the group of the reported effect.
@@ -283,11 +263,8 @@ bool Auditor::is_group_member(const SyntheticDataset& data, const Set& found, st
   for (std::size_t i = 0; i < chords_.size(); ++i) {
     if (chords_[i].effect == data.true_cause) instead.push_back(i);
   }
-  const auto reached = [&](const Set& set) {
-    return score_of(evidence_model_.best(sums(data, set), data.start, k_rounds + 2), set);
-  };
-  return reached(instead) >
-         reached(found) - k_thresholds.temperature * std::log(1.0 / k_thresholds.complete_group_absence);
+  return evaluate(data, instead).score >
+         evaluate(data, found).score - k_thresholds.temperature * std::log(1.0 / k_thresholds.complete_group_absence);
 }
 
 AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {

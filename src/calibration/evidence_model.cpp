@@ -1,5 +1,6 @@
 #include "calibration/evidence_model.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
@@ -20,6 +21,10 @@ constexpr double k_settled = 0.02;  // nats
 constexpr double k_nothing = 0.03;
 /// Degrees of freedom of Student's t.
 constexpr double k_tail = 2.0;
+/// Greedy search: members added, candidates of each step, and rounds of their amplitudes.
+constexpr int k_most_added = 3;
+constexpr std::size_t k_greedy_tries = 3;
+constexpr int k_greedy_rounds = 4;
 
 double square(double x) { return x * x; }
 
@@ -320,6 +325,45 @@ double EvidenceModel::log_density_at(const Tangent& tangent, const ScaledDiscrep
   double density = s.constant - 0.5 * (s.rr + tangent.caliper_chi2);
   for (Eigen::Index k = 0; k < tangent.x.size(); ++k) density += log_prior(tangent.x[k], tangent.prior[k]);
   return density;
+}
+
+namespace {
+
+/// Adds the best member. False if none raises the score.
+bool add_best(const EvidenceModel& evidence_model, const std::vector<double>& penalties,
+              const std::function<TangentSums(const std::vector<std::size_t>&)>& sums, LinearizedSet& set) {
+  double cost = 0;
+  for (const std::size_t member : set.members) cost += penalties[member];
+  std::vector<std::size_t> wider = set.members;
+  wider.push_back(0);
+  const ScaledDiscrepancy beside = evidence_model.sized(set.amplitudes, sums(set.members).deflection_ratio);
+  std::vector<std::pair<double, std::size_t>> candidates;
+  for (std::size_t i = 0; i < penalties.size(); ++i) {
+    if (!std::isfinite(penalties[i]) || std::count(set.members.begin(), set.members.end(), i)) continue;
+    wider.back() = i;
+    candidates.emplace_back(cost + penalties[i] - evidence_model.at(sums(wider), beside).log_evidence, i);
+  }
+  std::sort(candidates.begin(), candidates.end());
+  candidates.resize(std::min(candidates.size(), k_greedy_tries));
+  LinearizedSet best = set;
+  for (const auto& [predicted, i] : candidates) {
+    wider.back() = i;
+    Posterior posterior = evidence_model.best(sums(wider), set.amplitudes, k_greedy_rounds);
+    const double score = posterior.log_evidence - (cost + penalties[i]);
+    if (score > best.score) best = {wider, std::move(posterior.amplitudes), score};
+  }
+  const bool is_better = best.members.size() > set.members.size();
+  set = std::move(best);
+  return is_better;
+}
+
+}  // namespace
+
+LinearizedSet add_greedily(const EvidenceModel& evidence_model, const std::vector<double>& penalties,
+                           const std::function<TangentSums(const std::vector<std::size_t>&)>& sums, LinearizedSet set) {
+  for (int added = 0; added < k_most_added && add_best(evidence_model, penalties, sums, set); ++added) {
+  }
+  return set;
 }
 
 }  // namespace fusee::calibration

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "base/decompositions.h"
@@ -139,6 +140,19 @@ class EvidenceModel {
   double independent_share_;
   Amplitudes first_guess_;
 };
+
+/// Linearized set of effects or shapes, as indices.
+struct LinearizedSet {
+  std::vector<std::size_t> members;
+  Amplitudes amplitudes;  ///< likeliest ones beside the set
+  double score = 0;       ///< log evidence minus the penalties of its members
+};
+
+/// Adds the member that raises the score most, up to three times, to a set. All are ranked by the amplitudes of the
+/// set, and the amplitudes are estimated for the best three. `sums`: of a set; `penalties`: of each member, infinite for
+/// those that must not be added.
+LinearizedSet add_greedily(const EvidenceModel& evidence_model, const std::vector<double>& penalties,
+                           const std::function<TangentSums(const std::vector<std::size_t>&)>& sums, LinearizedSet set);
 
 /// Log prior density at `x` of a parameter of this size: Student's t with 2 degrees of freedom. Its heavy tails allow
 /// rare large faults, and keep pairs of large numbers that cancel from being cheap.
