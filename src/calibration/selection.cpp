@@ -63,6 +63,12 @@ struct LinearizedCandidate {
   const fusee::Effect* effect = nullptr;
   double predicted_score = -std::numeric_limits<double>::infinity();
   LinearizedEffect linearized = {};  ///< columns by which the score was predicted
+
+  EffectSet set() const {
+    EffectSet effects = base->effects;
+    effects.push_back(effect);
+    return effects;
+  }
 };
 
 /// Two linearized candidates beside a base.
@@ -153,6 +159,9 @@ class Selector {
   void refit_best();
   std::vector<LinearizedCandidate> rank_by_linearization(const Fitter& fitter, const Fit& base,
                                                          const Amplitudes& amplitudes, std::size_t most) const;
+  std::vector<std::vector<LinearizedCandidate>> candidates_beside(const std::vector<const Fit*>& bases,
+                                                                  std::size_t most);
+  bool is_open(const LinearizedCandidate& candidate, double best) const;
   const std::vector<LinearizedCandidate>& candidates_beside_best();
   bool test_rivals();
   std::vector<WeightedSet> weigh_sets();
@@ -349,6 +358,22 @@ std::vector<LinearizedCandidate> Selector::rank_by_linearization(const Fitter& f
   return all;
 }
 
+/// The best candidates beside each base that may be widened.
+std::vector<std::vector<LinearizedCandidate>> Selector::candidates_beside(const std::vector<const Fit*>& bases,
+                                                                          std::size_t most) {
+  std::vector<std::vector<LinearizedCandidate>> candidates(bases.size());
+  pool_.each(bases.size(), [&](const Fitter& fitter, std::size_t i) {
+    if (bases[i]->usable && bases[i]->effects.size() < k_most_effects)
+      candidates[i] = rank_by_linearization(fitter, *bases[i], bases[i]->posterior.amplitudes, most);
+  });
+  return candidates;
+}
+
+/// True if the candidate's set was not fitted and is not hopeless beside a set with the score `best`.
+bool Selector::is_open(const LinearizedCandidate& candidate, double best) const {
+  return candidate.predicted_score > best - k_hopeless && !is_tried(key_of(candidate.set()));
+}
+
 /// Candidates beside `best`, of the whole catalogue.
 const std::vector<LinearizedCandidate>& Selector::candidates_beside_best() {
   const Fit& best = selection_.best;
@@ -383,11 +408,7 @@ std::vector<Fit> Selector::widen_without_discrepancy(const std::vector<FitWithou
   });
   std::map<Key, LinearizedCandidate> added;
   for (const std::vector<LinearizedCandidate>& linearized : candidates) {
-    for (const LinearizedCandidate& candidate : linearized) {
-      EffectSet effects = candidate.base->effects;
-      effects.push_back(candidate.effect);
-      added.try_emplace(key_of(effects), candidate);
-    }
+    for (const LinearizedCandidate& candidate : linearized) added.try_emplace(key_of(candidate.set()), candidate);
   }
   std::vector<LinearizedCandidate> each;
   for (const auto& [key, candidate] : added) each.push_back(candidate);
@@ -454,17 +475,10 @@ bool Selector::widen() {
   std::vector<const Fit*> beam = ranked();
   beam.resize(std::min(beam.size(), k_beam));
   const double before = score(*beam.front());
-  std::vector<std::vector<LinearizedCandidate>> candidates(beam.size());
-  pool_.each(beam.size(), [&](const Fitter& fitter, std::size_t i) {
-    if (beam[i]->effects.size() < k_most_effects)
-      candidates[i] = rank_by_linearization(fitter, *beam[i], beam[i]->posterior.amplitudes, k_most_candidates);
-  });
   std::vector<LinearizedCandidate> added;
-  for (const std::vector<LinearizedCandidate>& linearized : candidates) {
-    for (const LinearizedCandidate& candidate : linearized) {
-      EffectSet effects = candidate.base->effects;
-      effects.push_back(candidate.effect);
-      if (candidate.predicted_score > before - k_hopeless && !is_tried(key_of(effects))) added.push_back(candidate);
+  for (const std::vector<LinearizedCandidate>& candidates : candidates_beside(beam, k_most_candidates)) {
+    for (const LinearizedCandidate& candidate : candidates) {
+      if (is_open(candidate, before)) added.push_back(candidate);
     }
   }
   std::vector<Fit> fits = fit_candidates("trying wider sets of effects", added, &Selector::fit_briefly);
@@ -515,12 +529,10 @@ void Selector::refit_without_each() {
 bool Selector::test_rivals() {
   const Fit& best = selection_.best;
   refit_without_each();
-  std::vector<std::vector<LinearizedCandidate>> candidates(best.effects.size());
-  pool_.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
-    const Fit& less = selection_.without[i];
-    if (less.usable)
-      candidates[i] = rank_by_linearization(fitter, less, less.posterior.amplitudes, selection_.catalogue.size());
-  });
+  std::vector<const Fit*> bases;
+  for (const Fit& less : selection_.without) bases.push_back(&less);
+  const std::vector<std::vector<LinearizedCandidate>> candidates =
+      candidates_beside(bases, selection_.catalogue.size());
   selection_.rivals.clear();
   std::vector<LinearizedCandidate> added;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -637,12 +649,10 @@ std::vector<CandidatePair> Selector::pairs_beside(const Fit& base,
 bool Selector::exchange_members() {
   const double before = score(selection_.best);
   const std::vector<Fit> bases = reduce_best();
-  std::vector<std::vector<LinearizedCandidate>> candidates(bases.size());
-  pool_.each(bases.size(), [&](const Fitter& fitter, std::size_t i) {
-    if (bases[i].effects.size() < k_most_effects)
-      candidates[i] =
-          rank_by_linearization(fitter, bases[i], bases[i].posterior.amplitudes, selection_.catalogue.size());
-  });
+  std::vector<const Fit*> each_base;
+  for (const Fit& base : bases) each_base.push_back(&base);
+  const std::vector<std::vector<LinearizedCandidate>> candidates =
+      candidates_beside(each_base, selection_.catalogue.size());
   std::vector<std::vector<CandidatePair>> pairs(bases.size());
   pool_.each(bases.size(), [&](const Fitter&, std::size_t i) {
     if (bases[i].effects.size() + 2 <= k_most_effects) pairs[i] = pairs_beside(bases[i], candidates[i]);
@@ -651,10 +661,7 @@ bool Selector::exchange_members() {
   std::vector<CandidatePair> both;
   for (std::size_t i = 0; i < bases.size(); ++i) {
     for (std::size_t k = 0; k < std::min(candidates[i].size(), k_most_candidates); ++k) {
-      EffectSet effects = bases[i].effects;
-      effects.push_back(candidates[i][k].effect);
-      if (candidates[i][k].predicted_score > before - k_hopeless && !is_tried(key_of(effects)))
-        singles.push_back(candidates[i][k]);
+      if (is_open(candidates[i][k], before)) singles.push_back(candidates[i][k]);
     }
     for (const CandidatePair& pair : pairs[i]) {
       if (pair.predicted_score > before - k_hopeless) both.push_back(pair);
@@ -699,10 +706,8 @@ std::vector<WeightedSet> Selector::weigh_sets() {
   for (const auto& [key, fit] : seen_) sets.push_back({fit.effects, score(fit) / selection_.temperature});
   if (best.effects.empty()) return sets;
   for (const LinearizedCandidate& linearized : candidates_beside_best()) {
-    EffectSet effects = best.effects;
-    effects.push_back(linearized.effect);
-    if (!seen_.count(key_of(effects)) && linearized.predicted_score < score(best))
-      sets.push_back({std::move(effects), linearized.predicted_score / selection_.temperature});
+    if (!seen_.count(key_of(linearized.set())) && linearized.predicted_score < score(best))
+      sets.push_back({linearized.set(), linearized.predicted_score / selection_.temperature});
   }
   return sets;
 }
