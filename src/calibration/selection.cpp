@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -78,6 +80,30 @@ struct CandidatePair {
   const LinearizedCandidate* other = nullptr;
   double predicted_score = 0;
 };
+
+/// All candidates beside a base, best first.
+struct Ranking {
+  Fit base;
+  std::vector<LinearizedCandidate> candidates;
+};
+
+/// Start of a fit.
+struct Start {
+  EffectSet effects;
+  Imperfections at;
+
+  bool operator==(const Start&) const = default;
+};
+
+/// Results that a search keeps, since it asks for the latest ones again.
+constexpr std::size_t k_kept_rankings = 16, k_kept_fits = 32;
+
+/// True if both are one fit, with the same slopes.
+bool is_same(const Fit& one, const Fit& other) {
+  return one.effects == other.effects && one.at == other.at && one.loose_row == other.loose_row &&
+         one.log_evidence == other.log_evidence && one.J.cols() == other.J.cols() && one.J.rows() == other.J.rows() &&
+         one.J == other.J;
+}
 
 /// Linearized candidates beside a base: sums over rows that they share are computed once.
 class SharedLinearization {
@@ -159,10 +185,11 @@ class Selector {
   void refit_best();
   std::vector<LinearizedCandidate> rank_by_linearization(const Fitter& fitter, const Fit& base,
                                                          const Amplitudes& amplitudes, std::size_t most) const;
-  std::vector<std::vector<LinearizedCandidate>> candidates_beside(const std::vector<const Fit*>& bases,
-                                                                  std::size_t most);
+  const Ranking* find_ranking(const Fit& base) const;
+  std::vector<std::vector<LinearizedCandidate>> rank_beside(const std::vector<const Fit*>& bases);
+  std::vector<Fit> fit_from(const std::vector<Start>& starts);
   bool is_open(const LinearizedCandidate& candidate, double best) const;
-  const std::vector<LinearizedCandidate>& candidates_beside_best();
+  std::vector<LinearizedCandidate> candidates_beside_best();
   bool test_rivals();
   std::vector<WeightedSet> weigh_sets();
   std::optional<std::size_t> find_trading_member(const Fit& wider) const;
@@ -172,7 +199,7 @@ class Selector {
   bool is_unsupported(const fusee::Effect& effect, const Fit& others) const;
   CredibleGroup group_of(const std::vector<WeightedSet>& sets, const fusee::Effect& effect) const;
   bool is_certain_with_group(const std::vector<WeightedSet>& sets, const fusee::Effect& effect) const;
-  std::vector<Fit> reduce_best() const;
+  std::vector<Fit> reduce_best();
   std::vector<CandidatePair> pairs_beside(const Fit& base, const Amplitudes& amplitudes,
                                           const std::vector<LinearizedCandidate>& candidates) const;
   std::vector<CandidatePair> pairs_beside(const Fit& base, const std::vector<LinearizedCandidate>& candidates) const;
@@ -198,9 +225,10 @@ class Selector {
   std::vector<LinearizedEffect>
       linearized_;  ///< linearization of each effect of the catalogue alone; empty if it cannot be simulated
   std::map<Key, Fit> seen_;
-  std::optional<std::vector<LinearizedCandidate>> candidates_beside_best_;  ///< valid until `best` changes
-  std::vector<Fit> companions_;  ///< `best` with one effect more that may be present too
-  std::set<Key> tried_;          ///< sets that were fitted beside the discrepancy
+  std::deque<Ranking> rankings_;            ///< the latest rankings
+  std::deque<std::pair<Start, Fit>> fits_;  ///< the latest full fits
+  std::vector<Fit> companions_;             ///< `best` with one effect more that may be present too
+  std::set<Key> tried_;                     ///< sets that were fitted beside the discrepancy
 };
 
 Selector::Key Selector::key_of(const EffectSet& effects) const {
@@ -358,15 +386,48 @@ std::vector<LinearizedCandidate> Selector::rank_by_linearization(const Fitter& f
   return all;
 }
 
-/// The best candidates beside each base that may be widened.
-std::vector<std::vector<LinearizedCandidate>> Selector::candidates_beside(const std::vector<const Fit*>& bases,
-                                                                          std::size_t most) {
-  std::vector<std::vector<LinearizedCandidate>> candidates(bases.size());
-  pool_.each(bases.size(), [&](const Fitter& fitter, std::size_t i) {
-    if (bases[i]->usable && bases[i]->effects.size() < k_most_effects)
-      candidates[i] = rank_by_linearization(fitter, *bases[i], bases[i]->posterior.amplitudes, most);
+const Ranking* Selector::find_ranking(const Fit& base) const {
+  const auto known =
+      std::find_if(rankings_.begin(), rankings_.end(), [&](const Ranking& other) { return is_same(other.base, base); });
+  return known == rankings_.end() ? nullptr : &*known;
+}
+
+/// Candidates of the whole catalogue beside each base, best first; none beside a base that cannot be simulated.
+std::vector<std::vector<LinearizedCandidate>> Selector::rank_beside(const std::vector<const Fit*>& bases) {
+  std::vector<const Fit*> unknown;
+  std::copy_if(bases.begin(), bases.end(), std::back_inserter(unknown),
+               [&](const Fit* base) { return base->usable && find_ranking(*base) == nullptr; });
+  std::vector<Ranking> made(unknown.size());
+  pool_.each(unknown.size(), [&](const Fitter& fitter, std::size_t i) {
+    made[i] = {*unknown[i], rank_by_linearization(fitter, *unknown[i], unknown[i]->posterior.amplitudes,
+                                                  selection_.catalogue.size())};
   });
+  std::move(made.begin(), made.end(), std::back_inserter(rankings_));
+  std::vector<std::vector<LinearizedCandidate>> candidates(bases.size());
+  for (std::size_t i = 0; i < bases.size(); ++i) {
+    if (bases[i]->usable) candidates[i] = find_ranking(*bases[i])->candidates;
+    for (LinearizedCandidate& candidate : candidates[i]) candidate.base = bases[i];
+  }
+  while (rankings_.size() > k_kept_rankings) rankings_.pop_front();
   return candidates;
+}
+
+/// Full fits from each start.
+std::vector<Fit> Selector::fit_from(const std::vector<Start>& starts) {
+  const auto find = [&](const Start& start) {
+    return std::find_if(fits_.begin(), fits_.end(), [&](const auto& known) { return known.first == start; });
+  };
+  std::vector<Start> unknown;
+  std::copy_if(starts.begin(), starts.end(), std::back_inserter(unknown),
+               [&](const Start& start) { return find(start) == fits_.end(); });
+  std::vector<Fit> made(unknown.size());
+  pool_.each(unknown.size(),
+             [&](const Fitter& fitter, std::size_t i) { made[i] = fitter.fit(unknown[i].effects, unknown[i].at); });
+  for (std::size_t i = 0; i < unknown.size(); ++i) fits_.emplace_back(unknown[i], std::move(made[i]));
+  std::vector<Fit> fits;
+  for (const Start& start : starts) fits.push_back(find(start)->second);
+  while (fits_.size() > k_kept_fits) fits_.pop_front();
+  return fits;
 }
 
 /// True if the candidate's set was not fitted and is not hopeless beside a set with the score `best`.
@@ -375,18 +436,11 @@ bool Selector::is_open(const LinearizedCandidate& candidate, double best) const 
 }
 
 /// Candidates beside `best`, of the whole catalogue.
-const std::vector<LinearizedCandidate>& Selector::candidates_beside_best() {
-  const Fit& best = selection_.best;
-  if (!candidates_beside_best_)
-    candidates_beside_best_ =
-        rank_by_linearization(pool_.one(), best, best.posterior.amplitudes, selection_.catalogue.size());
-  return *candidates_beside_best_;
-}
+std::vector<LinearizedCandidate> Selector::candidates_beside_best() { return rank_beside({&selection_.best}).front(); }
 
 void Selector::set_best(Fit best) {
   selection_.best = std::move(best);
   selection_.without.clear();
-  candidates_beside_best_.reset();
 }
 
 /// Posterior without discrepancy, with as much noise as required.
@@ -476,9 +530,10 @@ bool Selector::widen() {
   beam.resize(std::min(beam.size(), k_beam));
   const double before = score(*beam.front());
   std::vector<LinearizedCandidate> added;
-  for (const std::vector<LinearizedCandidate>& candidates : candidates_beside(beam, k_most_candidates)) {
-    for (const LinearizedCandidate& candidate : candidates) {
-      if (is_open(candidate, before)) added.push_back(candidate);
+  std::erase_if(beam, [](const Fit* base) { return base->effects.size() >= k_most_effects; });
+  for (const std::vector<LinearizedCandidate>& candidates : rank_beside(beam)) {
+    for (std::size_t k = 0; k < std::min(candidates.size(), k_most_candidates); ++k) {
+      if (is_open(candidates[k], before)) added.push_back(candidates[k]);
     }
   }
   std::vector<Fit> fits = fit_candidates("trying wider sets of effects", added, &Selector::fit_briefly);
@@ -487,10 +542,9 @@ bool Selector::widen() {
 }
 
 std::vector<Fit> Selector::refit(const std::vector<const Fit*>& fits) {
-  std::vector<Fit> to_the_end(fits.size());
-  pool_.each(fits.size(),
-             [&](const Fitter& fitter, std::size_t i) { to_the_end[i] = fitter.fit(fits[i]->effects, fits[i]->at); });
-  return to_the_end;
+  std::vector<Start> starts;
+  for (const Fit* fit : fits) starts.push_back({fit->effects, fit->at});
+  return fit_from(starts);
 }
 
 /// Full fits of the best few.
@@ -499,7 +553,7 @@ void Selector::refit_best() {
   all.resize(std::min(all.size(), k_beam));
   for (Fit& fit : refit(all)) record_tried(std::move(fit));
   const Fit* likeliest = ranked().front();
-  Fit best = pool_.one().fit(likeliest->effects, likeliest->at);
+  Fit best = refit({likeliest}).front();
   set_best(best.usable && best.log_evidence >= likeliest->log_evidence ? std::move(best) : *likeliest);
 }
 
@@ -514,11 +568,11 @@ void Selector::widen_fully() {
 void Selector::refit_without_each() {
   const Fit& best = selection_.best;
   if (selection_.without.size() == best.effects.size()) return;
-  selection_.without.assign(best.effects.size(), {});
-  pool_.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
-    const fusee::Effect& effect = *best.effects[i];
-    selection_.without[i] = likeliest_known(fitter.fit(without(best.effects, effect), without(best.at, effect)));
-  });
+  std::vector<Start> starts;
+  for (const fusee::Effect* effect : best.effects)
+    starts.push_back({without(best.effects, *effect), without(best.at, *effect)});
+  selection_.without.clear();
+  for (Fit& fit : fit_from(starts)) selection_.without.push_back(likeliest_known(std::move(fit)));
 }
 
 /// Leaves each member out, and fits every effect in its place whose linearization is not hopeless. Effects that are
@@ -531,8 +585,7 @@ bool Selector::test_rivals() {
   refit_without_each();
   std::vector<const Fit*> bases;
   for (const Fit& less : selection_.without) bases.push_back(&less);
-  const std::vector<std::vector<LinearizedCandidate>> candidates =
-      candidates_beside(bases, selection_.catalogue.size());
+  const std::vector<std::vector<LinearizedCandidate>> candidates = rank_beside(bases);
   selection_.rivals.clear();
   std::vector<LinearizedCandidate> added;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -558,19 +611,17 @@ bool Selector::test_rivals() {
 }
 
 /// `best` without one or two of its members, likeliest first.
-std::vector<Fit> Selector::reduce_best() const {
+std::vector<Fit> Selector::reduce_best() {
   const Fit& best = selection_.best;
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  std::vector<Start> starts;
   for (std::size_t i = 0; i < best.effects.size(); ++i) {
-    for (std::size_t j = i + 1; j < best.effects.size(); ++j) pairs.emplace_back(i, j);
+    for (std::size_t j = i + 1; j < best.effects.size(); ++j) {
+      const fusee::Effect &one = *best.effects[i], &other = *best.effects[j];
+      starts.push_back({without(without(best.effects, one), other), without(without(best.at, one), other)});
+    }
   }
-  std::vector<Fit> all(pairs.size());
-  pool_.each(pairs.size(), [&](const Fitter& fitter, std::size_t k) {
-    const fusee::Effect& one = *best.effects[pairs[k].first];
-    const fusee::Effect& other = *best.effects[pairs[k].second];
-    all[k] =
-        likeliest_known(fitter.fit(without(without(best.effects, one), other), without(without(best.at, one), other)));
-  });
+  std::vector<Fit> all;
+  for (Fit& fit : fit_from(starts)) all.push_back(likeliest_known(std::move(fit)));
   all.insert(all.end(), selection_.without.begin(), selection_.without.end());
   all.push_back(best);
   std::erase_if(all, [](const Fit& fit) { return !fit.usable; });
@@ -649,17 +700,18 @@ std::vector<CandidatePair> Selector::pairs_beside(const Fit& base,
 bool Selector::exchange_members() {
   const double before = score(selection_.best);
   const std::vector<Fit> bases = reduce_best();
-  std::vector<const Fit*> each_base;
-  for (const Fit& base : bases) each_base.push_back(&base);
-  const std::vector<std::vector<LinearizedCandidate>> candidates =
-      candidates_beside(each_base, selection_.catalogue.size());
-  std::vector<std::vector<CandidatePair>> pairs(bases.size());
-  pool_.each(bases.size(), [&](const Fitter&, std::size_t i) {
-    if (bases[i].effects.size() + 2 <= k_most_effects) pairs[i] = pairs_beside(bases[i], candidates[i]);
+  std::vector<const Fit*> smaller;
+  for (const Fit& base : bases) {
+    if (base.effects.size() < k_most_effects) smaller.push_back(&base);
+  }
+  const std::vector<std::vector<LinearizedCandidate>> candidates = rank_beside(smaller);
+  std::vector<std::vector<CandidatePair>> pairs(smaller.size());
+  pool_.each(smaller.size(), [&](const Fitter&, std::size_t i) {
+    if (smaller[i]->effects.size() + 2 <= k_most_effects) pairs[i] = pairs_beside(*smaller[i], candidates[i]);
   });
   std::vector<LinearizedCandidate> singles;
   std::vector<CandidatePair> both;
-  for (std::size_t i = 0; i < bases.size(); ++i) {
+  for (std::size_t i = 0; i < smaller.size(); ++i) {
     for (std::size_t k = 0; k < std::min(candidates[i].size(), k_most_candidates); ++k) {
       if (is_open(candidates[i][k], before)) singles.push_back(candidates[i][k]);
     }
@@ -792,7 +844,6 @@ void Selector::drop_unpredictive() {
       continue;
     }
     drop_effect(pool_, i, "", selection_);
-    candidates_beside_best_.reset();
     i = 0;
   }
 }
