@@ -179,7 +179,7 @@ Auditor::SyntheticDataset Auditor::synthesize(std::size_t found, std::size_t num
     // Equally likely rivals are members of the group already.
     const bool in_group = std::any_of(selection_.rivals.begin(), selection_.rivals.end(), [&](const Rival& rival) {
       return rival.accepted == selection_.best.effects[found] && rival.rival == chords_[i].effect &&
-             as_good(evidence_, rival.fit, selection_.best);
+             as_good(rival.fit, selection_.best);
     });
     if (chords_[i].count > 0 && !in_group && !contains(selection_.best.effects, *chords_[i].effect))
       others.push_back(i);

@@ -7,7 +7,6 @@
 #include "calibration/empirical_curve.h"
 #include "calibration/explanation.h"
 #include "calibration/next_measurements.h"
-#include "calibration/thresholds.h"
 #include "calibration/unmodelled_alternatives.h"
 #include "calibration/validation.h"
 #include "calibration/verdict.h"

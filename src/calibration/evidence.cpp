@@ -7,7 +7,7 @@
 #include <set>
 
 #include "calibration/evidence_model.h"
-#include "calibration/thresholds.h"
+#include "calibration/statistics.h"
 #include "measurement/strokes.h"
 #include "measurement/value_range.h"
 #include "transmission/target_motion.h"
@@ -488,7 +488,6 @@ class BlockMaker {
   std::vector<Block> blocks_;
 };
 
-
 /// Deflection of the declared joint, all rows, rad. For a joint declared by its ratio, which is rigid, the load.
 Eigen::VectorXd deflection(const Evidence& evidence, const Eigen::VectorXd& declared) {
   const transmission::TargetMotion law(*evidence.declared);
@@ -509,20 +508,6 @@ Eigen::VectorXd deflection(const Evidence& evidence, const Eigen::VectorXd& decl
   return deflection;
 }
 
-/// Lag-1 autocorrelation within blocks, 0 … 1.
-double autocorrelation_of(const Evidence& evidence, const Eigen::VectorXd& residual) {
-  double products = 0;
-  double squares = 0;
-  Eigen::Index row = 0;
-  for (const Block& block : evidence.blocks) {
-    for (std::size_t i = 0; i < block.rows.size(); ++i, ++row) {
-      squares += residual[row] * residual[row];
-      if (i > 0) products += residual[row] * residual[row - 1];
-    }
-  }
-  return squares > 0 ? std::clamp(products / squares, 0.0, 0.95) : 0.0;
-}
-
 }  // namespace
 
 void weigh(Evidence& evidence) {
@@ -535,8 +520,8 @@ void weigh(Evidence& evidence) {
   nothing.J.resize(residual.size(), 0);
   const EvidenceModel white(std::move(discrepancy), evidence.floor, 1.0);
   const Posterior explained = white.best(nothing, white.first_guess());
-  const double autocorrelation =
-      autocorrelation_of(evidence, nothing.residual - white.discrepancy().columns * explained.coefficients);
+  const Eigen::VectorXd noise = nothing.residual - white.discrepancy().columns * explained.coefficients;
+  const double autocorrelation = std::clamp(lag_one_correlation(evidence, noise), 0.0, 0.95);
   evidence.evidence_model = std::make_shared<const EvidenceModel>(
       white, (1.0 - autocorrelation) / (1.0 + autocorrelation), explained.amplitudes);
 }

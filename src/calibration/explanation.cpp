@@ -121,7 +121,7 @@ std::vector<const Rival*> rivals_as_good(const Evidence& evidence, const Selecti
     if (accepted == best.effects.end()) continue;  // rival of a set that was replaced
     const Fit& others = selection.without[static_cast<std::size_t>(accepted - best.effects.begin())];
     const bool does_nothing = others.usable && score(rival.fit) < score(others);
-    if (!does_nothing && as_good(evidence, rival.fit, best)) all.push_back(&rival);
+    if (!does_nothing && as_good(rival.fit, best)) all.push_back(&rival);
   }
   return all;
 }

@@ -8,7 +8,6 @@
 #include "base/decompositions.h"
 #include "base/thread_pool.h"
 #include "calibration/catalogue.h"
-#include "calibration/thresholds.h"
 
 // Gauss-Newton steps to the posterior mode, with the discrepancy marginalised: parameters are not biased by what the
 // discrepancy explains equally well. A candidate is stepped by chords: the slopes of the base's parameters stay, those
