@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "calibration/thresholds.h"
@@ -15,9 +16,10 @@
 namespace fusee::calibration {
 namespace {
 
-constexpr int k_rounds = 4;
-constexpr int k_most_added = 3;
-constexpr std::size_t k_tries = 3;
+constexpr int k_data_sets = 200;
+/// True causes that join a group.
+constexpr std::size_t k_most_true_causes = 6;
+constexpr int k_rounds = 6;
 /// Least size of a true cause, as a share of the size of the found effect.
 constexpr double k_as_large = 0.5;
 
@@ -60,9 +62,10 @@ class Auditor {
   SyntheticDataset synthesize(std::size_t found, std::size_t number) const;
   Eigen::VectorXd noise(std::mt19937_64& random) const;
   TangentSums sums(const SyntheticDataset& data, const Set& set) const;
-  double score_of(const Posterior& posterior, const Set& set) const;
-  Set search(const SyntheticDataset& data, Set set) const;
-  bool is_group_member(const SyntheticDataset& data, const Set& found, std::size_t reported) const;
+  double penalty(const Set& set) const;
+  LinearizedSet evaluate(const SyntheticDataset& data, const Set& set) const;
+  Set search(const SyntheticDataset& data, const Set& set) const;
+  bool is_group_member(const SyntheticDataset& data, const Set& found, std::size_t named) const;
 
   const Evidence& evidence_;
   const Selection& selection_;
@@ -176,7 +179,7 @@ Auditor::SyntheticDataset Auditor::synthesize(std::size_t found, std::size_t num
     // Equally likely rivals are members of the group already.
     const bool in_group = std::any_of(selection_.rivals.begin(), selection_.rivals.end(), [&](const Rival& rival) {
       return rival.accepted == selection_.best.effects[found] && rival.rival == chords_[i].effect &&
-             is_as_good(evidence_, rival.fit, selection_.best);
+             is_as_good(rival.fit, selection_.best);
     });
     if (chords_[i].count > 0 && !in_group && !contains(selection_.best.effects, *chords_[i].effect))
       others.push_back(i);
@@ -228,45 +231,25 @@ TangentSums Auditor::sums(const SyntheticDataset& data, const Set& set) const {
   return sums;
 }
 
-double Auditor::score_of(const Posterior& posterior, const Set& set) const {
-  double score = posterior.log_evidence;
-  for (const std::size_t i : set) score -= reporting_penalty(*chords_[i].effect);
-  return score;
+double Auditor::penalty(const Set& set) const {
+  double sum = 0;
+  for (const std::size_t i : set) sum += reporting_penalty(*chords_[i].effect);
+  return sum;
 }
 
-/// Greedy search: adds the effect that improves the score most.
-Auditor::Set Auditor::search(const SyntheticDataset& data, Set set) const {
-  Posterior here = evidence_model_.best(sums(data, set), data.start, k_rounds + 2);
-  for (int step = 0; step < k_most_added; ++step) {
-    std::vector<std::pair<double, std::size_t>> candidates;
-    const ScaledDiscrepancy scaled_discrepancy = evidence_model_.sized(here.amplitudes, deflection_ratio_);
-    for (std::size_t i = 0; i < chords_.size(); ++i) {
-      if (chords_[i].count == 0 || chords_[i].effect == data.excluded || std::count(set.begin(), set.end(), i))
-        continue;
-      Set wider = set;
-      wider.push_back(i);
-      candidates.emplace_back(-score_of(evidence_model_.at(sums(data, wider), scaled_discrepancy), wider), i);
-    }
-    std::sort(candidates.begin(), candidates.end());
-    candidates.resize(std::min(candidates.size(), k_tries));
-    double reached = score_of(here, set);
-    Set better;
-    Posterior better_posterior;
-    for (const auto& [predicted, i] : candidates) {
-      Set wider = set;
-      wider.push_back(i);
-      Posterior posterior = evidence_model_.best(sums(data, wider), here.amplitudes, k_rounds);
-      const double score = score_of(posterior, wider);
-      if (!(score > reached)) continue;
-      reached = score;
-      better = wider;
-      better_posterior = std::move(posterior);
-    }
-    if (better.empty()) break;
-    set = better;
-    here = std::move(better_posterior);
+LinearizedSet Auditor::evaluate(const SyntheticDataset& data, const Set& set) const {
+  Posterior posterior = evidence_model_.best(sums(data, set), data.start, k_rounds);
+  return {set, std::move(posterior.amplitudes), posterior.log_evidence - penalty(set)};
+}
+
+Auditor::Set Auditor::search(const SyntheticDataset& data, const Set& set) const {
+  std::vector<double> penalties;
+  for (const ChordColumns& chord : chords_) {
+    const bool is_known = chord.count > 0 && chord.effect != data.excluded;
+    penalties.push_back(is_known ? reporting_penalty(*chord.effect) : std::numeric_limits<double>::infinity());
   }
-  return set;
+  const auto sums_of = [&](const Set& wider) { return sums(data, wider); };
+  return add_greedily(evidence_model_, penalties, sums_of, evaluate(data, set)).members;
 }
 
 /// True if the true cause would be a member of the group of the reported effect.
@@ -280,11 +263,9 @@ bool Auditor::is_group_member(const SyntheticDataset& data, const Set& found, st
   for (std::size_t i = 0; i < chords_.size(); ++i) {
     if (chords_[i].effect == data.true_cause) swapped.push_back(i);
   }
-  const auto reached = [&](const Set& set) {
-    return score_of(evidence_model_.best(sums(data, set), data.start, k_rounds + 2), set);
-  };
-  return reached(swapped) >
-         reached(found) - k_thresholds.temperature * elementary::log(1.0 / k_thresholds.complete_group_absence);
+  return evaluate(data, instead).score >
+         evaluate(data, found).score -
+             k_thresholds.temperature * elementary::log(1.0 / k_thresholds.complete_group_absence);
 }
 
 AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {
@@ -293,7 +274,7 @@ AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {
   for (std::size_t i = 0; i < chords_.size(); ++i) {
     if (chords_[i].effect != reported && contains(selection_.best.effects, *chords_[i].effect)) others.push_back(i);
   }
-  const auto data_sets = static_cast<std::size_t>(k_thresholds.data_sets);
+  const auto data_sets = std::size_t{k_data_sets};
   std::vector<char> is_false_positive(data_sets, 0);
   std::vector<const fusee::Effect*> true_cause(data_sets, nullptr);
   pool.each(data_sets, [&](const Fitter&, std::size_t i) {
@@ -305,7 +286,7 @@ AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {
     true_cause[i] = data.true_cause;
   });
   AuditResult audited;
-  audited.counts.data_sets = k_thresholds.data_sets;
+  audited.counts.data_sets = k_data_sets;
   std::vector<std::pair<int, const fusee::Effect*>> causes;
   for (std::size_t i = 0; i < data_sets; ++i) {
     if (!is_false_positive[i]) continue;
@@ -316,7 +297,7 @@ AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {
   int unattributed = audited.counts.false_positives;
   for (const auto& [false_positives, effect] : causes) {
     if (unattributed <= k_thresholds.most_false_positives * audited.counts.data_sets ||
-        audited.true_causes.size() == k_thresholds.most_true_causes)
+        audited.true_causes.size() == k_most_true_causes)
       break;
     audited.true_causes.push_back(effect);
     unattributed -= false_positives;

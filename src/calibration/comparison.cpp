@@ -77,7 +77,7 @@ std::string why_not_comparable(const ComparedRuns& runs) {
                                 after = measurement::value_range(runs.after, &measurement::Sample::alpha);
   if (!before.any() || !after.any()) return "";
   const double shared = std::min(before.most, after.most) - std::max(before.least, after.least);
-  if (shared < k_thresholds.least_shared_way * std::min(before.size(), after.size()))
+  if (shared < k_thresholds.joint_share * std::min(before.size(), after.size()))
     return "The motor moved over " + range_words(before) + " before and over " + range_words(after) +
            " after: these ranges hardly overlap. Measure the same range in both states.";
   return "";
@@ -153,8 +153,7 @@ Comparison compare_states(const DeclaredMechanism& declared, const ComparedRuns&
     return comparison;
   }
   comparison.difference = comparison.changes.difference;
-  if (const double part = part_of_motion(runs, comparison.changes.residuals_before);
-      part > k_thresholds.most_changed_part) {
+  if (const double part = part_of_motion(runs, comparison.changes.residuals_before); part > k_thresholds.joint_share) {
     comparison.verdict = ComparisonVerdict::not_comparable;
     comparison.why = "The runs after differ from the joint before by " + rounded(100 * part, 2) +
                      " % of the motion, a moved zero aside: these are no two states of one joint. Check that all files "

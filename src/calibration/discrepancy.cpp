@@ -30,6 +30,8 @@ constexpr double k_short_scale = 0.06;
 constexpr int k_nodes = 41;
 /// Decay lengths behind a reversal as shares of the span: from a stiff drive's to a sheathed cable's.
 constexpr std::array k_decay_lengths = {0.02, 0.06, 0.2};
+/// Number of blocks up to which each has a constant: their cost grows with its cube.
+constexpr std::size_t k_most_strokes = 48;
 
 /// Orthonormal Legendre polynomials over the span: shapes with a number of bends, each equally likely.
 Eigen::MatrixXd smooth_curves(const std::vector<RowFacts>& facts, Eigen::Index count) {
@@ -193,7 +195,7 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
     builder.add(Factor::run, curves_of_runs(facts, plain, direction));
   }
   builder.add(Factor::drift, indicators(facts, &RowFacts::run, [](const RowFacts& r) { return r.time; }));
-  if (evidence.blocks.size() <= k_thresholds.most_strokes && strokes_span_places(evidence))
+  if (evidence.blocks.size() <= k_most_strokes && strokes_span_places(evidence))
     builder.add(Factor::stroke, indicators(facts, &RowFacts::block, one));
   const std::vector<Eigen::Index> rows = evidence.rows();
   // For a joint declared by its ratio the deflection is the load, as with a compliance of 1.

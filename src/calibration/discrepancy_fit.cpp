@@ -184,9 +184,6 @@ void find_harmonic(const Angles& angles, const Eigen::VectorXd& residual, double
   parts.push_back(std::move(component));
 }
 
-}  // namespace
-
-namespace {
 
 /// Discrepancy of a few factors, added one by one while the data require them. Of factors that can replace one another,
 /// the description contains the one that explains most.
@@ -230,16 +227,13 @@ FactorSelection select_factors(const EvidenceModel& evidence_model, const Tangen
       taken = &factor;
     }
     const double gain = better.log_evidence - found.posterior.log_evidence;
-    if (taken == nullptr || gain < k_thresholds.least_component) break;
+    if (taken == nullptr || gain < k_thresholds.strong) break;
     found.posterior = std::move(better);
     found.factors.emplace_back(taken, gain);
   }
   return found;
 }
 
-}  // namespace
-
-namespace {
 
 /// Excess of the noise over the floor, rad². A floor from few repeats may be exceeded by chance.
 double noise_beyond_floor(const Evidence& evidence, double noise) {

@@ -16,8 +16,6 @@ namespace {
 constexpr int k_pieces = 60;
 /// Largest gap between rows as a share of the measured range: twice the discrepancy's short length scale.
 constexpr double k_widest_gap = 0.12;
-/// Standard errors that the gain must exceed.
-constexpr double k_least_gain_in_errors = 3.0;
 /// Share of the gain that all rows together must show.
 constexpr double k_least_gain_share = 0.5;
 
@@ -148,7 +146,7 @@ double error_of(const Evidence& evidence, const Gain& gain, double curve_rms) {
 std::string why_not(const Evidence& evidence, const HeldOutWithDiscrepancy& by_factor, const Gain& gain,
                     double curve_rms) {
   if (gain.mean < elementary::pow(k_thresholds.least_residual * evidence.floor, 2) ||
-      gain.mean < k_least_gain_in_errors * error_of(evidence, gain, curve_rms))
+      gain.mean < k_thresholds.sure * error_of(evidence, gain, curve_rms))
     return "on held-out data it corrects no more than chance would";
   if (harms_a_level(evidence, by_factor, gain))
     return "it worsens a held-out level of load or speed by more than it improves all";

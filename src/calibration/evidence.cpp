@@ -7,7 +7,7 @@
 #include <set>
 
 #include "calibration/evidence_model.h"
-#include "calibration/thresholds.h"
+#include "calibration/statistics.h"
 #include "measurement/strokes.h"
 #include "measurement/value_range.h"
 #include "transmission/target_motion.h"
@@ -358,6 +358,15 @@ Eigen::VectorXd measured_theta(const measurement::Measurement& measurement) {
   return flat(theta);
 }
 
+double largest_load(const measurement::Measurement& measurement) {
+  double most = 0;
+  for (const measurement::Run& run : measurement.runs) {
+    for (const measurement::Sample& sample : run.samples)
+      most = std::max(most, run.has_load ? std::abs(sample.load) : 0.0);
+  }
+  return most;
+}
+
 /// Properties by which two segments of a run repeat each other.
 struct SegmentKind {
   int direction = 0;
@@ -479,10 +488,6 @@ class BlockMaker {
   std::vector<Block> blocks_;
 };
 
-}  // namespace
-
-namespace {
-
 /// Deflection of the declared joint, all rows, rad. For a joint declared by its ratio, which is rigid, the load.
 Eigen::VectorXd deflection(const Evidence& evidence, const Eigen::VectorXd& declared) {
   const transmission::TargetMotion law(*evidence.declared);
@@ -503,20 +508,6 @@ Eigen::VectorXd deflection(const Evidence& evidence, const Eigen::VectorXd& decl
   return deflection;
 }
 
-/// Lag-1 autocorrelation within blocks, 0 … 1.
-double autocorrelation_of(const Evidence& evidence, const Eigen::VectorXd& residual) {
-  double products = 0;
-  double squares = 0;
-  Eigen::Index row = 0;
-  for (const Block& block : evidence.blocks) {
-    for (std::size_t i = 0; i < block.rows.size(); ++i, ++row) {
-      squares += residual[row] * residual[row];
-      if (i > 0) products += residual[row] * residual[row - 1];
-    }
-  }
-  return squares > 0 ? std::clamp(products / squares, 0.0, 0.95) : 0.0;
-}
-
 }  // namespace
 
 void weigh(Evidence& evidence) {
@@ -529,8 +520,8 @@ void weigh(Evidence& evidence) {
   nothing.J.resize(residual.size(), 0);
   const EvidenceModel white(std::move(discrepancy), evidence.floor, 1.0);
   const Posterior explained = white.best(nothing, white.first_guess());
-  const double autocorrelation =
-      autocorrelation_of(evidence, nothing.residual - white.discrepancy().columns * explained.coefficients);
+  const Eigen::VectorXd noise = nothing.residual - white.discrepancy().columns * explained.coefficients;
+  const double autocorrelation = std::clamp(lag_one_correlation(evidence, noise), 0.0, 0.95);
   evidence.evidence_model = std::make_shared<const EvidenceModel>(
       white, (1.0 - autocorrelation) / (1.0 + autocorrelation), explained.amplitudes);
 }
@@ -551,6 +542,7 @@ Evidence gather(const DeclaredMechanism& declared, const measurement::Measuremen
   evidence.measurement = thinned(declared, measurement, counted);
   evidence.log = measurement::bench_log(evidence.measurement);
   evidence.theta = measured_theta(evidence.measurement);
+  evidence.largest_load = largest_load(evidence.measurement);
   evidence.blocks = BlockMaker(evidence, counted).made();
   evidence.run_folds = run_folds(evidence);
   choose_factor_folds(evidence);

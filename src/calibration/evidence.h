@@ -51,6 +51,7 @@ struct Evidence {
   std::vector<Fold> factor_folds;    ///< whole levels of load and speed if the data vary them, otherwise as run_folds
   std::vector<std::string> factors;  ///< factors of which whole levels are held out
   std::vector<HandReading> readings;
+  double largest_load = 0;                              ///< largest size of a logged load
   double floor = 0;                                     ///< rms noise, rad
   double floor_freedom = 1e9;                           ///< degrees of freedom of the floor
   std::shared_ptr<const EvidenceModel> evidence_model;  ///< evidence model, filled by weigh()

@@ -1,5 +1,9 @@
 #include "calibration/evidence_model.h"
 
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -17,6 +21,10 @@ constexpr double k_settled = 0.02;  // nats
 constexpr double k_nothing = 0.03;
 /// Degrees of freedom of Student's t.
 constexpr double k_tail = 2.0;
+/// Greedy search: members added, candidates of each step, and rounds of their amplitudes.
+constexpr int k_most_added = 3;
+constexpr std::size_t k_greedy_tries = 3;
+constexpr int k_greedy_rounds = 4;
 
 double square(double x) { return x * x; }
 
@@ -27,6 +35,36 @@ const double k_log_density_at_0 = -1.5 * elementary::log(2.0);
 double information(double x, double prior) {
   return std::isfinite(prior) ? (k_tail + 1.0) / (k_tail * prior * prior + x * x) : 1e-12;
 }
+
+std::uint64_t hash_of(const Eigen::Ref<const Eigen::VectorXd>& column) {
+  std::uint64_t hash = 0;
+  for (const double value : column) hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15ULL;
+  return hash ^ (hash >> 32);
+}
+
+std::uint64_t new_id() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
+
+/// Products Dᵀ v that a thread computed before, by the hash of v. Tangents share the columns of their base, and each
+/// product reads the whole of D.
+class ProjectionCache {
+ public:
+  /// `id`: of D. Valid until the next call.
+  const Eigen::VectorXd& of(const Eigen::MatrixXd& D, std::uint64_t id, const Eigen::Ref<const Eigen::VectorXd>& v) {
+    Entry& entry = entries_[hash_of(v) % entries_.size()];
+    if (entry.id != id || entry.v.size() != v.size() || entry.v != v) entry = {id, v, D.transpose() * v};
+    return entry.product;
+  }
+
+ private:
+  struct Entry {
+    std::uint64_t id = 0;
+    Eigen::VectorXd v, product;
+  };
+  std::array<Entry, 256> entries_;
+};
 
 }  // namespace
 
@@ -63,6 +101,7 @@ struct EvidenceModel::Solved {
 
 EvidenceModel::EvidenceModel(Discrepancy discrepancy, double floor, double independent_share)
     : discrepancy_(std::move(discrepancy)),
+      id_(new_id()),
       gram_(discrepancy_.columns.transpose() * discrepancy_.columns),
       floor_(floor),
       independent_share_(independent_share),
@@ -86,12 +125,12 @@ Amplitudes EvidenceModel::without_discrepancy() const {
 TangentSums EvidenceModel::sums_of(const Tangent& tangent) const {
   TangentSums sums;
   sums.JJ = tangent.J.transpose() * tangent.J;
-  // Column by column: a product of a few columns with many costs Eigen twice as much.
+  static thread_local ProjectionCache projections;
   sums.JD.resize(tangent.J.cols(), discrepancy_.columns.cols());
   for (Eigen::Index k = 0; k < tangent.J.cols(); ++k)
-    sums.JD.row(k) = (discrepancy_.columns.transpose() * tangent.J.col(k)).transpose();
+    sums.JD.row(k) = projections.of(discrepancy_.columns, id_, tangent.J.col(k)).transpose();
   sums.Jr = tangent.J.transpose() * tangent.residual;
-  sums.Dr = discrepancy_.columns.transpose() * tangent.residual;
+  sums.Dr = projections.of(discrepancy_.columns, id_, tangent.residual);
   sums.rr = tangent.residual.squaredNorm();
   sums.rows = static_cast<double>(tangent.residual.size());
   sums.x = tangent.x;
@@ -286,6 +325,45 @@ double EvidenceModel::log_density_at(const Tangent& tangent, const ScaledDiscrep
   double density = s.constant - 0.5 * (s.rr + tangent.caliper_chi2);
   for (Eigen::Index k = 0; k < tangent.x.size(); ++k) density += log_prior(tangent.x[k], tangent.prior[k]);
   return density;
+}
+
+namespace {
+
+/// Adds the best member. False if none raises the score.
+bool add_best(const EvidenceModel& evidence_model, const std::vector<double>& penalties,
+              const std::function<TangentSums(const std::vector<std::size_t>&)>& sums, LinearizedSet& set) {
+  double cost = 0;
+  for (const std::size_t member : set.members) cost += penalties[member];
+  std::vector<std::size_t> wider = set.members;
+  wider.push_back(0);
+  const ScaledDiscrepancy beside = evidence_model.sized(set.amplitudes, sums(set.members).deflection_ratio);
+  std::vector<std::pair<double, std::size_t>> candidates;
+  for (std::size_t i = 0; i < penalties.size(); ++i) {
+    if (!std::isfinite(penalties[i]) || std::count(set.members.begin(), set.members.end(), i)) continue;
+    wider.back() = i;
+    candidates.emplace_back(cost + penalties[i] - evidence_model.at(sums(wider), beside).log_evidence, i);
+  }
+  std::sort(candidates.begin(), candidates.end());
+  candidates.resize(std::min(candidates.size(), k_greedy_tries));
+  LinearizedSet best = set;
+  for (const auto& [predicted, i] : candidates) {
+    wider.back() = i;
+    Posterior posterior = evidence_model.best(sums(wider), set.amplitudes, k_greedy_rounds);
+    const double score = posterior.log_evidence - (cost + penalties[i]);
+    if (score > best.score) best = {wider, std::move(posterior.amplitudes), score};
+  }
+  const bool is_better = best.members.size() > set.members.size();
+  set = std::move(best);
+  return is_better;
+}
+
+}  // namespace
+
+LinearizedSet add_greedily(const EvidenceModel& evidence_model, const std::vector<double>& penalties,
+                           const std::function<TangentSums(const std::vector<std::size_t>&)>& sums, LinearizedSet set) {
+  for (int added = 0; added < k_most_added && add_best(evidence_model, penalties, sums, set); ++added) {
+  }
+  return set;
 }
 
 }  // namespace fusee::calibration

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "base/decompositions.h"
@@ -102,9 +104,6 @@ class EvidenceModel {
   Amplitudes without_discrepancy() const;
 
   TangentSums sums_of(const Tangent& tangent) const;
-  /// DᵀD
-  const Eigen::MatrixXd& gram() const { return gram_; }
-
   /// `deflection_ratio`: as TangentSums.
   ScaledDiscrepancy sized(const Amplitudes& amplitudes, double deflection_ratio) const;
 
@@ -138,11 +137,25 @@ class EvidenceModel {
                         const Solved& solved) const;
 
   Discrepancy discrepancy_;
-  Eigen::MatrixXd gram_;
+  std::uint64_t id_;      ///< of the discrepancy, shared by copies
+  Eigen::MatrixXd gram_;  ///< DᵀD
   double floor_;
   double independent_share_;
   Amplitudes first_guess_;
 };
+
+/// Linearized set of effects or shapes, as indices.
+struct LinearizedSet {
+  std::vector<std::size_t> members;
+  Amplitudes amplitudes;  ///< likeliest ones beside the set
+  double score = 0;       ///< log evidence minus the penalties of its members
+};
+
+/// Adds the member that raises the score most, up to three times, to a set. All are ranked by the amplitudes of the
+/// set, and the amplitudes are estimated for the best three. `sums`: of a set; `penalties`: of each member, infinite for
+/// those that must not be added.
+LinearizedSet add_greedily(const EvidenceModel& evidence_model, const std::vector<double>& penalties,
+                           const std::function<TangentSums(const std::vector<std::size_t>&)>& sums, LinearizedSet set);
 
 /// Log prior density at `x` of a parameter of this size: Student's t with 2 degrees of freedom. Its heavy tails allow
 /// rare large faults, and keep pairs of large numbers that cancel from being cheap.

@@ -12,6 +12,9 @@
 namespace fusee::calibration {
 namespace {
 
+/// Standard errors beyond the required size at which an effect is found in four cases of five.
+constexpr double k_power = 0.84;
+
 /// Intervals of each number of a fit: with other effects marginalised, and if there are none.
 struct Ranges {
   std::vector<ConfidenceInterval> overall, if_only;
@@ -118,7 +121,7 @@ std::vector<const Rival*> equally_likely_rivals(const Evidence& evidence, const 
     if (accepted == best.effects.end()) continue;  // rival of a set that was replaced
     const Fit& others = selection.without[static_cast<std::size_t>(accepted - best.effects.begin())];
     const bool does_nothing = others.usable && score(rival.fit) < score(others);
-    if (!does_nothing && is_as_good(evidence, rival.fit, best)) all.push_back(&rival);
+    if (!does_nothing && is_as_good(rival.fit, best)) all.push_back(&rival);
   }
   return all;
 }
@@ -182,7 +185,7 @@ std::vector<Detectable> detectable_sizes(const Evidence& evidence, FitterPool& p
       const double sensitivity = wider.J.col(k).norm() / std::sqrt(static_cast<double>(wider.J.rows()));
       const double deviation = ranges[static_cast<std::size_t>(k)].deviation;
       const double width = elementary::log(std::max(1.0, tangent_of(evidence, wider).prior[k] / deviation));
-      const double named = std::sqrt(2.0 * (reporting_penalty(*others[i]) + width)) + k_thresholds.power;
+      const double named = std::sqrt(2.0 * (reporting_penalty(*others[i]) + width)) + k_power;
       sizes[i] = std::max(sizes[i], named * deviation * sensitivity);
     }
   });

@@ -1,11 +1,13 @@
 #include "calibration/fit.h"
 
+#include <atomic>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "base/decompositions.h"
-#include "calibration/starts.h"
-#include "calibration/thresholds.h"
+#include "base/thread_pool.h"
+#include "calibration/catalogue.h"
 
 // Gauss-Newton steps to the posterior mode, with the discrepancy marginalised: parameters are not biased by what the
 // discrepancy explains equally well. A candidate is stepped by chords: the slopes of the base's parameters stay, those
@@ -38,21 +40,12 @@ constexpr double k_more_damping = 10.0;
 /// Prior size of a number without known sizes, in its steps.
 constexpr double k_steps_in_practice = 100.0;
 
-double largest_load(const measurement::Measurement& measurement) {
-  double most = 0;
-  for (const measurement::Run& run : measurement.runs) {
-    for (const measurement::Sample& sample : run.samples)
-      most = std::max(most, run.has_load ? std::abs(sample.load) : 0.0);
-  }
-  return most;
-}
-
 /// Prior size, in steps of the parameter.
 double size_in_practice(const Evidence& evidence, const EffectParameter& parameter) {
   if (&parameter == free_offset(*evidence.declared)) return std::numeric_limits<double>::infinity();
   if (const auto known = evidence.sizes.find(&parameter); known != evidence.sizes.end()) return known->second;
   if (!(parameter.prior > 0)) return k_steps_in_practice;
-  return prior_of(parameter, largest_load(evidence.measurement)) / parameter.step;
+  return prior_of(parameter, evidence.largest_load) / parameter.step;
 }
 
 /// Numbers after a step, clamped to their bounds.
@@ -551,6 +544,22 @@ std::vector<Fit> Fitter::add_chords_of_starts(const Fit& fit, const fusee::Effec
     all.push_back(std::move(wider));
   }
   return all;
+}
+
+FitterPool::FitterPool(const Evidence& evidence, std::stop_token stop) : evidence_(evidence), stop_(std::move(stop)) {
+  for (unsigned i = 0; i < ThreadPool::shared().threads(); ++i)
+    forwards_.emplace_back(*evidence.declared, evidence.log, evidence.earlier);
+}
+
+void FitterPool::each(std::size_t count, const std::function<void(const Fitter&, std::size_t)>& job,
+                      const std::function<void(std::size_t)>& done) {
+  std::atomic<std::size_t> ended = 0;
+  const auto fit = [&](std::size_t index, std::size_t slot) {
+    job(Fitter(evidence_, forwards_[slot]), index);
+    ++ended;
+    if (done && slot == 0) done(ended);
+  };
+  ThreadPool::shared().each(count, fit, 0, stop_);
 }
 
 }  // namespace fusee::calibration

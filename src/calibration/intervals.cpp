@@ -3,7 +3,6 @@
 #include <cmath>
 
 namespace fusee::calibration {
-
 namespace {
 
 /// Variance in steps of the number, squared.

@@ -4,10 +4,16 @@
 
 #include <vector>
 
-#include "calibration/confidence_interval.h"
 #include "calibration/selection.h"
 
 namespace fusee::calibration {
+
+/// Interval of a fitted x, in its steps.
+struct ConfidenceInterval {
+  double low = 0;  ///< 95 %
+  double high = 0;
+  double deviation = 0;  ///< standard deviation
+};
 
 /// Interval of every fitted x, in their order, with the discrepancy marginalised, prior sizes and caliper readings.
 /// `overstated`: as Selection::temperature.

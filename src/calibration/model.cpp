@@ -4,7 +4,6 @@
 #include <cmath>
 
 namespace fusee::calibration {
-
 namespace {
 
 /// Weight of a row in which the joint has the play `loose`, 1 if it is taut.

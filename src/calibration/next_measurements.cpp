@@ -35,13 +35,8 @@ const measurement::Run& longest(const measurement::Measurement& measurement) {
       [](const measurement::Run& a, const measurement::Run& b) { return a.samples.size() < b.samples.size(); });
 }
 
-double largest_load(const Evidence& evidence) {
-  double most = 0;
-  for (const measurement::Run& run : evidence.measurement.runs) {
-    for (const measurement::Sample& sample : run.samples)
-      most = std::max(most, run.has_load ? std::abs(sample.load) : 0.0);
-  }
-  if (most > 0 || evidence.declared->transmission) return most;
+double proposed_load(const Evidence& evidence) {
+  if (evidence.largest_load > 0 || evidence.declared->transmission) return evidence.largest_load;
   return std::max(1.0, std::round(k_lever_load * evidence.declared->tendon.pretension));
 }
 
@@ -69,7 +64,7 @@ bool was_measured(const plan::PlannedRun& run, const measurement::Measurement& m
 /// Possible runs that were not measured, those nearest to the measured ones first.
 std::vector<plan::PlannedRun> proposals(const Evidence& evidence) {
   const plan::PlannedRun before = as_before(evidence.measurement);
-  const double load = largest_load(evidence);
+  const double load = proposed_load(evidence);
   std::vector<plan::PlannedRun> all;
   const auto add = [&](auto change) {
     plan::PlannedRun run = before;
@@ -193,7 +188,7 @@ class Proposals {
     const std::string unit = evidence_.declared->transmission ? evidence_.measurement.load_unit : "N";
     Proposal proposal{plan::next_run(run, as_before(evidence_.measurement).speed, unit), {}};
     for (const Alternative& other : others_)
-      proposal.margins.push_back(rms_from(other, run) / noise / k_thresholds.distinguished);
+      proposal.margins.push_back(rms_from(other, run) / noise / k_thresholds.sure);
     all_.push_back(std::move(proposal));
   }
 
@@ -207,7 +202,7 @@ class Proposals {
                                   reading_by_hand(*number, *other.at, *evidence_.declared);
         squares += elementary::pow(difference / number->by_hand.uncertainty, 2);
       }
-      proposal.margins.push_back(std::sqrt(squares) / k_thresholds.distinguished);
+      proposal.margins.push_back(std::sqrt(squares) / k_thresholds.sure);
     }
     all_.push_back(std::move(proposal));
   }
@@ -245,7 +240,7 @@ class Proposals {
     };
     for (std::size_t i = 0; i < others_.size(); ++i) {
       if (proposal.margins[i] < k_least_told) continue;
-      const double margin = proposal.margins[i] * k_thresholds.distinguished;
+      const double margin = proposal.margins[i] * k_thresholds.sure;
       const std::string unit = distinguished.empty() ? " × the uncertainty)" : " ×)";
       distinguished += distinguished.empty() ? "" : ", ";
       if (others_[i].found != named) distinguished += others_[i].found->name + " from ";

@@ -51,7 +51,6 @@ int place_bin(const RowFacts& row, int count) { return measurement::Bins{{0, 1},
 std::vector<RowFacts> row_facts(const Evidence& evidence) {
   const measurement::ValueRange span = measurement::value_range(evidence.measurement, &measurement::Sample::alpha);
   const std::vector<std::vector<SessionProgress>> gone = session_progress(evidence);
-  double most_load = 0;
   double most_speed = 0;
   std::vector<std::size_t> offset;
   std::size_t rows = 0;
@@ -59,8 +58,6 @@ std::vector<RowFacts> row_facts(const Evidence& evidence) {
     offset.push_back(rows);
     rows += run.samples.size();
     most_speed = std::max(most_speed, run.has_time ? run.speed : 0.0);
-    for (const measurement::Sample& sample : run.samples)
-      most_load = std::max(most_load, run.has_load ? std::abs(sample.load) : 0.0);
   }
   std::vector<RowFacts> facts;
   for (std::size_t b = 0; b < evidence.blocks.size(); ++b) {
@@ -76,7 +73,7 @@ std::vector<RowFacts> row_facts(const Evidence& evidence) {
       facts.push_back({sample.alpha, sample.theta, span.any() ? (sample.alpha - span.least) / span.size() : 0.0,
                        static_cast<double>(run.strokes[block.stroke].direction),
                        span.any() ? std::abs(sample.alpha - begun) / span.size() : 0.0,
-                       run.has_load && most_load > 0 ? sample.load / most_load : 0.0,
+                       run.has_load && evidence.largest_load > 0 ? sample.load / evidence.largest_load : 0.0,
                        run.has_time && most_speed > 0 ? run.speed / most_speed : 0.0,
                        run.has_time ? (sample.time - begin) / half - 1.0 : 0.0, by.time, by.way, by.loading, block.run,
                        b});

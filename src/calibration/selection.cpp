@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -29,6 +31,19 @@ namespace {
 /// score() without the penalty of the discrepancy.
 double score_of_names(const Fit& fit) { return fit.log_evidence - neg_log_prior_odds(fit.effects); }
 
+// Extent of the search, a matter of time.
+constexpr std::size_t k_most_effects = 5;
+/// Sets that are widened, and linearized candidates of each that are fitted.
+constexpr std::size_t k_beam = 4;
+constexpr std::size_t k_most_candidates = 6;
+/// Pairs of linearized candidates that one effect may be in.
+constexpr std::size_t k_most_of_each = 2;
+/// Effects beside the best set that are tested as members of its groups.
+constexpr std::size_t k_most_companions = 10;
+/// Nats below the best set from which a linearized candidate is not fitted, and a fit is not continued.
+constexpr double k_hopeless = 15.0;
+/// Accuracy of a fit in nats: a set that is better by less does not replace the best.
+constexpr double k_least_improvement = 0.1;
 /// Rounds of amplitudes in a linearization.
 constexpr int k_linearized_rounds = 4;
 
@@ -50,6 +65,12 @@ struct LinearizedCandidate {
   const fusee::Effect* effect = nullptr;
   double predicted_score = -std::numeric_limits<double>::infinity();
   LinearizedEffect linearized = {};  ///< columns by which the score was predicted
+
+  EffectSet set() const {
+    EffectSet effects = base->effects;
+    effects.push_back(effect);
+    return effects;
+  }
 };
 
 /// Two linearized candidates beside a base.
@@ -59,6 +80,30 @@ struct CandidatePair {
   const LinearizedCandidate* other = nullptr;
   double predicted_score = 0;
 };
+
+/// All candidates beside a base, best first.
+struct Ranking {
+  Fit base;
+  std::vector<LinearizedCandidate> candidates;
+};
+
+/// Start of a fit.
+struct Start {
+  EffectSet effects;
+  Imperfections at;
+
+  bool operator==(const Start&) const = default;
+};
+
+/// Results that a search keeps, since it asks for the latest ones again.
+constexpr std::size_t k_kept_rankings = 16, k_kept_fits = 32;
+
+/// True if both are one fit, with the same slopes.
+bool is_same(const Fit& one, const Fit& other) {
+  return one.effects == other.effects && one.at == other.at && one.loose_row == other.loose_row &&
+         one.log_evidence == other.log_evidence && one.J.cols() == other.J.cols() && one.J.rows() == other.J.rows() &&
+         one.J == other.J;
+}
 
 /// Linearized candidates beside a base: sums over rows that they share are computed once.
 class SharedLinearization {
@@ -140,7 +185,11 @@ class Selector {
   void refit_best();
   std::vector<LinearizedCandidate> rank_by_linearization(const Fitter& fitter, const Fit& base,
                                                          const Amplitudes& amplitudes, std::size_t most) const;
-  const std::vector<LinearizedCandidate>& candidates_beside_best();
+  const Ranking* find_ranking(const Fit& base) const;
+  std::vector<std::vector<LinearizedCandidate>> rank_beside(const std::vector<const Fit*>& bases);
+  std::vector<Fit> fit_from(const std::vector<Start>& starts);
+  bool is_open(const LinearizedCandidate& candidate, double best) const;
+  std::vector<LinearizedCandidate> candidates_beside_best();
   bool test_rivals();
   std::vector<WeightedSet> weigh_sets();
   std::optional<std::size_t> find_trading_member(const Fit& wider) const;
@@ -150,7 +199,7 @@ class Selector {
   bool is_unsupported(const fusee::Effect& effect, const Fit& others) const;
   CredibleGroup group_of(const std::vector<WeightedSet>& sets, const fusee::Effect& effect) const;
   bool is_certain_with_group(const std::vector<WeightedSet>& sets, const fusee::Effect& effect) const;
-  std::vector<Fit> reduce_best() const;
+  std::vector<Fit> reduce_best();
   std::vector<CandidatePair> pairs_beside(const Fit& base, const Amplitudes& amplitudes,
                                           const std::vector<LinearizedCandidate>& candidates) const;
   std::vector<CandidatePair> pairs_beside(const Fit& base, const std::vector<LinearizedCandidate>& candidates) const;
@@ -176,9 +225,10 @@ class Selector {
   std::vector<LinearizedEffect>
       linearized_;  ///< linearization of each effect of the catalogue alone; empty if it cannot be simulated
   std::map<Key, Fit> seen_;
-  std::optional<std::vector<LinearizedCandidate>> candidates_beside_best_;  ///< valid until `best` changes
-  std::vector<Fit> companions_;  ///< `best` with one effect more that may be present too
-  std::set<Key> tried_;          ///< sets that were fitted beside the discrepancy
+  std::deque<Ranking> rankings_;            ///< the latest rankings
+  std::deque<std::pair<Start, Fit>> fits_;  ///< the latest full fits
+  std::vector<Fit> companions_;             ///< `best` with one effect more that may be present too
+  std::set<Key> tried_;                     ///< sets that were fitted beside the discrepancy
 };
 
 Selector::Key Selector::key_of(const EffectSet& effects) const {
@@ -241,7 +291,7 @@ Fit Selector::fit_briefly(const Fitter& fitter, const LinearizedCandidate& added
 /// Full fit, unless it is far below the best.
 Fit Selector::fit_fully(const Fitter& fitter, const LinearizedCandidate& added) const {
   Fit fit = fitter.add_effect(*added.base, *added.effect);
-  const bool is_near = fit.usable && score(fit) > score(selection_.best) - k_thresholds.hopeless;
+  const bool is_near = fit.usable && score(fit) > score(selection_.best) - k_hopeless;
   return is_near || (fit.usable && ended_early(fit, added)) ? fitter.fit(fit.effects, fit.at) : fit;
 }
 
@@ -336,19 +386,61 @@ std::vector<LinearizedCandidate> Selector::rank_by_linearization(const Fitter& f
   return all;
 }
 
-/// Candidates beside `best`, of the whole catalogue.
-const std::vector<LinearizedCandidate>& Selector::candidates_beside_best() {
-  const Fit& best = selection_.best;
-  if (!candidates_beside_best_)
-    candidates_beside_best_ =
-        rank_by_linearization(pool_.one(), best, best.posterior.amplitudes, selection_.catalogue.size());
-  return *candidates_beside_best_;
+const Ranking* Selector::find_ranking(const Fit& base) const {
+  const auto known =
+      std::find_if(rankings_.begin(), rankings_.end(), [&](const Ranking& other) { return is_same(other.base, base); });
+  return known == rankings_.end() ? nullptr : &*known;
 }
+
+/// Candidates of the whole catalogue beside each base, best first; none beside a base that cannot be simulated.
+std::vector<std::vector<LinearizedCandidate>> Selector::rank_beside(const std::vector<const Fit*>& bases) {
+  std::vector<const Fit*> unknown;
+  std::copy_if(bases.begin(), bases.end(), std::back_inserter(unknown),
+               [&](const Fit* base) { return base->usable && find_ranking(*base) == nullptr; });
+  std::vector<Ranking> made(unknown.size());
+  pool_.each(unknown.size(), [&](const Fitter& fitter, std::size_t i) {
+    made[i] = {*unknown[i], rank_by_linearization(fitter, *unknown[i], unknown[i]->posterior.amplitudes,
+                                                  selection_.catalogue.size())};
+  });
+  std::move(made.begin(), made.end(), std::back_inserter(rankings_));
+  std::vector<std::vector<LinearizedCandidate>> candidates(bases.size());
+  for (std::size_t i = 0; i < bases.size(); ++i) {
+    if (bases[i]->usable) candidates[i] = find_ranking(*bases[i])->candidates;
+    for (LinearizedCandidate& candidate : candidates[i]) candidate.base = bases[i];
+  }
+  while (rankings_.size() > k_kept_rankings) rankings_.pop_front();
+  return candidates;
+}
+
+/// Full fits from each start.
+std::vector<Fit> Selector::fit_from(const std::vector<Start>& starts) {
+  const auto find = [&](const Start& start) {
+    return std::find_if(fits_.begin(), fits_.end(), [&](const auto& known) { return known.first == start; });
+  };
+  std::vector<Start> unknown;
+  std::copy_if(starts.begin(), starts.end(), std::back_inserter(unknown),
+               [&](const Start& start) { return find(start) == fits_.end(); });
+  std::vector<Fit> made(unknown.size());
+  pool_.each(unknown.size(),
+             [&](const Fitter& fitter, std::size_t i) { made[i] = fitter.fit(unknown[i].effects, unknown[i].at); });
+  for (std::size_t i = 0; i < unknown.size(); ++i) fits_.emplace_back(unknown[i], std::move(made[i]));
+  std::vector<Fit> fits;
+  for (const Start& start : starts) fits.push_back(find(start)->second);
+  while (fits_.size() > k_kept_fits) fits_.pop_front();
+  return fits;
+}
+
+/// True if the candidate's set was not fitted and is not hopeless beside a set with the score `best`.
+bool Selector::is_open(const LinearizedCandidate& candidate, double best) const {
+  return candidate.predicted_score > best - k_hopeless && !is_tried(key_of(candidate.set()));
+}
+
+/// Candidates beside `best`, of the whole catalogue.
+std::vector<LinearizedCandidate> Selector::candidates_beside_best() { return rank_beside({&selection_.best}).front(); }
 
 void Selector::set_best(Fit best) {
   selection_.best = std::move(best);
   selection_.without.clear();
-  candidates_beside_best_.reset();
 }
 
 /// Posterior without discrepancy, with as much noise as required.
@@ -366,15 +458,11 @@ std::vector<Fit> Selector::widen_without_discrepancy(const std::vector<FitWithou
   pool_.each(beam.size(), [&](const Fitter& fitter, std::size_t i) {
     const Fit& base = beam[i].fit;
     candidates[i] =
-        rank_by_linearization(fitter, base, explain_without_discrepancy(base).amplitudes, k_thresholds.most_candidates);
+        rank_by_linearization(fitter, base, explain_without_discrepancy(base).amplitudes, k_most_candidates);
   });
   std::map<Key, LinearizedCandidate> added;
   for (const std::vector<LinearizedCandidate>& linearized : candidates) {
-    for (const LinearizedCandidate& candidate : linearized) {
-      EffectSet effects = candidate.base->effects;
-      effects.push_back(candidate.effect);
-      added.try_emplace(key_of(effects), candidate);
-    }
+    for (const LinearizedCandidate& candidate : linearized) added.try_emplace(key_of(candidate.set()), candidate);
   }
   std::vector<LinearizedCandidate> each;
   for (const auto& [key, candidate] : added) each.push_back(candidate);
@@ -414,7 +502,7 @@ std::vector<FitWithoutDiscrepancy> Selector::select_beam(std::vector<Fit> fits) 
   });
   std::stable_sort(all.begin(), all.end(),
                    [](const FitWithoutDiscrepancy& a, const FitWithoutDiscrepancy& b) { return a.score > b.score; });
-  all.resize(std::min(all.size(), k_thresholds.beam));
+  all.resize(std::min(all.size(), k_beam));
   return all;
 }
 
@@ -422,8 +510,8 @@ std::vector<FitWithoutDiscrepancy> Selector::select_beam(std::vector<Fit> fits) 
 /// another mode than one beside it, so its set is fitted again by score.
 void Selector::search_without_discrepancy() {
   std::vector<FitWithoutDiscrepancy> beam = select_beam(fit_singles_without_discrepancy());
-  while (beam.front().score < score_of_names(beam.front().fit) - k_thresholds.least_component &&
-         beam.front().fit.effects.size() < k_thresholds.most_effects) {
+  while (beam.front().score < score_of_names(beam.front().fit) - k_thresholds.strong &&
+         beam.front().fit.effects.size() < k_most_effects) {
     std::vector<Fit> wider = widen_without_discrepancy(beam);
     if (wider.empty()) break;
     for (const Fit& fit : wider) record(fit);
@@ -439,21 +527,13 @@ void Selector::search_without_discrepancy() {
 /// Fits wider sets than those of the beam. True if one has a better score than the best so far.
 bool Selector::widen() {
   std::vector<const Fit*> beam = ranked();
-  beam.resize(std::min(beam.size(), k_thresholds.beam));
+  beam.resize(std::min(beam.size(), k_beam));
   const double before = score(*beam.front());
-  std::vector<std::vector<LinearizedCandidate>> candidates(beam.size());
-  pool_.each(beam.size(), [&](const Fitter& fitter, std::size_t i) {
-    if (beam[i]->effects.size() < k_thresholds.most_effects)
-      candidates[i] =
-          rank_by_linearization(fitter, *beam[i], beam[i]->posterior.amplitudes, k_thresholds.most_candidates);
-  });
   std::vector<LinearizedCandidate> added;
-  for (const std::vector<LinearizedCandidate>& linearized : candidates) {
-    for (const LinearizedCandidate& candidate : linearized) {
-      EffectSet effects = candidate.base->effects;
-      effects.push_back(candidate.effect);
-      if (candidate.predicted_score > before - k_thresholds.hopeless && !is_tried(key_of(effects)))
-        added.push_back(candidate);
+  std::erase_if(beam, [](const Fit* base) { return base->effects.size() >= k_most_effects; });
+  for (const std::vector<LinearizedCandidate>& candidates : rank_beside(beam)) {
+    for (std::size_t k = 0; k < std::min(candidates.size(), k_most_candidates); ++k) {
+      if (is_open(candidates[k], before)) added.push_back(candidates[k]);
     }
   }
   std::vector<Fit> fits = fit_candidates("trying wider sets of effects", added, &Selector::fit_briefly);
@@ -462,19 +542,18 @@ bool Selector::widen() {
 }
 
 std::vector<Fit> Selector::refit(const std::vector<const Fit*>& fits) {
-  std::vector<Fit> to_the_end(fits.size());
-  pool_.each(fits.size(),
-             [&](const Fitter& fitter, std::size_t i) { to_the_end[i] = fitter.fit(fits[i]->effects, fits[i]->at); });
-  return to_the_end;
+  std::vector<Start> starts;
+  for (const Fit* fit : fits) starts.push_back({fit->effects, fit->at});
+  return fit_from(starts);
 }
 
 /// Full fits of the best few.
 void Selector::refit_best() {
   std::vector<const Fit*> all = ranked();
-  all.resize(std::min(all.size(), k_thresholds.beam));
+  all.resize(std::min(all.size(), k_beam));
   for (Fit& fit : refit(all)) record_tried(std::move(fit));
   const Fit* likeliest = ranked().front();
-  Fit best = pool_.one().fit(likeliest->effects, likeliest->at);
+  Fit best = refit({likeliest}).front();
   set_best(best.usable && best.log_evidence >= likeliest->log_evidence ? std::move(best) : *likeliest);
 }
 
@@ -489,11 +568,11 @@ void Selector::widen_fully() {
 void Selector::refit_without_each() {
   const Fit& best = selection_.best;
   if (selection_.without.size() == best.effects.size()) return;
-  selection_.without.assign(best.effects.size(), {});
-  pool_.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
-    const fusee::Effect& effect = *best.effects[i];
-    selection_.without[i] = likeliest_known(fitter.fit(without(best.effects, effect), without(best.at, effect)));
-  });
+  std::vector<Start> starts;
+  for (const fusee::Effect* effect : best.effects)
+    starts.push_back({without(best.effects, *effect), without(best.at, *effect)});
+  selection_.without.clear();
+  for (Fit& fit : fit_from(starts)) selection_.without.push_back(likeliest_known(std::move(fit)));
 }
 
 /// Leaves each member out, and fits every effect in its place whose linearization is not hopeless. Effects that are
@@ -504,12 +583,9 @@ void Selector::refit_without_each() {
 bool Selector::test_rivals() {
   const Fit& best = selection_.best;
   refit_without_each();
-  std::vector<std::vector<LinearizedCandidate>> candidates(best.effects.size());
-  pool_.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
-    const Fit& less = selection_.without[i];
-    if (less.usable)
-      candidates[i] = rank_by_linearization(fitter, less, less.posterior.amplitudes, selection_.catalogue.size());
-  });
+  std::vector<const Fit*> bases;
+  for (const Fit& less : selection_.without) bases.push_back(&less);
+  const std::vector<std::vector<LinearizedCandidate>> candidates = rank_beside(bases);
   selection_.rivals.clear();
   std::vector<LinearizedCandidate> added;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -518,8 +594,7 @@ bool Selector::test_rivals() {
                      [&](const LinearizedCandidate& candidate) { return candidate.effect == best.effects[i]; });
     for (const LinearizedCandidate& candidate : candidates[i]) {
       const bool is_unpredictable = is_searched(*candidate.effect) || candidate.effect->sticks;
-      const bool is_worse =
-          candidate.predicted_score < std::min(own->predicted_score, score(best) - k_thresholds.hopeless);
+      const bool is_worse = candidate.predicted_score < std::min(own->predicted_score, score(best) - k_hopeless);
       const bool given_up = is_worse && !is_unpredictable;
       if (given_up || contains(best.effects, *candidate.effect)) continue;
       selection_.rivals.push_back({best.effects[i], candidate.effect, {}});
@@ -532,28 +607,26 @@ bool Selector::test_rivals() {
   const double before = score(best);
   for (const Fit& fit : selection_.without) record_tried(fit);
   for (const Rival& rival : selection_.rivals) record_tried(rival.fit);
-  return score(*ranked().front()) > before + k_thresholds.least_improvement;
+  return score(*ranked().front()) > before + k_least_improvement;
 }
 
 /// `best` without one or two of its members, likeliest first.
-std::vector<Fit> Selector::reduce_best() const {
+std::vector<Fit> Selector::reduce_best() {
   const Fit& best = selection_.best;
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  std::vector<Start> starts;
   for (std::size_t i = 0; i < best.effects.size(); ++i) {
-    for (std::size_t j = i + 1; j < best.effects.size(); ++j) pairs.emplace_back(i, j);
+    for (std::size_t j = i + 1; j < best.effects.size(); ++j) {
+      const fusee::Effect &one = *best.effects[i], &other = *best.effects[j];
+      starts.push_back({without(without(best.effects, one), other), without(without(best.at, one), other)});
+    }
   }
-  std::vector<Fit> all(pairs.size());
-  pool_.each(pairs.size(), [&](const Fitter& fitter, std::size_t k) {
-    const fusee::Effect& one = *best.effects[pairs[k].first];
-    const fusee::Effect& other = *best.effects[pairs[k].second];
-    all[k] =
-        likeliest_known(fitter.fit(without(without(best.effects, one), other), without(without(best.at, one), other)));
-  });
+  std::vector<Fit> all;
+  for (Fit& fit : fit_from(starts)) all.push_back(likeliest_known(std::move(fit)));
   all.insert(all.end(), selection_.without.begin(), selection_.without.end());
   all.push_back(best);
   std::erase_if(all, [](const Fit& fit) { return !fit.usable; });
   std::stable_sort(all.begin(), all.end(), [](const Fit& a, const Fit& b) { return score(a) > score(b); });
-  all.resize(std::min(all.size(), k_thresholds.most_candidates));
+  all.resize(std::min(all.size(), k_most_candidates));
   return all;
 }
 
@@ -568,7 +641,7 @@ std::vector<CandidatePair> best_of_each(std::vector<CandidatePair> pairs, std::s
   for (const CandidatePair& pair : pairs) {
     if (best.size() == most) break;
     std::size_t &one = times[pair.one->effect], &other = times[pair.other->effect];
-    if (std::max(one, other) >= k_thresholds.most_of_each) continue;
+    if (std::max(one, other) >= k_most_of_each) continue;
     ++one, ++other;
     best.push_back(pair);
   }
@@ -596,7 +669,7 @@ std::vector<CandidatePair> Selector::pairs_beside(const Fit& base, const Amplitu
       pairs.push_back({&base, owners[i], owners[j], shared.log_evidence({i, j}) - cost});
     }
   }
-  pairs = best_of_each(std::move(pairs), 2 * k_thresholds.most_candidates);
+  pairs = best_of_each(std::move(pairs), 2 * k_most_candidates);
   for (CandidatePair& pair : pairs)
     pair.predicted_score = predict_score(base, {pair.one->effect, pair.other->effect},
                                          {&pair.one->linearized, &pair.other->linearized}, amplitudes);
@@ -618,7 +691,7 @@ std::vector<CandidatePair> Selector::pairs_beside(const Fit& base,
       known->predicted_score = std::max(known->predicted_score, pair.predicted_score);
     }
   }
-  return best_of_each(std::move(pairs), k_thresholds.most_candidates);
+  return best_of_each(std::move(pairs), k_most_candidates);
 }
 
 /// Exchanges none, one or two members for one or two other effects, since either exchange alone may lower the score.
@@ -627,27 +700,23 @@ std::vector<CandidatePair> Selector::pairs_beside(const Fit& base,
 bool Selector::exchange_members() {
   const double before = score(selection_.best);
   const std::vector<Fit> bases = reduce_best();
-  std::vector<std::vector<LinearizedCandidate>> candidates(bases.size());
-  pool_.each(bases.size(), [&](const Fitter& fitter, std::size_t i) {
-    if (bases[i].effects.size() < k_thresholds.most_effects)
-      candidates[i] =
-          rank_by_linearization(fitter, bases[i], bases[i].posterior.amplitudes, selection_.catalogue.size());
-  });
-  std::vector<std::vector<CandidatePair>> pairs(bases.size());
-  pool_.each(bases.size(), [&](const Fitter&, std::size_t i) {
-    if (bases[i].effects.size() + 2 <= k_thresholds.most_effects) pairs[i] = pairs_beside(bases[i], candidates[i]);
+  std::vector<const Fit*> smaller;
+  for (const Fit& base : bases) {
+    if (base.effects.size() < k_most_effects) smaller.push_back(&base);
+  }
+  const std::vector<std::vector<LinearizedCandidate>> candidates = rank_beside(smaller);
+  std::vector<std::vector<CandidatePair>> pairs(smaller.size());
+  pool_.each(smaller.size(), [&](const Fitter&, std::size_t i) {
+    if (smaller[i]->effects.size() + 2 <= k_most_effects) pairs[i] = pairs_beside(*smaller[i], candidates[i]);
   });
   std::vector<LinearizedCandidate> singles;
   std::vector<CandidatePair> both;
-  for (std::size_t i = 0; i < bases.size(); ++i) {
-    for (std::size_t k = 0; k < std::min(candidates[i].size(), k_thresholds.most_candidates); ++k) {
-      EffectSet effects = bases[i].effects;
-      effects.push_back(candidates[i][k].effect);
-      if (candidates[i][k].predicted_score > before - k_thresholds.hopeless && !is_tried(key_of(effects)))
-        singles.push_back(candidates[i][k]);
+  for (std::size_t i = 0; i < smaller.size(); ++i) {
+    for (std::size_t k = 0; k < std::min(candidates[i].size(), k_most_candidates); ++k) {
+      if (is_open(candidates[i][k], before)) singles.push_back(candidates[i][k]);
     }
     for (const CandidatePair& pair : pairs[i]) {
-      if (pair.predicted_score > before - k_thresholds.hopeless) both.push_back(pair);
+      if (pair.predicted_score > before - k_hopeless) both.push_back(pair);
     }
   }
   std::vector<Fit> fits = fit_candidates("exchanging effects", singles, &Selector::fit_briefly);
@@ -658,7 +727,7 @@ bool Selector::exchange_members() {
   });
   for (Fit& fit : fits) record_tried(std::move(fit));
   for (Fit& fit : wider) record_tried(std::move(fit));
-  return score(*ranked().front()) > before + k_thresholds.least_improvement;
+  return score(*ranked().front()) > before + k_least_improvement;
 }
 
 /// True if one of the effect's numbers is at a bound. The data then require more of the effect than any joint has, so
@@ -689,10 +758,8 @@ std::vector<WeightedSet> Selector::weigh_sets() {
   for (const auto& [key, fit] : seen_) sets.push_back({fit.effects, score(fit) / selection_.temperature});
   if (best.effects.empty()) return sets;
   for (const LinearizedCandidate& linearized : candidates_beside_best()) {
-    EffectSet effects = best.effects;
-    effects.push_back(linearized.effect);
-    if (!seen_.count(key_of(effects)) && linearized.predicted_score < score(best))
-      sets.push_back({std::move(effects), linearized.predicted_score / selection_.temperature});
+    if (!seen_.count(key_of(linearized.set())) && linearized.predicted_score < score(best))
+      sets.push_back({linearized.set(), linearized.predicted_score / selection_.temperature});
   }
   return sets;
 }
@@ -777,7 +844,6 @@ void Selector::drop_unpredictive() {
       continue;
     }
     drop_effect(pool_, i, "", selection_);
-    candidates_beside_best_.reset();
     i = 0;
   }
 }
@@ -813,11 +879,11 @@ std::optional<std::size_t> Selector::find_trading_member(const Fit& wider) const
 /// smaller member.
 void Selector::add_companions() {
   const Fit& best = selection_.best;
-  if (best.effects.empty() || best.effects.size() >= k_thresholds.most_effects) return;
+  if (best.effects.empty() || best.effects.size() >= k_most_effects) return;
   const double least = score(best) - k_thresholds.as_good * selection_.temperature;
   std::vector<LinearizedCandidate> likely;
   for (const LinearizedCandidate& candidate : candidates_beside_best()) {
-    if (candidate.predicted_score > least && likely.size() < k_thresholds.most_companions) likely.push_back(candidate);
+    if (candidate.predicted_score > least && likely.size() < k_most_companions) likely.push_back(candidate);
   }
   std::vector<Fit> fits = fit_candidates("trying further effects beside them", likely, &Selector::fit_briefly);
   for (Fit& fit : fits) {
@@ -910,15 +976,13 @@ Selection Selector::run() {
 
 }  // namespace
 
-double search_penalty(const fusee::Effect& effect) { return is_searched(effect) ? k_thresholds.search_penalty : 0.0; }
+double search_penalty(const fusee::Effect& effect) { return is_searched(effect) ? k_thresholds.strong : 0.0; }
 
 double neg_log_prior_odds(const fusee::Effect& effect) {
   return k_thresholds.neg_log_prior_odds + search_penalty(effect);
 }
 
-double reporting_penalty(const fusee::Effect& effect) {
-  return k_thresholds.reporting_penalty + search_penalty(effect);
-}
+double reporting_penalty(const fusee::Effect& effect) { return k_thresholds.decisive + search_penalty(effect); }
 
 double neg_log_prior_odds(const EffectSet& effects) {
   double sum = 0;

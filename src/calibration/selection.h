@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/fitter_pool.h"
+#include "calibration/fit.h"
 #include "calibration/posterior.h"
 #include "calibration/statistics.h"
 #include "fusee/calibration.h"

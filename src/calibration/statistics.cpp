@@ -16,7 +16,7 @@ double mean_of(const std::vector<double>& values) {
 
 }  // namespace
 
-bool is_as_good(const Evidence&, const Fit& rival, const Fit& best) {
+bool is_as_good(const Fit& rival, const Fit& best) {
   return rival.log_evidence > best.log_evidence - k_thresholds.as_good;
 }
 
@@ -32,14 +32,14 @@ Eigen::VectorXd alphas(const measurement::Measurement& measurement) {
   return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
-double lag_one_correlation(const Evidence& evidence, const Fit& fit) {
+double lag_one_correlation(const Evidence& evidence, const Eigen::VectorXd& residual) {
   double products = 0;
   double squares = 0;
+  Eigen::Index row = 0;
   for (const Block& block : evidence.blocks) {
-    for (std::size_t i = 0; i < block.rows.size(); ++i) {
-      const double r = fit.residual[static_cast<Eigen::Index>(block.rows[i])];
-      squares += r * r;
-      if (i > 0) products += r * fit.residual[static_cast<Eigen::Index>(block.rows[i - 1])];
+    for (std::size_t i = 0; i < block.rows.size(); ++i, ++row) {
+      squares += residual[row] * residual[row];
+      if (i > 0) products += residual[row] * residual[row - 1];
     }
   }
   return squares > 0 ? products / squares : 0.0;
@@ -105,9 +105,8 @@ double beyond_noise(const StrokeResiduals& sums) {
 }  // namespace
 
 double rarest_ratio(double upper_freedom, double lower_freedom) {
-  constexpr double k_deviations = 3.0;
   const double a = 2.0 / (9.0 * std::max(1.0, upper_freedom)), b = 2.0 / (9.0 * std::max(1.0, lower_freedom));
-  const double square = k_deviations * k_deviations;
+  const double square = k_thresholds.sure * k_thresholds.sure;
   const double leading = (1.0 - b) * (1.0 - b) - square * b;
   if (leading <= 0) return std::numeric_limits<double>::infinity();
   const double half = (1.0 - a) * (1.0 - b);

@@ -7,7 +7,7 @@
 namespace fusee::calibration {
 
 /// True if the evidence of two sets is equal within k_thresholds.as_good.
-bool is_as_good(const Evidence& evidence, const Fit& rival, const Fit& best);
+bool is_as_good(const Fit& rival, const Fit& best);
 
 /// Root mean square; 0 without values.
 double rms_of(const Eigen::VectorXd& values);
@@ -15,8 +15,8 @@ double rms_of(const Eigen::VectorXd& values);
 /// α of all rows, in the order of Block::rows.
 Eigen::VectorXd alphas(const measurement::Measurement& measurement);
 
-/// Lag-1 autocorrelation of the residual within blocks, −1 … 1.
-double lag_one_correlation(const Evidence& evidence, const Fit& fit);
+/// Lag-1 autocorrelation within blocks, −1 … 1, of a residual at the rows in use.
+double lag_one_correlation(const Evidence& evidence, const Eigen::VectorXd& residual);
 
 /// Ratio of two mean squares of the same noise, with these degrees of freedom, that chance exceeds as seldom as a
 /// normal variable exceeds three standard deviations (Paulson 1942: the cube root of a mean square is nearly normal).

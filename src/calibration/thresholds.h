@@ -4,21 +4,33 @@
 /// docs/development/calibration-ablation.md reports which of them were switched off on joints that nothing was tuned
 /// on, and the cost. *Rig data* are the six joints of tests/data/rig. "Joints" without a place are joints of
 /// tests/rig/known_truth. An effect is held if a reported group contains it. A false positive is a group without a true
-/// cause. Evidence is in natural logarithms (nats).
+/// cause. Evidence is in natural logarithms (nats). Constants of a numerical method are where it is.
 #pragma once
-
-#include <cstddef>
 
 namespace fusee::calibration {
 
 struct Thresholds {
+  // ---- standards that all decisions share ----
+
+  /// Nats of strong evidence, odds of 20 : 1 (Kass and Raftery 1995): what each component of a described discrepancy
+  /// must add, and the penalty of a searched number (an order, a time) beside the prior odds.
+  double strong = 3.0;
+  /// Nats that one effect requires by itself (audit, detectable sizes): odds of 400 : 1, "decisive".
+  double decisive = 6.0;
+  /// Standard errors that a difference must exceed: of noise levels, of a proposed run, of an empirical curve's gain.
+  double sure = 3.0;
+  /// Largest false-positive rate of an effect that is reported alone, and its largest absence probability.
+  double most_false_positives = 0.02;
+
   // ---- residual: noise, or an unmodelled cause ----
 
   /// Log Bayes factor of a discrepancy, and its rms in noise floors, above which a residual is unexplained.
   double unexplained = 8.0;
   double least_residual = 0.35;
-  /// Nats that each component of a discrepancy must add to be described.
-  double least_component = 3.0;
+  /// An effect explains a part of the residual if it lowers the residual to this share. Joint 950018: without this rule
+  /// an uncertain offset is dropped, 4.4 noise floors remain in place of 2, and the held-out error is 2.0 times as
+  /// large. Input errors whose residuals differ by less are equally likely.
+  double residual_share = 0.8;
 
   // ---- evidence of a set of effects ----
 
@@ -28,8 +40,6 @@ struct Thresholds {
   /// Negative log prior odds of an effect: of 26 effects a joint has two or three. A discrepancy of one noise floor rms
   /// and more has the same penalty, a smaller one less.
   double neg_log_prior_odds = 2.3;
-  /// Penalty of a searched number (an order, a time), added to the prior odds.
-  double search_penalty = 3.0;
   /// Prior scale of a discrepancy's family, in noise floors: one in two is larger. 150 joints: without this prior 50 %
   /// of the effects are held, with it 75 %; false positives beside an unmodelled cause are 18 % and 25 %.
   double usual_discrepancy = 0.5;
@@ -41,9 +51,6 @@ struct Thresholds {
   /// 3.2 false positives are 54, 46, 39 and 31 of 160 joints with an unmodelled cause; 229, 229, 228 and 235 effects
   /// are held; from 2.0 on stretch is no longer found from seven dwells.
   double temperature = 1.75;
-  /// Nats that one effect requires by itself (audit, detectable sizes): odds of 400, "decisive" (Kass and Raftery
-  /// 1995).
-  double reporting_penalty = 6.0;
   /// Difference in nats up to which two sets are equally likely.
   double as_good = 4.0;
   /// Degrees of freedom of the noise floor as a prior of the noise. A floor with fewer is badly known.
@@ -51,28 +58,17 @@ struct Thresholds {
 
   // ---- reported effects ----
 
-  /// Synthetic data sets without an effect, and the largest false-positive rate of an effect that is reported alone.
-  int data_sets = 200;
-  double most_false_positives = 0.02;
-  /// Members that an audit adds to a group: the most frequent true causes of its false positives.
-  std::size_t most_true_causes = 6;
   /// Absence probability above which an effect is not reported. Between the false-positive rate and this, its group
   /// contains `unmodelled`. 48 joints: of 10 effects that were lost 6 were in the likeliest set.
   double most_absence_probability = 0.3;
-  /// An effect that uncertain is reported nevertheless if it lowers the unexplained residual to this share. Joint
-  /// 950018: without this rule an offset is dropped, 4.4 noise floors remain in place of 2, and the held-out error is
-  /// 2.0 times as large.
-  double residual_share = 0.8;
   /// Share of the absence probability that each further member of a group must remove. Without it groups of 9 joints
   /// from seed 950001 have 7.2 members in place of 5.7.
   double least_gain = 0.1;
   /// Absence probability at which a group is complete.
   double complete_group_absence = 0.005;
   /// An effect beside the best set joins a member's group if both can exchange at least this much, rms in noise floors.
-  /// At most `most_companions` effects are tested. Without this step 8 of 10 effects of the joints named above are held
-  /// in place of 10. With more than ten tested effects, the groups of six of them grow from 7.1 to 7.7 members.
+  /// Without this step 8 of 10 effects of the joints named above are held in place of 10.
   double least_shared = 1.5;
-  std::size_t most_companions = 10;
   /// Log odds of an effect against the best unmodelled cause in its place (unmodelled_alternatives.h) below which its
   /// group contains `unmodelled`.
   double ahead_of_unmodelled = 10.0;
@@ -83,9 +79,6 @@ struct Thresholds {
   /// Factor on intervals beside an unexplained residual. 204 joints: 88 % of 95 numbers were within intervals without
   /// it.
   double interval_factor = 1.5;
-
-  // ---- reported numbers ----
-
   /// Beside an unmodelled cause, largest ratio of held-out mean squares, least squares to MAP, at which least squares
   /// are reported. Set on the real jaw: 0.93 by runs, 0.91 by levels.
   double least_squares_gain = 0.95;
@@ -98,30 +91,14 @@ struct Thresholds {
   /// row reaches 6, of 0.98 reaches 9.
   double most_repeat_scatter = 10.0;
 
-  // ---- extent of the search ----
-
-  std::size_t most_effects = 5;
-  /// Sets that are widened, and linearized candidates of each that are fitted.
-  std::size_t beam = 4;
-  std::size_t most_candidates = 6;
-  /// Pairs of linearized candidates that one effect may be in.
-  std::size_t most_of_each = 2;
-  /// Nats below the best set from which a linearized candidate is not fitted, and a fit is not continued.
-  double hopeless = 15.0;
-  /// Nats by which a set must exceed the best to replace it: accuracy of a fit.
-  double least_improvement = 0.1;
-  /// Number of strokes up to which the discrepancy has a constant for each.
-  std::size_t most_strokes = 48;
-
   // ---- two states of one joint ----
 
-  /// Share of the shorter range of α that both states must cover.
-  double least_shared_way = 0.3;
+  /// Share of the shorter range of α that both states must cover, and share of the motion, rms, by which they may
+  /// differ. Half the ratio differs by 0.5.
+  double joint_share = 0.3;
   /// Size of a change in standard errors, by the scatter from run to run. Jaw, state Pitch_1, its runs taken in turn as
   /// before and after: without it tendon_stretch and tendon_slip are reported.
   double least_by_runs = 5.0;
-  /// Share of the joint's motion, rms, by which two states of one joint may differ. Half the ratio gives 0.5.
-  double most_changed_part = 0.3;
 
   // ---- likely input errors ----
 
@@ -138,15 +115,6 @@ struct Thresholds {
   /// Ratio from which an input error is reported although another cause stays unexplained beside it. Rig data
   /// f_not_in_any_catalogue with the sign of OE turned: 26.
   double input_error_clear = 10.0;
-  /// Ratio to the residual of the best input error up to which others are equally likely.
-  double input_error_tie = 1.25;
-
-  // ---- detectable sizes, and proposed runs ----
-
-  /// Standard errors beyond the required size at which an effect is found in four cases of five.
-  double power = 0.84;
-  /// Difference in noise at which a proposed run distinguishes two explanations.
-  double distinguished = 3.0;
 };
 
 inline constexpr Thresholds k_thresholds{};

@@ -9,7 +9,6 @@
 
 #include "base/text.h"
 #include "calibration/evidence_model.h"
-#include "calibration/load_scale.h"
 #include "calibration/row_facts.h"
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
@@ -19,14 +18,12 @@
 // The discrepancy is smooth: a kink, a step, a bump or a short wave requires many of its columns. An absent effect with
 // a bend near that place would be likelier. Shapes of few parameters complete the discrepancy here, each with the prior
 // of an effect with a searched number. The data are explained with and without the effect, and both models may add
-// shapes. The remaining difference in score is the evidence for the effect itself. Wrong loads are no shape: each
-// effect is tested against them by refits (load_scale.h).
+// shapes. The remaining difference in score is the evidence for the effect itself. Wrong loads are no shape: each effect
+// is tested against them by refits (unmodelled_effects.h).
 
 namespace fusee::calibration {
 namespace {
 
-constexpr int k_most_taken = 3;
-constexpr std::size_t k_shape_tries = 3;
 constexpr int k_reading_rounds = 4;
 /// Waves: least periods over the span, step in periods, largest by cost, and rows that a period requires.
 constexpr double k_least_periods = 0.75;
@@ -256,12 +253,6 @@ class Shapes {
   std::vector<Shape> shapes_;
 };
 
-/// Score of a base with the shapes that were added.
-struct ShapeSelection {
-  double score = 0;
-  std::vector<std::size_t> shapes;  ///< indices of shapes
-};
-
 class ShapeSearch {
  public:
   ShapeSearch(const Evidence& evidence, const Selection& selection)
@@ -270,25 +261,26 @@ class ShapeSearch {
         shapes_(evidence),
         CC_(shapes_.columns().transpose() * shapes_.columns()),
         CD_(shapes_.columns().transpose() * evidence_model_.discrepancy().columns),
-        size_(std::max(evidence.floor, rms_of(tangent_of(evidence, selection.none).residual))) {}
+        size_(std::max(evidence.floor, rms_of(tangent_of(evidence, selection.none).residual))) {
+    for (const Shape& shape : shapes_.all())
+      penalties_.push_back(k_thresholds.neg_log_prior_odds + k_thresholds.strong * shape.searched);
+  }
 
   /// `base` with shapes, added as long as they improve the score. `open`: amplitudes of the discrepancy from which a
   /// second search begins.
-  ShapeSelection explain(const Fit& base, const Amplitudes& open) const {
+  LinearizedSet explain(const Fit& base, const Amplitudes& open) const {
     const BaseSums sums_of_base(*this, base);
     const double loose = base.posterior.log_evidence - base.log_evidence;
     const double others = neg_log_prior_odds(base.effects);
-    ShapeSelection best;
-    double most = -std::numeric_limits<double>::infinity();
+    const auto sums_of = [&](const std::vector<std::size_t>& shapes) { return sums(sums_of_base, shapes); };
+    LinearizedSet best{{}, {}, -std::numeric_limits<double>::infinity()};
     for (const Amplitudes& start : {base.posterior.amplitudes, open}) {
-      ShapeSelection chosen;
-      Amplitudes from = start;
-      double reached = evidence_model_.best(sums_of_base.own, start, k_reading_rounds).log_evidence;
-      while (chosen.shapes.size() < k_most_taken && add_one(sums_of_base, chosen.shapes, from, reached)) {
-      }
-      if (reached > most) most = reached, best = std::move(chosen);
+      const double alone = evidence_model_.best(sums_of_base.own, start, k_reading_rounds).log_evidence;
+      LinearizedSet set = add_greedily(evidence_model_, penalties_, sums_of, {{}, start, alone});
+      if (set.score > best.score) best = std::move(set);
     }
-    best.score = most - loose - others;
+    best.score -= loose;
+    best.score -= others;
     return best;
   }
 
@@ -307,44 +299,6 @@ class ShapeSearch {
     Eigen::MatrixXd CJ;
     Eigen::VectorXd Cr;
   };
-
-  double penalty(const std::vector<std::size_t>& shapes) const {
-    double sum = 0;
-    for (const std::size_t i : shapes)
-      sum += k_thresholds.neg_log_prior_odds + k_thresholds.search_penalty * shape(i).searched;
-    return sum;
-  }
-
-  /// Adds the shape that improves the score most. True if there is one.
-  bool add_one(const BaseSums& sums_of_base, std::vector<std::size_t>& shapes, Amplitudes& from,
-               double& reached) const {
-    const ScaledDiscrepancy sized = evidence_model_.sized(from, sums_of_base.own.deflection_ratio);
-    std::vector<std::pair<double, std::size_t>> candidates;
-    std::vector<std::size_t> wider = shapes;
-    wider.push_back(0);
-    for (std::size_t i = 0; i < shapes_.all().size(); ++i) {
-      if (std::count(shapes.begin(), shapes.end(), i)) continue;
-      wider.back() = i;
-      candidates.emplace_back(penalty(wider) - evidence_model_.at(sums(sums_of_base, wider), sized).log_evidence, i);
-    }
-    std::sort(candidates.begin(), candidates.end());
-    candidates.resize(std::min(candidates.size(), k_shape_tries));
-    Amplitudes there;
-    std::size_t best = shapes_.all().size();
-    for (const auto& [predicted, i] : candidates) {
-      wider.back() = i;
-      const Posterior posterior = evidence_model_.best(sums(sums_of_base, wider), from, k_reading_rounds);
-      const double score = posterior.log_evidence - penalty(wider);
-      if (!(score > reached)) continue;
-      reached = score;
-      there = posterior.amplitudes;
-      best = i;
-    }
-    if (best == shapes_.all().size()) return false;
-    shapes.push_back(best);
-    from = there;
-    return true;
-  }
 
   /// Sums of the base with these shapes at zero.
   TangentSums sums(const BaseSums& sums_of_base, const std::vector<std::size_t>& chosen) const {
@@ -380,6 +334,7 @@ class ShapeSearch {
   const EvidenceModel& evidence_model_;
   const Evidence& evidence_;
   Shapes shapes_;
+  std::vector<double> penalties_;  ///< of each shape
   Eigen::MatrixXd CC_, CD_;
   double size_ = 0;
 };
@@ -446,7 +401,7 @@ std::vector<UnmodelledAlternative> find_unmodelled_alternatives(const Evidence& 
   std::vector<UnmodelledAlternative> rivals(best.effects.size());
   if (rivals.empty()) return rivals;
   const ShapeSearch search(evidence, selection);
-  std::vector<ShapeSelection> selections(rivals.size() + 1);
+  std::vector<LinearizedSet> selections(rivals.size() + 1);
   pool.each(selections.size(), [&](const Fitter& fitter, std::size_t i) {
     const Fit& base = i == 0 ? best : selection.without[i - 1];
     if (!base.usable) return;
@@ -454,7 +409,7 @@ std::vector<UnmodelledAlternative> find_unmodelled_alternatives(const Evidence& 
     if (i == 0) return;
     const Fit others = leave_out(fitter, best, *best.effects[i - 1]);
     if (!others.usable) return;
-    ShapeSelection stayed = search.explain(others, best.posterior.amplitudes);
+    LinearizedSet stayed = search.explain(others, best.posterior.amplitudes);
     if (stayed.score > selections[i].score) selections[i] = std::move(stayed);
   });
   const std::vector<LoadScaleFit> loads = fit_load_scales(evidence, pool, selection);
@@ -463,17 +418,17 @@ std::vector<UnmodelledAlternative> find_unmodelled_alternatives(const Evidence& 
       rivals[i].log_odds = 0;  // The effect cannot be distinguished from an unmodelled cause.
       continue;
     }
-    const ShapeSelection& alternative = selections[i + 1];
-    rivals[i].log_odds = selections.front().score - std::max(alternative.score, loads[i].score);
-    if (loads[i].score > alternative.score) {
+    const LinearizedSet& instead = selections[i + 1];
+    rivals[i].log_odds = selections.front().score - std::max(instead.score, loads[i].score);
+    if (loads[i].score > instead.score) {
       rivals[i].words = "loads of " + rounded(loads[i].times, 2) + " times what was logged";
       rivals[i].separating_run = "hang a known weight where the load acts and compare it with what is logged";
       continue;
     }
-    for (const std::size_t shapes : alternative.shapes) {
-      if (std::count(selections.front().shapes.begin(), selections.front().shapes.end(), shapes)) continue;
-      rivals[i].words = search.shape(shapes).words;
-      rivals[i].separating_run = separating_run(search.shape(shapes).dependence);
+    for (const std::size_t shape : instead.members) {
+      if (std::count(selections.front().members.begin(), selections.front().members.end(), shape)) continue;
+      rivals[i].words = search.shape(shape).words;
+      rivals[i].separating_run = separating_run(search.shape(shape).dependence);
       break;
     }
   }

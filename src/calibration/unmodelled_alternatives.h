@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/fitter_pool.h"
+#include "calibration/fit.h"
 #include "calibration/selection.h"
 
 namespace fusee::calibration {

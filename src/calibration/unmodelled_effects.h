@@ -1,13 +1,12 @@
 /// \file
-/// Unmodelled effects in the mechanism itself, outside the catalogue: they move angles and tensions together, which a
-/// curve beside the readings cannot.
+/// Refits with an effect outside the catalogue, or with loads of another size, in the place of an effect.
 #pragma once
 
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "calibration/fitter_pool.h"
+#include "calibration/fit.h"
 #include "calibration/selection.h"
 
 namespace fusee::calibration {
@@ -24,5 +23,15 @@ struct UnmodelledSubstitute {
 std::vector<UnmodelledSubstitute> fit_unmodelled_effects(const Evidence& evidence, FitterPool& pool,
                                                          const Selection& selection, const std::vector<bool>& asked,
                                                          double enough);
+
+/// Best set without an effect, on runs with all loads scaled by one factor, as by a cell out of calibration or a lever of
+/// another length. No effect describes them, since they are an error of the log.
+struct LoadScaleFit {
+  double times = 1;
+  double score = 0;  ///< with the penalty of one searched number; −infinity: no solution, or the effect is equivalent
+};
+
+/// Result for every accepted effect, in their order.
+std::vector<LoadScaleFit> fit_load_scales(const Evidence& evidence, FitterPool& pool, const Selection& selection);
 
 }  // namespace fusee::calibration

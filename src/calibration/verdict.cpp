@@ -166,7 +166,7 @@ std::string figures(const Calibration& calibration, double floor) {
 
 ResidualStructure describe_residual(const Evidence& evidence, const Fit& fit) {
   ResidualStructure structure;
-  structure.autocorrelation = lag_one_correlation(evidence, fit);
+  structure.autocorrelation = lag_one_correlation(evidence, fit.residual(evidence.rows()));
   Places places(evidence.measurement);
   for (const Block& block : evidence.blocks) {
     const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;

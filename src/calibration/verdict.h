@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "calibration/reported_parameters.h"
+#include "calibration/validation.h"
 #include "fusee/calibration.h"
 
 namespace fusee::calibration {

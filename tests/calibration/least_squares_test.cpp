@@ -4,8 +4,8 @@
 #include "calibration/explanation.h"
 #include "calibration/intervals.h"
 #include "calibration/linear_joint.h"
-#include "calibration/reported_parameters.h"
 #include "calibration/thresholds.h"
+#include "calibration/validation.h"
 #include "fusee/base.h"
 
 namespace fusee::calibration::linear {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "calibration/expected_sizes.h"
+#include "calibration/catalogue.h"
 #include "calibration/linear_joint.h"
 #include "calibration/thresholds.h"
 

@@ -30,8 +30,8 @@ calibration::Fit with_errors(const calibration::Evidence& evidence, const std::v
 
 TEST(LagOne, IsNegativeForAlternatingRows) {
   const calibration::Evidence evidence = two_runs();
-  EXPECT_DOUBLE_EQ(calibration::lag_one_correlation(evidence, with_errors(evidence, std::vector<double>(8, 1.0))),
-                   -(k_rows - 1.0) / k_rows);
+  const calibration::Fit fit = with_errors(evidence, std::vector<double>(8, 1.0));
+  EXPECT_DOUBLE_EQ(calibration::lag_one_correlation(evidence, fit.residual(evidence.rows())), -(k_rows - 1.0) / k_rows);
 }
 
 TEST(StrokeScatter, DistinguishesStrokeMeansFromRowNoise) {
@@ -101,13 +101,12 @@ TEST(RarestRatio, IsExceededAsSeldomAsThreeStandardDeviations) {
 }
 
 TEST(AsGood, EndsAtThreshold) {
-  const calibration::Evidence evidence = two_runs();
   calibration::Fit best, rival;
   best.log_evidence = 100;
   rival.log_evidence = 100 - 0.99 * calibration::k_thresholds.as_good;
-  EXPECT_TRUE(calibration::is_as_good(evidence, rival, best));
+  EXPECT_TRUE(calibration::is_as_good(rival, best));
   rival.log_evidence = 100 - 1.01 * calibration::k_thresholds.as_good;
-  EXPECT_FALSE(calibration::is_as_good(evidence, rival, best));
+  EXPECT_FALSE(calibration::is_as_good(rival, best));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include "calibration/linear_joint.h"
-#include "calibration/reported_parameters.h"
 #include "fusee/base.h"
 
 namespace fusee::calibration::linear {
