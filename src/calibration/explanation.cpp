@@ -113,7 +113,7 @@ void place_beside(const Evidence& evidence, const Selection& selection, const Fi
 
 }  // namespace
 
-std::vector<const Rival*> equally_likely_rivals(const Evidence& evidence, const Selection& selection) {
+std::vector<const Rival*> equally_likely_rivals(const Selection& selection) {
   const Fit& best = selection.best;
   std::vector<const Rival*> all;
   for (const Rival& rival : selection.rivals) {
@@ -129,7 +129,7 @@ std::vector<const Rival*> equally_likely_rivals(const Evidence& evidence, const 
 std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection, const Fit& numbers) {
   const Fit& best = selection.best;
   const Ranges ranges{intervals(selection), intervals_if_only(selection)};
-  const std::vector<const Rival*> rivals = equally_likely_rivals(evidence, selection);
+  const std::vector<const Rival*> rivals = equally_likely_rivals(selection);
   std::vector<FoundEffect> all;
   for (const fusee::Effect* effect : best.effects) {
     FoundEffect found;
@@ -162,7 +162,7 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
 
 std::vector<std::string> null_combinations(const Evidence& evidence, const Selection& selection) {
   std::vector<std::string> all;
-  for (const Rival* rival : equally_likely_rivals(evidence, selection)) {
+  for (const Rival* rival : equally_likely_rivals(selection)) {
     const double difference = rms_apart(evidence, rival->fit.residual, selection.best.residual);
     all.push_back(with_numbers(evidence, selection.best, *rival->accepted) + " or " +
                   with_numbers(evidence, rival->fit, *rival->rival) + ": " + rounded(degrees(difference), 2) +

@@ -13,7 +13,7 @@ namespace fusee::calibration {
 std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection, const Fit& numbers);
 
 /// Rivals that the data do not distinguish from the found effect, and that are likelier than none in its place.
-std::vector<const Rival*> equally_likely_rivals(const Evidence& evidence, const Selection& selection);
+std::vector<const Rival*> equally_likely_rivals(const Selection& selection);
 
 /// "pulley_scale (scale_percent = −2.01) or slack (slack_mm = 0.31): 0.004° rms apart in these runs", one for each
 /// equally likely rival.

@@ -339,7 +339,7 @@ std::vector<plan::NextMeasurement> next_measurements(const Evidence& evidence, c
   if (!others.empty()) next = Proposals(evidence, selection, others).best();
   // No simulated measurement distinguishes them: the effects' own proposals.
   if (next.empty()) {
-    for (const Rival* rival : equally_likely_rivals(evidence, selection)) ask(rival->rival->separating_run, next);
+    for (const Rival* rival : equally_likely_rivals(selection)) ask(rival->rival->separating_run, next);
   }
   for (const FoundEffect& effect : calibration.effects) {
     if (effect.group.back() == k_unmodelled) ask(effect.unmodelled.separating_run, next);
