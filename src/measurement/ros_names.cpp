@@ -66,8 +66,8 @@ std::optional<std::size_t> only_one(const std::vector<std::size_t>& list) {
 
 // Tables --------------------------------------------------------------------------------------------------------------
 
-constexpr std::array<std::string_view, 6> k_further_motor_words = {"mot",   "stepper", "spool",
-                                                                   "winch", "antrieb", "motorwinkel"};
+constexpr std::array<std::string_view, 5> k_further_motor_words = {"stepper", "spool", "winch", "antrieb",
+                                                                   "motorwinkel"};
 constexpr std::array<std::string_view, 11> k_further_joint_words = {
     "gelenk", "gelenkwinkel", "finger", "elbow", "knee", "wrist", "shoulder", "thumb", "hip", "ankle", "limb"};
 constexpr std::array<std::string_view, 15> k_sensor_words = {"encoder", "enc",   "pot",      "poti", "potentiometer",

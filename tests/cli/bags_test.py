@@ -124,7 +124,7 @@ class Bags(harness.Scratch):
 
     def test_folder_without_metadata_and_with_a_missing_part(self):
         self.put("bag/x_0.mcap")
-        self.expect("simulate arm.toml bag/ -o a.csv", 0, err="bag: alpha is /motor/states/hinge/position in rad")
+        self.expect("simulate arm.toml bag/ -o a.csv", 0, err="bag: note: alpha is /motor/states/hinge/position in rad")
         (self.folder / "bag/metadata.yaml").write_text(METADATA.format(files="    - bag/x_0.mcap\n    - x_1.mcap\n"))
         self.expect("simulate arm.toml bag -o b.csv", 0, err="metadata.yaml lists x_1.mcap, which is missing")
         self.assertEqual((self.folder / "a.csv").read_bytes(), (self.folder / "b.csv").read_bytes())
