@@ -302,7 +302,6 @@ TEST(RmsDrop, IsNeverNegative) {
 }
 
 TEST(Rivals, GroupsHaveNoIdleMembers) {
-  const calibration::Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
   calibration::Selection selection;
   const Effect &gain = named("joint_sensor_gain"), &lag = named("sensor_lag");
   const auto likely = [](const calibration::EffectSet& effects, double log_evidence) {
