@@ -166,7 +166,6 @@ TEST(Bundles, RejectTooMuchContent) {
   const ZipArchive archive(bytes, "bomb.zip", "a zip");
   std::uint64_t budget = zeros.size() - 1;
   EXPECT_THROW(archive.unpacked(0, budget, "no more than that"), InputError);
-  EXPECT_LT(bytes.size(), zeros.size() / 100);
 }
 
 TEST(Bundles, ReadFuzzingCorpus) {

@@ -42,7 +42,7 @@ struct Include {
 
 /// "fusee/solid.h" → "solid"; "fusee/mechanism_file.h" and "mechanism/catalogue.h" → "mechanism"; else "".
 std::string module_of(const std::string& target) {
-  static const std::regex pattern("^(?:fusee/)?([a-z_]+?)(?:/|(?:_file)?\\.h$)");
+  static const std::regex pattern("^(?:fusee/)?([a-z_]+?)(?:/|(?:_file|_elementary)?\\.h$)");
   std::smatch match;
   return std::regex_search(target, match, pattern) && flow().count(match[1]) ? match[1].str() : "";
 }

@@ -288,7 +288,7 @@ TEST(PlatesDxf, EnlargesSheetForLargePlateWithNote) {
   product.joint.mechanism.cut.sheet_width = 30;
   const Plates plates = make_plates(product);
   EXPECT_THAT(plates.notes,
-              Contains(::testing::AllOf(HasSubstr("a sheet of 30 x 200 mm"), HasSubstr("MIDDLE takes "))));
+              Contains(::testing::AllOf(HasSubstr("a sheet of 30 x 200 mm"), HasSubstr("MIDDLE requires "))));
   EXPECT_GT(plates.sheet.x(), 30);
   EXPECT_EQ(plates.sheet.y(), 200);
   EXPECT_THAT(failed(check_drawing(drawn(product))), IsEmpty());
