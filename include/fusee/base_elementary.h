@@ -19,7 +19,7 @@ double fusee_pow(double x, double y) noexcept;
 double fusee_hypot(double x, double y) noexcept;
 }
 
-/// Arguments, results and special values as in <cmath>; angles in rad. The error is below 1.25 units in the last place,
+/// Arguments, results and special values as in cmath; angles in rad. The error is below 1.25 units in the last place,
 /// and below 2 in directed rounding. They are musl's (src/base/musl), compiled without FMA.
 namespace fusee::elementary {
 

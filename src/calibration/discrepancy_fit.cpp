@@ -184,7 +184,6 @@ void find_harmonic(const Angles& angles, const Eigen::VectorXd& residual, double
   parts.push_back(std::move(component));
 }
 
-
 /// Discrepancy of a few factors, added one by one while the data require them. Of factors that can replace one another,
 /// the description contains the one that explains most.
 struct FactorSelection {
@@ -233,7 +232,6 @@ FactorSelection select_factors(const EvidenceModel& evidence_model, const Tangen
   }
   return found;
 }
-
 
 /// Excess of the noise over the floor, rad². A floor from few repeats may be exceeded by chance.
 double noise_beyond_floor(const Evidence& evidence, double noise) {

@@ -157,7 +157,7 @@ class Selector {
   Key key_of(const EffectSet& effects) const;
   void record(Fit fit);
   void record_tried(Fit fit);
-  Fit likeliest_known(Fit fit) const;
+  Fit likeliest_known(const Fit& fit) const;
   bool is_tried(const Key& key) const { return tried_.count(key) > 0; }
   std::vector<const Fit*> ranked() const;
   double predict_score(const Fit& base, const EffectSet& added, const std::vector<const LinearizedEffect*>& candidates,
@@ -252,7 +252,7 @@ void Selector::record(Fit fit) {
 
 /// The likeliest known fit of its set. If a joint sticks and slips, a fit from elsewhere may end at a lower mode, and
 /// the left-out effect would seem to matter more than it does (held-out seed 192006: by 36 nats).
-Fit Selector::likeliest_known(Fit fit) const {
+Fit Selector::likeliest_known(const Fit& fit) const {
   const auto seen = seen_.find(key_of(fit.effects));
   const bool is_seen = seen != seen_.end() && !(fit.usable && score(fit) >= score(seen->second));
   return is_seen ? seen->second : fit;
@@ -554,7 +554,7 @@ void Selector::refit_best() {
   for (Fit& fit : refit(all)) record_tried(std::move(fit));
   const Fit* likeliest = ranked().front();
   Fit best = refit({likeliest}).front();
-  set_best(best.usable && best.log_evidence >= likeliest->log_evidence ? std::move(best) : *likeliest);
+  set_best(best.usable && best.log_evidence >= likeliest->log_evidence ? best : *likeliest);
 }
 
 /// Widens the best set as long as that improves the score.
@@ -572,7 +572,7 @@ void Selector::refit_without_each() {
   for (const fusee::Effect* effect : best.effects)
     starts.push_back({without(best.effects, *effect), without(best.at, *effect)});
   selection_.without.clear();
-  for (Fit& fit : fit_from(starts)) selection_.without.push_back(likeliest_known(std::move(fit)));
+  for (Fit& fit : fit_from(starts)) selection_.without.push_back(likeliest_known(fit));
 }
 
 /// Leaves each member out, and fits every effect in its place whose linearization is not hopeless. Effects that are
@@ -621,7 +621,7 @@ std::vector<Fit> Selector::reduce_best() {
     }
   }
   std::vector<Fit> all;
-  for (Fit& fit : fit_from(starts)) all.push_back(likeliest_known(std::move(fit)));
+  for (Fit& fit : fit_from(starts)) all.push_back(likeliest_known(fit));
   all.insert(all.end(), selection_.without.begin(), selection_.without.end());
   all.push_back(best);
   std::erase_if(all, [](const Fit& fit) { return !fit.usable; });

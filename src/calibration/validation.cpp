@@ -47,7 +47,7 @@ double mean_square(const measurement::Run& run, const measurement::Stroke& strok
 Estimate declared_estimate(FitterPool& pool, const Selection& selection) {
   if (selection.none.x.size() == 0) return {selection.none, {}};
   Fit fit = pool.one().fit_least_squares(selection.none);
-  return {fit.usable ? std::move(fit) : selection.none, {}};
+  return {fit.usable ? fit : selection.none, {}};
 }
 
 HeldOut hold_out(const Evidence& evidence, const Estimate& estimate, const std::vector<Fold>& folds) {

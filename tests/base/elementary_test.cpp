@@ -1,6 +1,4 @@
 // Elementary functions, compared with the C library's in 64-bit precision, in all rounding modes.
-#include "fusee/base_elementary.h"
-
 #include <gmock/gmock.h>
 
 #include <array>
@@ -9,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+
+#include "fusee/base_elementary.h"
 
 namespace fusee {
 namespace {

@@ -314,15 +314,13 @@ TEST(Rivals, GroupsHaveNoIdleMembers) {
   selection.best = likely({&gain}, 10);
   selection.without = {likely({}, 8)};
   selection.rivals = {{&gain, &lag, likely({&lag}, 9)}};
-  EXPECT_TRUE(calibration::equally_likely_rivals(selection).empty())
-      << "rarer than none, and hardly likelier";
+  EXPECT_TRUE(calibration::equally_likely_rivals(selection).empty()) << "rarer than none, and hardly likelier";
   selection.without = {likely({}, 2)};
   EXPECT_EQ(calibration::equally_likely_rivals(selection).size(), 1u);
   selection.rivals.front().fit.log_evidence = 5;
   EXPECT_TRUE(calibration::equally_likely_rivals(selection).empty());
   selection.rivals = {{&lag, &gain, likely({&gain}, 9)}};
-  EXPECT_TRUE(calibration::equally_likely_rivals(selection).empty())
-      << "what it stands for is not in the set";
+  EXPECT_TRUE(calibration::equally_likely_rivals(selection).empty()) << "what it stands for is not in the set";
 }
 
 TEST(FoundEffects, DescribeTheirSign) {

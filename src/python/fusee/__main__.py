@@ -15,6 +15,10 @@ def program() -> str:
     return found
 
 
-if __name__ == "__main__":
+def main() -> None:
     path = program()
     os.execv(path, [path, *sys.argv[1:]])
+
+
+if __name__ == "__main__":
+    main()
