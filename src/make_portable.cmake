@@ -1,4 +1,4 @@
-# cmake -DBUILD=<build folder> -DNAME=<name> -DMODULES=<folder> -DLIBDIR=<folder> -P make_portable.cmake: see portable.cmake.
+# cmake -DBUILD=<build folder> -DNAME=<name> -DMODULES=<folder> -P make_portable.cmake: see portable.cmake.
 cmake_minimum_required(VERSION 3.25)
 set(packages ${BUILD}/packages)
 set(folder ${packages}/${NAME})
@@ -9,7 +9,8 @@ foreach(component IN ITEMS program licence)
 endforeach()
 file(GLOB modules ${folder}/${MODULES}/*.so)
 set(program ${folder}/bin/fusee)
-execute_process(COMMAND ${CMAKE_COMMAND} "-DFILES=${program};${modules}" -DLIBRARIES=${folder}/${LIBDIR}/fusee/bundled
+cmake_path(REPLACE_FILENAME MODULES bundled OUTPUT_VARIABLE libraries)
+execute_process(COMMAND ${CMAKE_COMMAND} "-DFILES=${program};${modules}" -DLIBRARIES=${folder}/${libraries}
                 -P ${CMAKE_CURRENT_LIST_DIR}/bundled_libraries.cmake COMMAND_ERROR_IS_FATAL ANY)
 file(CREATE_LINK bin/fusee ${folder}/fusee SYMBOLIC)
 # Equal input gives equal bytes: one order, one time, one owner.

@@ -3,7 +3,7 @@
 # the folder was made or a newer one.
 set(portable fusee-${PROJECT_VERSION}-linux-${CMAKE_SYSTEM_PROCESSOR})
 add_custom_target(portable
-  COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DNAME=${portable} -DMODULES=${FUSEE_MODULES} -DLIBDIR=${CMAKE_INSTALL_LIBDIR}
+  COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DNAME=${portable} -DMODULES=${FUSEE_MODULES}
           -P ${CMAKE_CURRENT_LIST_DIR}/make_portable.cmake
   USES_TERMINAL VERBATIM)
 add_dependencies(portable fusee_cli)

@@ -56,6 +56,19 @@ class Package(unittest.TestCase):
                 if re.search("Numbers|float", str(part.type)) and not re.search("Table", str(part.type)):
                     self.assertTrue(UNIT.search(part.name) or part.name in PLAIN, f"{kind.__name__}.{part.name}")
 
+    def run_as_program(self, path):
+        environment = {**setting.ENVIRONMENT, "PATH": str(path)}
+        return subprocess.run([sys.executable, "-m", "fusee", "--version"], env=environment, capture_output=True, text=True, timeout=60)
+
+    def test_package_runs_as_program(self):
+        done = self.run_as_program(harness.PROGRAM.parent)
+        self.assertEqual((done.returncode, done.stdout), (0, f"fusee {fusee.__version__}\n"), done.stderr)
+
+    def test_missing_program_is_reported(self):
+        done = self.run_as_program("/nowhere")
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("neither in this package nor on the path", done.stderr)
+
     def judged(self, arguments):
         return subprocess.run(
             [sys.executable, "-m", *arguments], cwd=setting.PACKAGE, env=setting.ENVIRONMENT, capture_output=True, text=True, timeout=300
