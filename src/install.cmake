@@ -1,7 +1,7 @@
 # cmake --install: the program with its profiles, and the library for find_package(fusee) and pkg-config.
 include(CMakePackageConfigHelpers)
 set(FUSEE_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/fusee)
-set(FUSEE_LIBRARIES base mechanism transmission profile helix joint analysis optimize paper measurement plan calibration correction solid helical_solid kit model export pipeline)
+set(FUSEE_LIBRARIES base mechanism transmission profile helix joint analysis optimize paper measurement plan calibration correction solid helical_solid kit model mesh_files drawings export pipeline)
 
 set(program COMPONENT program)
 install(TARGETS fusee_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} ${program})
