@@ -27,11 +27,11 @@ namespace fusee::formats {
 namespace {
 
 constexpr double k_clean_feature = 1.0;  // mm, the narrowest feature that a laser cuts cleanly in common sheet
-constexpr double k_drawn = 1e-6;         // mm, resolution of a drawing's coordinates
+constexpr double k_resolution = 1e-6;    // mm, resolution of a drawing's coordinates
 
 constexpr auto k_contour_layers =
     std::to_array<std::string_view>({"CUT_OUTER", "CUT_INNER", "P1_PITCH", "P2_PITCH", "P1_FLOOR", "P2_FLOOR", "BORE"});
-constexpr std::string_view k_as_declared = "BORE";  // as narrow as the shaft
+constexpr std::string_view k_bore_layer = "BORE";  // its width is that of the shaft, however narrow
 constexpr auto k_frame_layers = std::to_array<std::string_view>({"CHECK_10MM", "SHEET"});
 
 template <std::size_t n>
@@ -43,7 +43,7 @@ bool is_mark_layer(std::string_view layer) {
   return layer == "ENGRAVE" || layer == "NOTES" || layer.starts_with("MARK_");
 }
 
-std::string place(const DrawingPath& path, const Vec2& point) {
+std::string location_text(const DrawingPath& path, const Vec2& point) {
   return fmt::format("layer {}, {} at line {}, at ({}, {}) mm", path.layer, path.entity, path.line,
                      rounded(point.x(), 6), rounded(point.y(), 6));
 }
@@ -51,13 +51,13 @@ std::string place(const DrawingPath& path, const Vec2& point) {
 using Paths = std::vector<const DrawingPath*>;
 
 Paths contours_of(const Drawing& drawing) {
-  const bool ours = std::any_of(drawing.paths.begin(), drawing.paths.end(),
-                                [](const DrawingPath& p) { return among(k_contour_layers, p.layer); });
+  const bool has_fusee_layers = std::any_of(drawing.paths.begin(), drawing.paths.end(),
+                                            [](const DrawingPath& p) { return among(k_contour_layers, p.layer); });
   Paths contours;
   for (const DrawingPath& path : drawing.paths) {
     if (path.points.empty()) continue;
     const bool named = among(k_contour_layers, path.layer) || among(k_frame_layers, path.layer);
-    if (ours ? named : !is_mark_layer(path.layer)) contours.push_back(&path);
+    if (has_fusee_layers ? named : !is_mark_layer(path.layer)) contours.push_back(&path);
   }
   return contours;
 }
@@ -78,7 +78,7 @@ Check check_contours_closed(const Paths& contours) {
   std::string where;
   for (const DrawingPath* path : contours) {
     if (path->closed || almost_closes(*path)) continue;
-    if (open++ == 0) where = "open: " + place(*path, path->points.front());
+    if (open++ == 0) where = "open: " + location_text(*path, path->points.front());
   }
   return exactly("contours_closed", static_cast<double>(open), 0, "1", where);
 }
@@ -91,7 +91,7 @@ Check check_ends_meet(const Paths& contours) {
     const double gap = gap_of(*path);
     if (gap <= widest) continue;
     widest = gap;
-    where = "gap between " + place(*path, path->points.back()) +
+    where = "gap between " + location_text(*path, path->points.back()) +
             fmt::format(" and ({}, {}) mm", rounded(path->points.front().x(), 6), rounded(path->points.front().y(), 6));
   }
   return at_most("ends_meet", widest, k_joined, "mm", where);
@@ -108,7 +108,8 @@ struct Edge {
   std::size_t last = 0;   ///< index of the path's last edge
 };
 
-bool before(const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); }
+/// True if a precedes b in the order of x, then y.
+bool precedes(const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); }
 
 /// The corners of a path, with repeated points merged.
 Polygon corners_of(const DrawingPath& path) {
@@ -128,7 +129,7 @@ void append_edges(std::vector<Edge>& edges, const DrawingPath& path) {
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2& a = points[i];
     const Vec2& b = points[(i + 1) % points.size()];
-    edges.push_back({before(a, b) ? a : b, before(a, b) ? b : a, &path, i, count - 1});
+    edges.push_back({precedes(a, b) ? a : b, precedes(a, b) ? b : a, &path, i, count - 1});
   }
 }
 
@@ -148,8 +149,8 @@ std::vector<Edge> take_duplicates(std::vector<Edge>& edges) {
     auto key = std::make_pair(ends.number(edge.left), ends.number(edge.right));
     if (key.first > key.second) std::swap(key.first, key.second);
     // An edge shorter than the tolerance has one end, not two, so it repeats no other.
-    const bool fresh = key.first == key.second || seen.insert(key).second;
-    (fresh ? once : again).push_back(edge);
+    const bool is_first = key.first == key.second || seen.insert(key).second;
+    (is_first ? once : again).push_back(edge);
   }
   edges = std::move(once);
   return again;
@@ -174,7 +175,8 @@ Duplicates check_duplicates(const Drawing& drawing) {
     for (const Edge& edge : repeated)
       if (++repeats[edge.path] == edge.last + 1) duplicates.paths.insert(edge.path);
     if (count == 0 && !repeated.empty())
-      where = "drawn twice: " + place(*repeated.front().path, 0.5 * (repeated.front().left + repeated.front().right));
+      where = "drawn twice: " +
+              location_text(*repeated.front().path, 0.5 * (repeated.front().left + repeated.front().right));
     count += repeated.size();
   }
   duplicates.check = exactly("no_duplicate_lines", static_cast<double>(count), 0, "1", where);
@@ -187,7 +189,7 @@ bool within_box(const Edge& edge, const Vec2& p) {
 }
 
 /// True if the two edges have a common point.
-bool touch(const Edge& a, const Edge& b) {
+bool are_touching(const Edge& a, const Edge& b) {
   const int a1 = orientation(b.left, b.right, a.left);
   const int a2 = orientation(b.left, b.right, a.right);
   const int b1 = orientation(a.left, a.right, b.left);
@@ -200,21 +202,23 @@ bool touch(const Edge& a, const Edge& b) {
 /// Neighbours along a path meet in one point. They are faulty only if the second runs back over the first.
 bool folds_back(const Edge& a, const Edge& b) {
   if (orientation(a.left, a.right, b.left) != 0 || orientation(a.left, a.right, b.right) != 0) return false;
-  return before(b.left, a.right) && before(a.left, b.right);
+  return precedes(b.left, a.right) && precedes(a.left, b.right);
 }
 
 bool are_consecutive(const Edge& a, const Edge& b) {
   if (a.path != b.path) return false;
-  const std::size_t steps = a.index > b.index ? a.index - b.index : b.index - a.index;
-  return steps == 1 || (a.path->closed && steps == a.last);
+  const std::size_t distance = a.index > b.index ? a.index - b.index : b.index - a.index;
+  const bool are_last_and_first = a.path->closed && distance == a.last;
+  return distance == 1 || are_last_and_first;
 }
 
+/// The common point of two edges; of collinear ones the first common point.
 Vec2 crossing_point(const Edge& a, const Edge& b) {
   const Vec2 u = a.right - a.left;
   const Vec2 v = b.right - b.left;
-  const double turn = cross(u, v);
-  if (turn == 0) return before(a.left, b.left) ? b.left : a.left;
-  return a.left + u * std::clamp(cross(b.left - a.left, v) / turn, 0.0, 1.0);
+  const double determinant = cross(u, v);
+  if (determinant == 0) return precedes(a.left, b.left) ? b.left : a.left;
+  return a.left + u * std::clamp(cross(b.left - a.left, v) / determinant, 0.0, 1.0);
 }
 
 /// Two edges that touch but should not, if any. Sweep line of Shamos and Hoey: the line passes the edges in (x, y)
@@ -222,6 +226,7 @@ Vec2 crossing_point(const Edge& a, const Edge& b) {
 /// is correct up to the first fault, where the sweep stops.
 class Sweep {
  public:
+  /// `within_paths`: also compare edges of the same path.
   Sweep(const std::vector<Edge>& edges, bool within_paths) : edges_(edges), within_paths_(within_paths) {}
 
   std::optional<std::pair<Edge, Edge>> first_fault() {
@@ -237,19 +242,19 @@ class Sweep {
     }
     // At one point, edges begin before others end, so that edges which only touch there are compared.
     std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
-      if (a.point != b.point) return before(a.point, b.point);
+      if (a.point != b.point) return precedes(a.point, b.point);
       return std::make_pair(a.ends, a.edge) < std::make_pair(b.ends, b.edge);
     });
-    std::vector<Line::iterator> place_of(edges_.size());
+    std::vector<Line::iterator> position_of(edges_.size());
     for (const Event& event : events) {
       if (!event.ends) {
-        place_of[event.edge] = line_.insert(event.edge).first;
-        const auto at = place_of[event.edge];
-        if (at != line_.begin() && fault(*std::prev(at), *at)) return pair_;
-        if (std::next(at) != line_.end() && fault(*at, *std::next(at))) return pair_;
+        position_of[event.edge] = line_.insert(event.edge).first;
+        const auto at = position_of[event.edge];
+        if (at != line_.begin() && fault(*std::prev(at), *at)) return fault_;
+        if (std::next(at) != line_.end() && fault(*at, *std::next(at))) return fault_;
       } else {
-        const auto next = line_.erase(place_of[event.edge]);
-        if (next != line_.begin() && next != line_.end() && fault(*std::prev(next), *next)) return pair_;
+        const auto next = line_.erase(position_of[event.edge]);
+        if (next != line_.begin() && next != line_.end() && fault(*std::prev(next), *next)) return fault_;
       }
     }
     return std::nullopt;
@@ -263,7 +268,7 @@ class Sweep {
       const Edge& a = (*edges)[i];
       const Edge& b = (*edges)[j];
       if (i == j) return false;
-      const bool a_first = !before(b.left, a.left);
+      const bool a_first = !precedes(b.left, a.left);
       const Edge& first = a_first ? a : b;
       const Edge& second = a_first ? b : a;
       int side = orientation(first.left, first.right, second.left);
@@ -278,15 +283,15 @@ class Sweep {
     const Edge& a = edges_[i];
     const Edge& b = edges_[j];
     if (a.path == b.path && !within_paths_) return false;
-    if (!(are_consecutive(a, b) ? folds_back(a, b) : touch(a, b))) return false;
-    pair_ = {a, b};
+    if (!(are_consecutive(a, b) ? folds_back(a, b) : are_touching(a, b))) return false;
+    fault_ = {a, b};
     return true;
   }
 
   const std::vector<Edge>& edges_;
   bool within_paths_;
   Line line_{EdgeOrder{&edges_}};
-  std::pair<Edge, Edge> pair_;
+  std::pair<Edge, Edge> fault_;
 };
 
 /// True if the path turns to one side at every corner, once round. Such a path does not meet itself. Most paths of a
@@ -300,7 +305,7 @@ bool is_convex(const DrawingPath& path) {
   int reversals = 0;  // changes of direction along x: two in each turn
   for (std::size_t i = 0; i < n; ++i) {
     if (side == 0 || orientation(corner(i), corner(i + 1), corner(i + 2)) != side) return false;
-    reversals += before(corner(i), corner(i + 1)) != before(corner(i + 1), corner(i + 2)) ? 1 : 0;
+    reversals += precedes(corner(i), corner(i + 1)) != precedes(corner(i + 1), corner(i + 2)) ? 1 : 0;
   }
   return reversals == 2;
 }
@@ -309,18 +314,18 @@ std::optional<std::pair<Edge, Edge>> fault_within(const DrawingPath& path) {
   if (is_convex(path)) return std::nullopt;
   std::vector<Edge> edges;
   append_edges(edges, path);
-  return Sweep(edges, true).first_fault();
+  return Sweep(edges, /*within_paths=*/true).first_fault();
 }
 
-/// True if certainly no two paths meet; may be false for very many paths without a fault.
+/// True if the boxes of all paths are apart, so that no two paths meet. Gives up with false for very many paths.
 bool are_apart(const Paths& paths) {
-  std::size_t looks_left = 100'000;
+  std::size_t comparisons_left = 100'000;
   std::vector<Box2d> boxes;
   for (const DrawingPath* path : paths) boxes.push_back(bounding_box(path->points));
   std::sort(boxes.begin(), boxes.end(), [](const Box2d& a, const Box2d& b) { return a.low.x() < b.low.x(); });
   for (auto a = boxes.begin(); a != boxes.end(); ++a) {
     for (auto b = std::next(a); b != boxes.end() && b->low.x() <= a->high.x(); ++b) {
-      if (looks_left-- == 0 || (b->low.y() <= a->high.y() && a->low.y() <= b->high.y())) return false;
+      if (comparisons_left-- == 0 || (b->low.y() <= a->high.y() && a->low.y() <= b->high.y())) return false;
     }
   }
   return true;
@@ -331,7 +336,7 @@ std::optional<std::pair<Edge, Edge>> fault_between(const Paths& paths) {
   std::vector<Edge> edges;
   for (const DrawingPath* path : paths) append_edges(edges, *path);
   take_duplicates(edges);  // they have their own check
-  return Sweep(edges, false).first_fault();
+  return Sweep(edges, /*within_paths=*/false).first_fault();
 }
 
 struct CrossingChecks {
@@ -350,20 +355,20 @@ bool is_overshoot(const DrawingPath& path, const Vec2& crossing) {
 CrossingChecks check_crossings(const Paths& contours) {
   std::size_t crossed = 0;
   std::string self_where;
-  std::map<std::string, Paths> whole;  // by layer
+  std::map<std::string, Paths> valid_paths;  // by layer
   for (const DrawingPath* path : contours) {
     const auto fault = fault_within(*path);
     if (fault && is_overshoot(*path, crossing_point(fault->first, fault->second))) continue;
-    if (!fault) whole[path->layer].push_back(path);
+    if (!fault) valid_paths[path->layer].push_back(path);
     if (fault && crossed++ == 0)
-      self_where = "crosses or touches itself: " + place(*path, crossing_point(fault->first, fault->second));
+      self_where = "crosses or touches itself: " + location_text(*path, crossing_point(fault->first, fault->second));
   }
   std::size_t layers = 0;
   std::string mutual_where;
-  for (const auto& [layer, paths] : whole) {
+  for (const auto& [layer, paths] : valid_paths) {
     const auto fault = fault_between(paths);
     if (!fault || layers++ > 0) continue;
-    mutual_where = place(*fault->first.path, crossing_point(fault->first, fault->second)) +
+    mutual_where = location_text(*fault->first.path, crossing_point(fault->first, fault->second)) +
                    fmt::format(" meets the {} at line {}", fault->second.path->entity, fault->second.path->line);
   }
   return {exactly("no_self_crossing", static_cast<double>(crossed), 0, "1", self_where),
@@ -377,12 +382,12 @@ double least_width(const Polygon& polygon) {
   const Polygon hull = convex_hull(polygon);
   if (hull.size() < 3) return 0;
   double least = std::numeric_limits<double>::infinity();
-  std::size_t far = 1;
+  std::size_t farthest = 1;
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Vec2 edge = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
     const auto distance = [&](std::size_t k) { return cross(edge, hull[k % hull.size()] - hull[i]); };
-    for (std::size_t steps = 0; steps < hull.size() && distance(far + 1) > distance(far); ++steps) ++far;
-    least = std::min(least, distance(far));
+    for (std::size_t steps = 0; steps < hull.size() && distance(farthest + 1) > distance(farthest); ++steps) ++farthest;
+    least = std::min(least, distance(farthest));
   }
   return least;
 }
@@ -392,15 +397,15 @@ std::optional<Check> check_smallest_feature(const Paths& contours) {
   double least = std::numeric_limits<double>::infinity();
   const DrawingPath* narrow = nullptr;
   for (const DrawingPath* path : contours) {
-    if (!path->closed || path->layer == k_as_declared) continue;
+    if (!path->closed || path->layer == k_bore_layer) continue;
     const double width = path->diameter ? *path->diameter : least_width(path->points);
     if (width >= least) continue;
     least = width;
     narrow = path;
   }
   if (narrow == nullptr) return std::nullopt;
-  return at_least("smallest_feature", least, k_clean_feature - k_drawn, "mm",
-                  "narrow: " + place(*narrow, narrow->points.front()));
+  return at_least("smallest_feature", least, k_clean_feature - k_resolution, "mm",
+                  "narrow: " + location_text(*narrow, narrow->points.front()));
 }
 
 // ---- Inside ---------------------------------------------------------------------------------------------------------
@@ -419,7 +424,7 @@ std::vector<FramedPath> framed_paths(const Drawing& drawing, std::string_view la
 }
 
 bool box_within(const Box2d& inner, const Box2d& outer) {
-  return (inner.low - outer.low).minCoeff() >= -k_drawn && (outer.high - inner.high).minCoeff() >= -k_drawn;
+  return (inner.low - outer.low).minCoeff() >= -k_resolution && (outer.high - inner.high).minCoeff() >= -k_resolution;
 }
 
 /// Each contour of layer `inner` must lie within one of layer `outer`, if the drawing has such a layer.
@@ -427,20 +432,20 @@ struct RequiredNesting {
   std::string_view inner;
   std::string_view outer;
 };
-constexpr auto k_inside = std::to_array<RequiredNesting>({{"CUT_INNER", "CUT_OUTER"},
-                                                          {"ENGRAVE", "CUT_OUTER"},
-                                                          {"CUT_OUTER", "SHEET"},
-                                                          {"BORE", "P1_FLOOR"},
-                                                          {"BORE", "P2_FLOOR"},
-                                                          {"P1_FLOOR", "P1_PITCH"},
-                                                          {"P2_FLOOR", "P2_PITCH"}});
+constexpr auto k_required_nesting = std::to_array<RequiredNesting>({{"CUT_INNER", "CUT_OUTER"},
+                                                                    {"ENGRAVE", "CUT_OUTER"},
+                                                                    {"CUT_OUTER", "SHEET"},
+                                                                    {"BORE", "P1_FLOOR"},
+                                                                    {"BORE", "P2_FLOOR"},
+                                                                    {"P1_FLOOR", "P1_PITCH"},
+                                                                    {"P2_FLOOR", "P2_PITCH"}});
 
 Check check_inside(const Drawing& drawing) {
   // Bound on comparisons of points and edges: more than any drawing that can be cut requires.
   std::size_t budget = 300'000'000;
   std::size_t outside = 0;
   std::string where;
-  for (const RequiredNesting& pair : k_inside) {
+  for (const RequiredNesting& pair : k_required_nesting) {
     const std::vector<FramedPath> outers = framed_paths(drawing, pair.outer);
     if (outers.empty()) continue;
     for (const FramedPath& inner : framed_paths(drawing, pair.inner)) {
@@ -456,7 +461,7 @@ Check check_inside(const Drawing& drawing) {
         return exactly("nothing_outside", static_cast<double>(outside + 1), 0, "1",
                        "the drawing has too many contours to check");
       if (is_inside || outside++ > 0) continue;
-      where = fmt::format("not inside {}: {}", pair.outer, place(*inner.path, inner.path->points.front()));
+      where = fmt::format("not inside {}: {}", pair.outer, location_text(*inner.path, inner.path->points.front()));
     }
   }
   return exactly("nothing_outside", static_cast<double>(outside), 0, "1", where);

@@ -19,7 +19,7 @@ std::size_t inverted_edge(const Polygon& before, const Polygon& after) {
   return before.size();
 }
 
-/// The place nearest to `point`, on the line from there to `neighbour`, that is `radius` from the origin.
+/// The point at `radius` from the origin that is nearest to `point`, on the line through `point` and `neighbour`.
 Vec2 on_circle(const Vec2& point, const Vec2& neighbour, double radius) {
   const Vec2 direction = (neighbour - point).normalized();
   const double to_foot = -point.dot(direction);
@@ -28,8 +28,8 @@ Vec2 on_circle(const Vec2& point, const Vec2& neighbour, double radius) {
   return foot + (to_foot > 0 ? -half_chord : half_chord) * direction;
 }
 
-/// An offset moves chords. Returns the first `count` points to their arc, which ends where the adjacent straight edges
-/// meet it.
+/// Moves the first `count` points back to their arc, of which an offset has moved the chords. The arc ends where the
+/// adjacent straight edges meet it.
 void put_on_arc(Polygon& points, std::size_t count, double radius) {
   const Vec2 first = on_circle(points.front(), points.back(), radius);
   const Vec2 last = on_circle(points[count - 1], points[count % points.size()], radius);
@@ -38,12 +38,12 @@ void put_on_arc(Polygon& points, std::size_t count, double radius) {
     points[i] = turned(first, turn * static_cast<double>(i) / static_cast<double>(count - 1));
 }
 
-bool beyond(const Vec2& low, const Vec2& high, const Vec2& point, double margin) {
+bool is_outside_box(const Vec2& low, const Vec2& high, const Vec2& point, double margin) {
   return point.x() - low.x() < -margin || point.y() - low.y() < -margin || high.x() - point.x() < -margin ||
          high.y() - point.y() < -margin;
 }
 
-bool near_an_edge(const Polygon& polygon, const Vec2& point, double margin) {
+bool is_near_edge(const Polygon& polygon, const Vec2& point, double margin) {
   const double reach = margin * (1.0 + 1e-9);  // edges whose box is further away need no exact distance
   const double left = point.x() - reach, right = point.x() + reach, below = point.y() - reach,
                above = point.y() + reach;
@@ -58,6 +58,7 @@ bool near_an_edge(const Polygon& polygon, const Vec2& point, double margin) {
 
 }  // namespace
 
+// Plates are cut to size: the corrections of a print do not apply.
 solid::BodyLayout layout_to_cut(Mechanism mechanism, const profile::SynthesisResult& synthesis) {
   mechanism.material.shrinkage = 0;
   mechanism.material.hole_compensation = 0;
@@ -95,21 +96,23 @@ Polygon offset_edges(const Polygon& polygon, double distance) {
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 before = outward((i + n - 1) % n);
     const Vec2 after = outward(i);
-    // The mitre's tip is (before + after)/(1 + cos). A needle's tip is cut off at ten times the distance.
-    moved.push_back(polygon[i] + distance * (before + after) / std::max(1 + before.dot(after), 0.02));
+    // A mitred corner moves by distance · (n₁ + n₂) / (1 + n₁ · n₂), with the unit normals n₁ and n₂ of both edges.
+    // Where the divisor is below this limit, the corner is a needle: it moves by ten times the distance at most.
+    constexpr double k_least_divisor = 0.02;
+    moved.push_back(polygon[i] + distance * (before + after) / std::max(1 + before.dot(after), k_least_divisor));
   }
   return moved;
 }
 
-// An outline corrected for errors of manufacture may be concave by some µm.
-Polygon cut_round(const Polygon& outline, double distance) {
+// An outline corrected for errors of manufacture may be concave by some µm. An inverted edge is replaced by its middle.
+Polygon cut_around(const Polygon& outline, double distance) {
   Polygon kept = outline;
   for (;;) {
     Polygon path = offset_edges(kept, distance);
-    const std::size_t turned = inverted_edge(kept, path);
-    if (turned == kept.size() || kept.size() <= 3) return path;
-    const std::size_t next = (turned + 1) % kept.size();
-    kept[turned] = 0.5 * (kept[turned] + kept[next]);
+    const std::size_t inverted = inverted_edge(kept, path);
+    if (inverted == kept.size() || kept.size() <= 3) return path;
+    const std::size_t next = (inverted + 1) % kept.size();
+    kept[inverted] = 0.5 * (kept[inverted] + kept[next]);
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(next));
   }
 }
@@ -146,12 +149,12 @@ void Material2d::add_hole(const Polygon& hole) {
 
 bool Material2d::holds(const Vec2& point, double margin) const {
   for (const Edges& hole : holes_) {
-    if (beyond(hole.low, hole.high, point, margin)) continue;
-    if (contains(hole.points, point) || near_an_edge(hole.points, point, margin)) return false;
+    if (is_outside_box(hole.low, hole.high, point, margin)) continue;
+    if (contains(hole.points, point) || is_near_edge(hole.points, point, margin)) return false;
   }
   return std::all_of(outlines_.begin(), outlines_.end(), [&](const Edges& outline) {
-    return !beyond(outline.low, outline.high, point, 0) && contains(outline.points, point) &&
-           !near_an_edge(outline.points, point, margin);
+    return !is_outside_box(outline.low, outline.high, point, 0) && contains(outline.points, point) &&
+           !is_near_edge(outline.points, point, margin);
   });
 }
 
@@ -159,7 +162,7 @@ bool Material2d::holds_box(const Vec2& low, const Vec2& size, double margin) con
   const int columns = static_cast<int>(std::ceil(size.x())) + 1;
   const int rows = static_cast<int>(std::ceil(size.y())) + 1;
   const auto at = [&](int i, int j) { return holds(low + Vec2(size.x() * i / columns, size.y() * j / rows), margin); };
-  // If any point fails, usually a corner does.
+  // Corners first: if any point fails, one of them usually does.
   if (!at(0, 0) || !at(columns, 0) || !at(0, rows) || !at(columns, rows)) return false;
   for (int i = 0; i <= columns; ++i) {
     for (int j = 0; j <= rows; ++j) {

@@ -24,7 +24,7 @@ Polygon offset_edges(const Polygon& polygon, double distance);
 
 /// The cutter's path around a plate of this outline, `distance` outside it: offset_edges() without the edges that would
 /// be inverted where a concave corner is narrower than the cutter.
-Polygon cut_round(const Polygon& outline, double distance);
+Polygon cut_around(const Polygon& outline, double distance);
 
 /// The cutter's path for a hole of this outline: half a kerf inside it, with circles and arcs kept. Empty if the kerf
 /// is wider than the hole somewhere.

@@ -19,36 +19,37 @@ constexpr double k_farthest = 1e7;    // mm from the origin
 constexpr std::size_t k_most_inserts = 200'000;
 constexpr std::size_t k_most_tags = 100'000'000;  // processed while blocks are expanded
 constexpr int k_deepest_block = 16;
+constexpr int k_polyline_3d_flag = 8;  // of group 70
 constexpr std::size_t k_most_ignored = 64;
 constexpr std::size_t k_most_remarks = 20;
 
 /// An INSERT: the entities of a block, turned, scaled and repeated in columns and rows.
 struct DxfInsert {
-  int columns;
-  int rows;
-  Eigen::Matrix2d turn;
-  Vec2 step;
-  Eigen::Matrix2d scaled;  ///< includes the turn
-  Vec2 point;
+  int columns;               ///< group 70
+  int rows;                  ///< group 71
+  Eigen::Matrix2d rotation;  ///< group 50, deg
+  Vec2 spacing;              ///< of columns and rows: groups 44 and 45
+  Eigen::Matrix2d linear;    ///< scale (groups 41 and 42), then rotation
+  Vec2 point;                ///< where the block's base point is placed: group 10
 
   explicit DxfInsert(const DxfValues& values)
       : columns(std::max(1, values.integer(70, 1))),
         rows(std::max(1, values.integer(71, 1))),
-        turn(Eigen::Rotation2D<double>(radians(values.real(50, 0))).toRotationMatrix()),
-        step(values.real(44, 0), values.real(45, 0)),
-        scaled(turn * Vec2(values.real(41, 1), values.real(42, 1)).asDiagonal()),
+        rotation(Eigen::Rotation2D<double>(radians(values.real(50, 0))).toRotationMatrix()),
+        spacing(values.real(44, 0), values.real(45, 0)),
+        linear(rotation * Vec2(values.real(41, 1), values.real(42, 1)).asDiagonal()),
         point(values.point(10)) {}
 
   DrawingPlacement placed(const DrawingPlacement& outer, const Vec2& base, int row, int column) const {
     DrawingPlacement inner;
-    inner.linear = outer.linear * scaled;
-    inner.shift = outer(point + turn * Vec2(column * step.x(), row * step.y())) - inner.linear * base;
+    inner.linear = outer.linear * linear;
+    inner.shift = outer(point + rotation * Vec2(column * spacing.x(), row * spacing.y())) - inner.linear * base;
     return inner;
   }
 };
 
-/// The interpretation of an entity's values, before drawing.
-struct UnderstoodEntity {
+/// An entity with its values interpreted, before it is added to the drawing.
+struct InterpretedEntity {
   bool in_paper_space = false;
   std::string layer;
   DrawingPlacement place;
@@ -63,7 +64,8 @@ class DxfDrawer {
 
   Drawing draw() {
     drawing_.version = dxf_.version;
-    drawing_.millimetres = dxf_.units ? *dxf_.units == 4 : dxf_.version == "AC1009";
+    constexpr int k_insunits_of_mm = 4;
+    drawing_.millimetres = dxf_.units ? *dxf_.units == k_insunits_of_mm : dxf_.version == "AC1009";
     DrawingPlacement whole;
     whole.linear *= dxf_.unit_in_mm();
     for (const DxfEntity& entity : dxf_.entities) draw(entity, whole, "0", 0);
@@ -72,70 +74,71 @@ class DxfDrawer {
   }
 
  private:
-  /// An invalid entity is skipped and counted. Excessive numbers end the reading.
+  /// An invalid entity is skipped and counted. A drawing beyond the limits above throws InputError.
   void draw(const DxfEntity& entity, const DrawingPlacement& placement, const std::string& block_layer, int depth) {
-    UnderstoodEntity understood;
+    InterpretedEntity interpreted;
     try {
-      understood = understand(entity, placement, block_layer);
+      interpreted = interpret(entity, placement, block_layer);
     } catch (const InputError& error) {
       const Diagnostic& reason = error.diagnostics().front();
       if (drawing_.undrawn++ == 0) drawing_.first_undrawn = {reason.place.line, reason.message};
       return;
     }
-    if (understood.in_paper_space) return;
-    const EntityCurve& drawn = understood.drawn;
+    if (interpreted.in_paper_space) return;
+    const EntityCurve& drawn = interpreted.drawn;
     if (!drawn.remark.empty()) remark(entity, drawn.remark);
-    if (understood.insert) {
-      insert(entity, understood, depth);
+    if (interpreted.insert) {
+      insert(entity, interpreted, depth);
     } else if (drawn.curve) {
-      add(entity, understood.layer, *drawn.curve);
+      add(entity, interpreted.layer, *drawn.curve);
     } else {
-      ignore(entity, drawn.passed_over);
+      ignore(entity, drawn.skipped_kind);
     }
   }
 
-  UnderstoodEntity understand(const DxfEntity& entity, const DrawingPlacement& placement,
+  InterpretedEntity interpret(const DxfEntity& entity, const DrawingPlacement& placement,
                               const std::string& block_layer) const {
     const DxfValues values(file_, entity.tags);
-    UnderstoodEntity understood{values.integer(67, 0) == 1, std::string(values.text(8)), placement};
-    if (understood.in_paper_space) return understood;
+    InterpretedEntity interpreted{values.integer(67, 0) == 1, std::string(values.text(8)), placement};
+    if (interpreted.in_paper_space) return interpreted;
     // Layer 0 in a block stands for the insert's layer.
-    if (understood.layer.empty() || understood.layer == "0") understood.layer = block_layer;
-    if (const std::string why = hiding(entity, values, understood.layer); !why.empty()) {
-      understood.drawn.passed_over = " hidden";
-      understood.drawn.remark = "this " + std::string(entity.type) + " is not read: " + why;
-      return understood;
+    if (interpreted.layer.empty() || interpreted.layer == "0") interpreted.layer = block_layer;
+    if (const std::string why = why_hidden(entity, values, interpreted.layer); !why.empty()) {
+      interpreted.drawn.skipped_kind = " hidden";
+      interpreted.drawn.remark = "this " + std::string(entity.type) + " is not read: " + why;
+      return interpreted;
     }
-    if (values.point(210).norm() > 1e-6) {
-      understood.drawn.passed_over = " out of the plane";
+    const Vec2 tilt = values.point(210);  // x and y of the normal: 0 for an entity in the plane
+    if (tilt.norm() > 1e-6) {
+      interpreted.drawn.skipped_kind = " out of the plane";
       constexpr auto k_curves = std::to_array<std::string_view>(
           {"LINE", "LWPOLYLINE", "POLYLINE", "CIRCLE", "ARC", "ELLIPSE", "SPLINE", "INSERT"});
       if (std::find(k_curves.begin(), k_curves.end(), entity.type) != k_curves.end())
-        understood.drawn.remark = "this " + std::string(entity.type) + " lies out of the plane and is not read";
-      return understood;
+        interpreted.drawn.remark = "this " + std::string(entity.type) + " lies out of the plane and is not read";
+      return interpreted;
     }
-    // The x of an entity drawn from below is mirrored (except for those in world coordinates).
+    // An entity drawn from below has a mirrored x, except for types in world coordinates.
     const bool has_own_plane = entity.type != "LINE" && entity.type != "ELLIPSE" && entity.type != "SPLINE";
-    if (has_own_plane && values.real(230, 1) < 0) understood.place.linear.col(0) *= -1;
+    if (has_own_plane && values.real(230, 1) < 0) interpreted.place.linear.col(0) *= -1;
     if (entity.type == "INSERT") {
-      understood.insert.emplace(values);
-      understood.block = &block_of(entity);
-      return understood;
+      interpreted.insert.emplace(values);
+      interpreted.block = &block_of(entity);
+      return interpreted;
     }
-    understood.drawn = curve_of(entity, file_, understood.place, k_sagitta);
-    if (understood.drawn.curve) demand_near(entity, understood.drawn.curve->points);
-    return understood;
+    interpreted.drawn = curve_of(entity, file_, interpreted.place, k_sagitta);
+    if (interpreted.drawn.curve) refuse_distant(entity, interpreted.drawn.curve->points);
+    return interpreted;
   }
 
   /// Why an entity is not shown, or "". A block on a layer that is off shows its parts of other layers.
-  std::string hiding(const DxfEntity& entity, const DxfValues& values, const std::string& layer) const {
+  std::string why_hidden(const DxfEntity& entity, const DxfValues& values, const std::string& layer) const {
     if (values.integer(60, 0) == 1) return "it is invisible";
     const auto hidden = dxf_.hidden_layers.find(lower(layer));
     if (hidden == dxf_.hidden_layers.end() || (entity.type == "INSERT" && !hidden->second)) return {};
     return "its layer " + quoted_bytes(layer) + " is " + (hidden->second ? "frozen" : "off");
   }
 
-  void demand_near(const DxfEntity& entity, const Polygon& points) const {
+  void refuse_distant(const DxfEntity& entity, const Polygon& points) const {
     for (const Vec2& p : points) {
       if (p.cwiseAbs().maxCoeff() <= k_farthest) continue;
       fail_in_dxf(file_, entity.line,
@@ -144,10 +147,11 @@ class DxfDrawer {
     }
   }
 
+  /// Lists the type of a skipped entity, followed by `kind`, such as " hidden".
   void ignore(const DxfEntity& entity, const std::string& kind) {
     if (ignored_.size() >= k_most_ignored) return;
-    const std::string name = quoted_bytes(entity.type);
-    ignored_.insert(name.substr(1, name.size() - 2) + kind);
+    const std::string quoted = quoted_bytes(entity.type);
+    ignored_.insert(quoted.substr(1, quoted.size() - 2) + kind);
   }
 
   /// Entities of one kind with the same problem give one remark.
@@ -170,25 +174,25 @@ class DxfDrawer {
     return block->second;
   }
 
-  void insert(const DxfEntity& entity, const UnderstoodEntity& understood, int depth) {
+  void insert(const DxfEntity& entity, const InterpretedEntity& interpreted, int depth) {
     if (depth >= k_deepest_block) {
       fail_in_dxf(file_, entity.line,
                   "blocks are nested more than " + std::to_string(k_deepest_block) + " deep (or in a ring)");
     }
-    const DxfInsert& insert = *understood.insert;
-    const DxfBlock& block = *understood.block;
+    const DxfInsert& insert = *interpreted.insert;
+    const DxfBlock& block = *interpreted.block;
     for (int row = 0; row < insert.rows; ++row) {
       for (int column = 0; column < insert.columns; ++column) {
         if (++inserts_ > k_most_inserts) {
           fail_in_dxf(file_, entity.line,
                       "the drawing inserts more than " + std::to_string(k_most_inserts) + " blocks");
         }
-        const DrawingPlacement inner = insert.placed(understood.place, block.base, row, column);
+        const DrawingPlacement inner = insert.placed(interpreted.place, block.base, row, column);
         for (const DxfEntity& part : block.entities) {
-          expanded_ += part.size;
-          if (expanded_ > k_most_tags)
+          expanded_tags_ += part.size;
+          if (expanded_tags_ > k_most_tags)
             fail_in_dxf(file_, entity.line, "the blocks of the drawing are inserted too often to be expanded");
-          draw(part, inner, understood.layer, depth + 1);
+          draw(part, inner, interpreted.layer, depth + 1);
         }
       }
     }
@@ -197,7 +201,8 @@ class DxfDrawer {
   /// Removes repeated points, and a last point that closes the curve.
   void add(const DxfEntity& entity, const std::string& layer, const SampledCurve& curve) {
     DrawingPath path{layer, std::string(entity.type), entity.line, curve.closed, {}};
-    path.in_space = entity.type == "POLYLINE" && (DxfValues(file_, entity.tags).integer(70, 0) & 8) != 0;
+    path.in_space =
+        entity.type == "POLYLINE" && (DxfValues(file_, entity.tags).integer(70, 0) & k_polyline_3d_flag) != 0;
     path.diameter = curve.diameter;
     points_ += curve.points.size();
     if (points_ > k_most_points) {
@@ -222,7 +227,7 @@ class DxfDrawer {
   std::set<std::string> ignored_;
   std::size_t points_ = 0;
   std::size_t inserts_ = 0;
-  std::size_t expanded_ = 0;  // tags
+  std::size_t expanded_tags_ = 0;
 };
 
 }  // namespace

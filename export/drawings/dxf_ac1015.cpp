@@ -66,10 +66,11 @@ class Ac1015Writer {
     tags_.text(9, "$DWGCODEPAGE");
     tags_.text(3, "ANSI_1252");
     tags_.text(9, "$MEASUREMENT");
-    tags_.integer(70, 1);
+    tags_.integer(70, 1);  // metric
     tags_.text(9, "$HANDSEED");
-    // Upper bound on the number of records and entities written below.
-    tags_.handle(5, k_first_free + 64 + static_cast<int>(document_.layers.size() + document_.paths.size()));
+    // Above all handles of table records, layers and entities; vertices of 3-D polylines are not counted.
+    constexpr int k_most_records = 64;
+    tags_.handle(5, k_first_free + k_most_records + static_cast<int>(document_.layers.size() + document_.paths.size()));
     tags_.end_section();
   }
 
@@ -105,12 +106,12 @@ class Ac1015Writer {
     begin_table("UCS", k_ucs_table, 0);
     end_table();
     begin_table("APPID", k_appid_table, 1);
-    begin_record("APPID", "AcDbRegAppTableRecord", k_appid_table, "ACAD", next_++);
+    begin_record("APPID", "AcDbRegAppTableRecord", k_appid_table, "ACAD", next_handle_++);
     tags_.integer(70, 0);
     end_table();
     begin_table("DIMSTYLE", k_dimstyle_table, 1);
     tags_.text(100, "AcDbDimStyleTable");
-    begin_record("DIMSTYLE", "AcDbDimStyleTableRecord", k_dimstyle_table, "Standard", next_++, 105);
+    begin_record("DIMSTYLE", "AcDbDimStyleTableRecord", k_dimstyle_table, "Standard", next_handle_++, 105);
     tags_.integer(70, 0);
     end_table();
     begin_table("BLOCK_RECORD", k_block_record_table, 2);
@@ -125,19 +126,21 @@ class Ac1015Writer {
   /// The initial view of a program: the whole drawing.
   void write_vport() {
     const Vec2 middle = 0.5 * (box_.low + box_.high);
-    const double height = std::max({box_.size().y(), box_.size().x() / 1.5, 1.0}) * 1.1;
+    constexpr double k_aspect = 1.5, k_margin = 1.1;  // of the window
+    const double height = std::max({box_.size().y(), box_.size().x() / k_aspect, 1.0}) * k_margin;
     begin_table("VPORT", k_vport_table, 1);
-    begin_record("VPORT", "AcDbViewportTableRecord", k_vport_table, "*Active", next_++);
+    begin_record("VPORT", "AcDbViewportTableRecord", k_vport_table, "*Active", next_handle_++);
     tags_.integer(70, 0);
     tags_.point(10, {0, 0});
     tags_.point(11, {1, 1});
     tags_.point(12, middle);
+    // Snap, grid and direction of view, as in a new drawing.
     tags_.point(13, {0, 0});
     tags_.point(14, {10, 10});
     tags_.point(15, {10, 10});
     tags_.point3(16, 0, 0, 1);
     tags_.point3(17, 0, 0, 0);
-    tags_.reals({{40, height}, {41, 1.5}, {42, 50}, {43, 0}, {44, 0}, {50, 0}, {51, 0}});
+    tags_.reals({{40, height}, {41, k_aspect}, {42, 50}, {43, 0}, {44, 0}, {50, 0}, {51, 0}});
     tags_.integers({{71, 0}, {72, 1000}, {73, 1}, {74, 3}, {75, 0}, {76, 0}, {77, 0}, {78, 0}, {281, 0}, {65, 0}});
     end_table();
   }
@@ -145,7 +148,7 @@ class Ac1015Writer {
   void write_ltypes() {
     begin_table("LTYPE", k_ltype_table, 3);
     for (const std::string_view name : {"ByBlock", "ByLayer", "Continuous"}) {
-      begin_record("LTYPE", "AcDbLinetypeTableRecord", k_ltype_table, name, next_++);
+      begin_record("LTYPE", "AcDbLinetypeTableRecord", k_ltype_table, name, next_handle_++);
       tags_.integer(70, 0);
       tags_.text(3, "");
       tags_.integers({{72, 65}, {73, 0}});
@@ -155,11 +158,11 @@ class Ac1015Writer {
   }
 
   void write_layer(const DxfLayer& layer) {
-    begin_record("LAYER", "AcDbLayerTableRecord", k_layer_table, layer.name, next_++);
+    begin_record("LAYER", "AcDbLayerTableRecord", k_layer_table, layer.name, next_handle_++);
     tags_.integers({{70, 0}, {62, layer.colour}});
     tags_.text(6, "Continuous");
     if (!layer.plotted) tags_.integer(290, 0);
-    tags_.integer(370, -3);
+    tags_.integer(370, -3);  // the default line weight
     tags_.handle(390, k_plot_style);
   }
 
@@ -172,14 +175,14 @@ class Ac1015Writer {
 
   void write_styles() {
     begin_table("STYLE", k_style_table, 1);
-    begin_record("STYLE", "AcDbTextStyleTableRecord", k_style_table, "Standard", next_++);
+    begin_record("STYLE", "AcDbTextStyleTableRecord", k_style_table, "Standard", next_handle_++);
     write_style_values(tags_);
     end_table();
   }
 
   void begin_entity(std::string_view type, std::string_view subclass, int owner, std::string_view layer) {
     tags_.text(0, type);
-    tags_.handle(5, next_++);
+    tags_.handle(5, next_handle_++);
     tags_.handle(330, owner);
     tags_.text(100, "AcDbEntity");
     tags_.text(8, layer);
@@ -206,7 +209,7 @@ class Ac1015Writer {
   void write_polyline(const DxfPath& path) {
     begin_entity("LWPOLYLINE", "AcDbPolyline", k_model_record, path.layer);
     tags_.integer(90, static_cast<int>(path.vertices.size()));
-    tags_.integer(70, path.closed ? 1 : 0);
+    tags_.integer(70, path.closed ? k_closed : 0);
     for (const BulgeVertex& vertex : path.vertices) {
       tags_.point(10, vertex.place);
       if (vertex.bulge != 0) tags_.real(42, vertex.bulge);
@@ -215,19 +218,19 @@ class Ac1015Writer {
 
   /// A 3-D polyline has an entity for each vertex.
   void write_polyline_3d(const DxfPath& path) {
-    const int polyline = next_;
+    const int polyline = next_handle_;
     begin_entity("POLYLINE", "AcDb3dPolyline", k_model_record, path.layer);
     tags_.integer(66, 1);
     tags_.point3(10, 0, 0, 0);
-    tags_.integer(70, 8);
+    tags_.integer(70, k_polyline_3d);
     for (std::size_t i = 0; i < path.vertices.size(); ++i) {
       begin_entity("VERTEX", "AcDbVertex", polyline, path.layer);
       tags_.text(100, "AcDb3dPolylineVertex");
       tags_.point3(10, path.vertices[i].place.x(), path.vertices[i].place.y(), path.heights[i]);
-      tags_.integer(70, 32);
+      tags_.integer(70, k_vertex_3d);
     }
     tags_.text(0, "SEQEND");
-    tags_.handle(5, next_++);
+    tags_.handle(5, next_handle_++);
     tags_.handle(330, polyline);
     tags_.text(100, "AcDbEntity");
     tags_.text(8, path.layer);
@@ -286,7 +289,8 @@ class Ac1015Writer {
     for (const int code : {1, 2, 4, 6}) tags_.text(code, "");
     for (int code = 40; code <= 49; ++code) tags_.real(code, 0);
     tags_.reals({{140, 0}, {141, 0}, {142, 1}, {143, 1}});
-    tags_.integers({{70, tab == 0 ? 1024 : 0}, {72, 1}, {73, 0}, {74, 1}});
+    constexpr int k_model_tab = 1024;
+    tags_.integers({{70, tab == 0 ? k_model_tab : 0}, {72, 1}, {73, 0}, {74, 1}});
     tags_.text(7, "");
     tags_.integers({{75, 0}});
     tags_.reals({{147, 1}, {148, 0}, {149, 0}});
@@ -328,7 +332,7 @@ class Ac1015Writer {
   const DxfDocument& document_;
   Box2d box_;
   DxfTagWriter tags_;
-  int next_ = k_first_free;
+  int next_handle_ = k_first_free;
 };
 
 }  // namespace

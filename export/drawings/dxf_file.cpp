@@ -6,7 +6,8 @@
 namespace fusee::formats {
 namespace {
 
-bool is(const DxfTag& tag, std::string_view keyword) { return tag.code == 0 && tag.value == keyword; }
+/// True for a tag that begins a part of the file of this type, or ends one.
+bool is_keyword(const DxfTag& tag, std::string_view keyword) { return tag.code == 0 && tag.value == keyword; }
 
 class DxfFileReader {
  public:
@@ -14,21 +15,22 @@ class DxfFileReader {
 
   DxfFile read() {
     read_sections();
-    if (!saw_entities_) fail_in_dxf(name_, 0, "the file has no ENTITIES section", "is it a DXF drawing?");
+    if (!has_entities_) fail_in_dxf(name_, 0, "the file has no ENTITIES section", "is it a DXF drawing?");
     if (file_.version.empty()) file_.version = "AC1009";
     return std::move(file_);
   }
 
  private:
   void read_sections() {
-    // dxflib 2.0 writes header variables after the header's end, so values without an entity are skipped there. A file
-    // that ends after its entities lacks only EOF.
-    for (std::optional<DxfTag> next = tags_.required(); next && !is(*next, "EOF");
-         next = saw_entities_ ? tags_.next() : tags_.required()) {
+    for (;;) {
+      // A file that ends after its entities lacks only EOF.
+      const std::optional<DxfTag> next = has_entities_ ? tags_.next() : tags_.required();
+      if (!next || is_keyword(*next, "EOF")) return;
       const DxfTag tag = *next;
-      if (saw_section_ && tag.code != 0) continue;
-      saw_section_ = true;
-      if (!is(tag, "SECTION")) {
+      // dxflib 2.0 writes header variables after the header's end: values between sections are skipped.
+      if (has_section_ && tag.code != 0) continue;
+      has_section_ = true;
+      if (!is_keyword(tag, "SECTION")) {
         fail_in_dxf(name_, tag.line, "a SECTION or EOF should stand here, not " + quoted_bytes(tag.value),
                     "is it a DXF drawing?");
       }
@@ -46,17 +48,17 @@ class DxfFileReader {
     } else if (name == "BLOCKS") {
       read_blocks();
     } else if (name == "ENTITIES") {
-      saw_entities_ = true;
+      has_entities_ = true;
       read_entities(tags_.required(), file_.entities, "ENDSEC");
     } else {
-      while (!is(tags_.required(), "ENDSEC")) {
+      while (!is_keyword(tags_.required(), "ENDSEC")) {
       }
     }
   }
 
   void read_header() {
     std::string_view variable;
-    for (DxfTag tag = tags_.required(); !is(tag, "ENDSEC"); tag = tags_.required()) {
+    for (DxfTag tag = tags_.required(); !is_keyword(tag, "ENDSEC"); tag = tags_.required()) {
       if (tag.code == 9) variable = tag.value;
       if (variable == "$ACADVER" && tag.code == 1) file_.version = std::string(tag.value.substr(0, 16));
       if (variable == "$INSUNITS" && tag.code == 70) {
@@ -68,8 +70,8 @@ class DxfFileReader {
 
   /// Finds layers that are off (negative colour) or frozen (bit 1 of group 70).
   void read_tables() {
-    for (DxfTag tag = tags_.required(); !is(tag, "ENDSEC");) {
-      const bool is_layer = is(tag, "LAYER");
+    for (DxfTag tag = tags_.required(); !is_keyword(tag, "ENDSEC");) {
+      const bool is_layer = is_keyword(tag, "LAYER");
       std::vector<DxfTag> record;
       tag = read_tags(record);
       if (!is_layer) continue;
@@ -78,7 +80,7 @@ class DxfFileReader {
         const bool is_frozen = (values.integer(70, 0) & 1) != 0;
         if (is_frozen || values.integer(62, 7) < 0) file_.hidden_layers[lower(values.text(2))] = is_frozen;
       } catch (const InputError&) {
-        continue;  // numbers that are none hide nothing
+        continue;  // a layer with invalid numbers is shown
       }
     }
   }
@@ -94,7 +96,7 @@ class DxfFileReader {
 
   /// Reads entities, the first of which begins with `tag`, up to group 0 `end`.
   void read_entities(DxfTag tag, std::vector<DxfEntity>& entities, std::string_view end) {
-    while (!is(tag, end)) {
+    while (!is_keyword(tag, end)) {
       if (tag.code != 0) {
         fail_in_dxf(name_, tag.line, "an entity (group 0) should stand here, not group " + std::to_string(tag.code));
       }
@@ -104,7 +106,7 @@ class DxfFileReader {
       tag = read_tags(entity.tags);
       entity.size += entity.tags.size();
       if (entity.type == "POLYLINE") {
-        while (is(tag, "VERTEX")) {
+        while (is_keyword(tag, "VERTEX")) {
           entity.vertices.emplace_back();
           tag = read_tags(entity.vertices.back());
           entity.size += 1 + entity.vertices.back().size();
@@ -115,8 +117,9 @@ class DxfFileReader {
   }
 
   void read_blocks() {
-    for (DxfTag tag = tags_.required(); !is(tag, "ENDSEC");) {
-      if (!is(tag, "BLOCK")) fail_in_dxf(name_, tag.line, "a BLOCK should stand here, not " + quoted_bytes(tag.value));
+    for (DxfTag tag = tags_.required(); !is_keyword(tag, "ENDSEC");) {
+      if (!is_keyword(tag, "BLOCK"))
+        fail_in_dxf(name_, tag.line, "a BLOCK should stand here, not " + quoted_bytes(tag.value));
       std::vector<DxfTag> head;
       tag = read_tags(head);
       const DxfValues values(name_, head);
@@ -130,8 +133,8 @@ class DxfFileReader {
 
   const std::string& name_;
   DxfTagReader tags_;
-  bool saw_section_ = false;
-  bool saw_entities_ = false;
+  bool has_section_ = false;
+  bool has_entities_ = false;
   DxfFile file_;
 };
 
@@ -139,29 +142,29 @@ class DxfFileReader {
 
 double DxfFile::unit_in_mm() const {
   switch (units.value_or(0)) {
-    case 1:
+    case 1:  // inch
       return 25.4;
-    case 2:
+    case 2:  // foot
       return 304.8;
-    case 5:
+    case 5:  // centimetre
       return 10;
-    case 6:
+    case 6:  // metre
       return 1000;
-    case 8:
+    case 8:  // microinch
       return 25.4e-6;
-    case 9:
+    case 9:  // mil
       return 0.0254;
-    case 10:
+    case 10:  // yard
       return 914.4;
-    case 13:
+    case 13:  // micrometre
       return 1e-3;
-    case 14:
+    case 14:  // decimetre
       return 100;
-    case 21:  // feet and inches of the US survey
+    case 21:  // foot of the US survey: 1200/3937 m
       return 1.2e6 / 3937;
-    case 22:
+    case 22:  // inch of the US survey
       return 1e5 / 3937;
-    default:
+    default:  // 4: millimetre; no unit, or one in which no part is drawn
       return 1;
   }
 }

@@ -26,8 +26,9 @@ void write_r12_tables(DxfTagWriter& tags, const DxfDocument& document) {
     tags.integers({{70, 0}, {62, colour}});
     tags.text(6, "CONTINUOUS");
   };
-  layer("0", 7);
-  for (const DxfLayer& l : document.layers) layer(l.name, l.colour);
+  constexpr int k_white = 7;
+  layer("0", k_white);
+  for (const DxfLayer& each : document.layers) layer(each.name, each.colour);
   tags.text(0, "ENDTAB");
   begin_table("STYLE", 1);
   tags.text(0, "STYLE");
@@ -43,13 +44,13 @@ void write_r12_polyline(DxfTagWriter& tags, const DxfPath& path) {
   tags.integer(66, 1);
   tags.point3(10, 0, 0, 0);
   const bool is_in_space = !path.heights.empty();
-  tags.integer(70, (path.closed ? 1 : 0) + (is_in_space ? 8 : 0));
+  tags.integer(70, (path.closed ? k_closed : 0) + (is_in_space ? k_polyline_3d : 0));
   for (std::size_t i = 0; i < path.vertices.size(); ++i) {
     const BulgeVertex& vertex = path.vertices[i];
     tags.text(0, "VERTEX");
     tags.text(8, path.layer);
     tags.point3(10, vertex.place.x(), vertex.place.y(), is_in_space ? path.heights[i] : 0);
-    if (is_in_space) tags.integer(70, 32);
+    if (is_in_space) tags.integer(70, k_vertex_3d);
     if (vertex.bulge != 0) tags.real(42, vertex.bulge);
   }
   tags.text(0, "SEQEND");

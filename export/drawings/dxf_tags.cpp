@@ -61,12 +61,12 @@ double dxf_number(const std::string& file, const DxfTag& tag) {
   if (!text.empty() && text[0] == '+') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool tiny = error == std::errc::result_out_of_range && text.find("e-") != std::string_view::npos;
-  if (!tiny && (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))) {
+  const bool underflows = error == std::errc::result_out_of_range && text.find("e-") != std::string_view::npos;
+  if (!underflows && (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))) {
     fail_in_dxf(file, tag.line,
                 "a number should stand here (group " + std::to_string(tag.code) + "), not " + quoted_bytes(tag.value));
   }
-  return tiny ? 0 : value;
+  return underflows ? 0 : value;
 }
 
 const DxfTag* DxfValues::find(int code) const {

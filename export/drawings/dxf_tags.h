@@ -1,5 +1,9 @@
 /// \file
 /// Internal: DXF tags, which are a group code and a value on a line each. Every error names its line.
+///
+/// Group codes that recur in reader and writers: 0 type of what begins here, 2 name, 5 handle, 8 layer, 9 header
+/// variable, 10 + 20 + 30 point, 42 bulge, 62 colour, 67 paper space, 70 flags or count, 210 + 220 + 230 normal of the
+/// entity's plane, 330 handle of the owner.
 #pragma once
 
 #include <optional>

@@ -13,6 +13,12 @@ namespace fusee::formats {
 std::string r12_text(const DxfDocument& document);
 std::string ac1015_text(const DxfDocument& document);
 
+// Flags of polylines and vertices, group 70 ------------------------------------------------------------------------
+
+inline constexpr int k_closed = 1;
+inline constexpr int k_polyline_3d = 8;
+inline constexpr int k_vertex_3d = 32;
+
 // Common to both versions -------------------------------------------------------------------------------------------
 
 void write_remarks(DxfTagWriter& tags, const DxfDocument& document);

@@ -7,6 +7,7 @@
 namespace fusee::formats {
 namespace {
 
+constexpr int k_insunits_mm = 4;
 constexpr double k_box_sagitta = 0.001;  // mm; the box is for display only
 
 /// Comments are plain ASCII, because the code page of a DXF file depends on its version.
@@ -37,7 +38,7 @@ void write_variables(DxfTagWriter& tags, std::string_view version, const Box2d& 
   variable("$LIMMAX");
   tags.point(10, box.high);
   variable("$INSUNITS");
-  tags.integer(70, 4);
+  tags.integer(70, k_insunits_mm);
 }
 
 void write_circle_values(DxfTagWriter& tags, const solid::RoundHole& circle) {
@@ -54,7 +55,7 @@ void write_style_values(DxfTagWriter& tags) {
   tags.text(4, "");
 }
 
-void DxfDocument::closed(std::string layer, const Contour& contour, const Vec2& shift) {
+void DxfDocument::add_closed(std::string layer, const Contour& contour, const Vec2& shift) {
   DxfPath path{std::move(layer), {}, true, contour.circle};
   if (path.circle) {
     path.circle->centre += shift;
@@ -65,15 +66,15 @@ void DxfDocument::closed(std::string layer, const Contour& contour, const Vec2& 
   paths.push_back(std::move(path));
 }
 
-void DxfDocument::closed_arcs(std::string layer, std::vector<BulgeVertex> vertices) {
+void DxfDocument::add_closed_arcs(std::string layer, std::vector<BulgeVertex> vertices) {
   paths.push_back({std::move(layer), std::move(vertices), true, {}});
 }
 
-void DxfDocument::open(std::string layer, const Polygon& points) {
+void DxfDocument::add_open(std::string layer, const Polygon& points) {
   paths.push_back({std::move(layer), vertices_of({points, {}, 0}), false, {}});
 }
 
-void DxfDocument::in_space(std::string layer, const std::vector<Vec3>& points) {
+void DxfDocument::add_in_space(std::string layer, const std::vector<Vec3>& points) {
   DxfPath path{std::move(layer), {}, false, {}};
   for (const Vec3& point : points) {
     path.vertices.push_back({point.head<2>(), 0});
@@ -82,8 +83,8 @@ void DxfDocument::in_space(std::string layer, const std::vector<Vec3>& points) {
   paths.push_back(std::move(path));
 }
 
-void DxfDocument::text(const std::string& layer, std::string_view line, const Vec2& origin, double height) {
-  for (const Polygon& stroke : stroke_text(line, origin, height)) open(layer, stroke);
+void DxfDocument::add_text(const std::string& layer, std::string_view line, const Vec2& origin, double height) {
+  for (const Polygon& stroke : stroke_text(line, origin, height)) add_open(layer, stroke);
 }
 
 std::string dxf_text(const DxfDocument& document, DxfVersion version) {

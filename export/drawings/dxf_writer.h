@@ -32,14 +32,14 @@ struct DxfDocument {
   std::vector<DxfLayer> layers;
   std::vector<DxfPath> paths;  ///< drawn in this order
 
-  void closed(std::string layer, const Polygon& points) { closed(std::move(layer), Contour{points, {}, 0}); }
-  void closed(std::string layer, const Contour& contour, const Vec2& shift = Vec2::Zero());
-  void closed_arcs(std::string layer, std::vector<BulgeVertex> vertices);
-  void open(std::string layer, const Polygon& points);
+  void add_closed(std::string layer, const Polygon& points) { add_closed(std::move(layer), Contour{points, {}, 0}); }
+  void add_closed(std::string layer, const Contour& contour, const Vec2& shift = Vec2::Zero());
+  void add_closed_arcs(std::string layer, std::vector<BulgeVertex> vertices);
+  void add_open(std::string layer, const Polygon& points);
   /// Adds an open 3-D polyline.
-  void in_space(std::string layer, const std::vector<Vec3>& points);
+  void add_in_space(std::string layer, const std::vector<Vec3>& points);
   /// Adds a line of single-stroke text with its lower left corner at `origin`.
-  void text(const std::string& layer, std::string_view text, const Vec2& origin, double height);
+  void add_text(const std::string& layer, std::string_view text, const Vec2& origin, double height);
 };
 
 std::string dxf_text(const DxfDocument& document, DxfVersion version);

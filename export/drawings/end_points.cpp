@@ -6,6 +6,7 @@
 namespace fusee::formats {
 
 std::size_t EndPoints::CellHash::operator()(const Cell& cell) const {
+  // Odd multipliers with mixed bits (those of xxHash64) spread adjacent cells.
   const auto x = static_cast<std::uint64_t>(cell.x) * 0x9E3779B97F4A7C15u;
   const auto y = static_cast<std::uint64_t>(cell.y) * 0xC2B2AE3D27D4EB4Fu;
   return static_cast<std::size_t>((x ^ (x >> 31)) + (y ^ (y >> 29)));

@@ -10,10 +10,10 @@
 namespace fusee::formats {
 namespace {
 
-constexpr double k_largest = 1e9;  // radius or axis
+constexpr double k_largest = 1e9;  // radius or axis, in units of the file
 
-EntityCurve nothing_drawn(std::string passed_over, const DxfEntity& entity, const std::string& why) {
-  return {std::nullopt, std::move(passed_over), "this " + std::string(entity.type) + " draws nothing: " + why};
+EntityCurve nothing_drawn(std::string skipped_kind, const DxfEntity& entity, const std::string& why) {
+  return {std::nullopt, std::move(skipped_kind), "this " + std::string(entity.type) + " draws nothing: " + why};
 }
 
 EntityCurve lwpolyline(const DxfEntity& entity, const std::string& file, const DrawingPlacement& place,
@@ -30,14 +30,15 @@ EntityCurve lwpolyline(const DxfEntity& entity, const std::string& file, const D
 
 EntityCurve polyline(const DxfEntity& entity, const std::string& file, const DrawingPlacement& place, double sagitta) {
   const int flags = DxfValues(file, entity.tags).integer(70, 0);
-  if (flags & (16 | 64)) return {std::nullopt, " mesh"};
+  constexpr int k_closed_flag = 1, k_polygon_mesh = 16, k_polyface_mesh = 64, k_control_frame = 16;
+  if (flags & (k_polygon_mesh | k_polyface_mesh)) return {std::nullopt, " mesh"};
   std::vector<BulgeVertex> vertices;
   for (const std::vector<DxfTag>& tags : entity.vertices) {
     const DxfValues vertex(file, tags);
-    if (vertex.integer(70, 0) & 16) continue;  // a spline's control frame, not its curve
+    if (vertex.integer(70, 0) & k_control_frame) continue;  // of a spline, whose curve has vertices of its own
     vertices.push_back({vertex.point(10), vertex.real(42, 0)});
   }
-  return {sampled_bulges(vertices, flags & 1, sagitta, place)};
+  return {sampled_bulges(vertices, flags & k_closed_flag, sagitta, place)};
 }
 
 EntityCurve circle_or_arc(const DxfEntity& entity, const std::string& file, const DrawingPlacement& place,
@@ -72,10 +73,10 @@ EntityCurve ellipse(const DxfEntity& entity, const std::string& file, const Draw
   }
   EllipticArc arc{values.point(10), major, turned_left(major) * (values.real(230, 1) < 0 ? -ratio : ratio)};
   arc.from = std::remainder(values.real(41, 0), k_two_pi);
-  const double sweep_asked = values.real(42, k_two_pi) - values.real(41, 0);
+  const double declared_sweep = values.real(42, k_two_pi) - values.real(41, 0);
   arc.to = std::remainder(values.real(42, k_two_pi), k_two_pi);
   if (arc.to <= arc.from) arc.to += k_two_pi;
-  if (std::abs(sweep_asked) >= k_two_pi - 1e-9) arc.to = arc.from + k_two_pi;
+  if (std::abs(declared_sweep) >= k_two_pi - 1e-9) arc.to = arc.from + k_two_pi;
   EntityCurve drawn{sampled_arc(arc.placed(place), sagitta)};
   if (std::abs(ratio) > 1 + k_rounding) {
     drawn.remark = "the ratio of the axes of this ELLIPSE is " + shortest(ratio) +

@@ -13,10 +13,10 @@ namespace fusee::formats {
 /// Drawings with more points are rejected.
 inline constexpr std::size_t k_most_points = 4'000'000;
 
-/// The curve, or the kind of entity that was skipped (" mesh"; "" if the entity is no line at all).
+/// The curve, or the kind of a skipped entity, such as " mesh"; "" if the entity is no line at all.
 struct EntityCurve {
   std::optional<SampledCurve> curve = std::nullopt;
-  std::string passed_over = {};
+  std::string skipped_kind = {};
   std::string remark = {};  ///< about an unusual entity that was accepted
 };
 

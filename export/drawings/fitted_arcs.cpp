@@ -9,7 +9,7 @@ namespace fusee::formats {
 namespace {
 
 constexpr double k_most_turn = 1.5;          // rad, of one biarc
-constexpr std::size_t k_longest_span = 200;  // of an outline, for one biarc
+constexpr std::size_t k_longest_span = 200;  // points of an outline for one biarc
 
 struct Knot {
   Vec2 place;
@@ -18,8 +18,9 @@ struct Knot {
 
 struct Arc {
   Vec2 from, to;
-  double bulge = 0;
+  double bulge = 0;  ///< tan of a quarter of the turn
 
+  /// Distance of a point from the whole circle, or from the line through both ends if the bulge is 0.
   double distance(const Vec2& point) const {
     const Vec2 chord = to - from;
     if (std::abs(bulge) < 1e-9) return std::abs(cross(chord, point - from)) / chord.norm();
@@ -28,6 +29,7 @@ struct Arc {
   }
 };
 
+/// The arc that leaves `from` along its tangent. Its bulge is tan(turn / 4), and tangent and chord enclose turn / 2.
 Arc arc_between(const Knot& from, const Vec2& to) {
   const Vec2 chord = to - from.place;
   return {from.place, to,
@@ -44,14 +46,16 @@ struct Biarc {
   }
 };
 
-/// Both arcs have equally long tangents: d (t₀ + t₁) and a segment of length 2 d lead from end to end (Bolton 1975).
+/// The biarc whose four tangents have the same length d (Bolton 1975). From end to end lead d t₀, a segment of length
+/// 2 d along the middle tangent, and d t₁. So |c − d (t₀ + t₁)| = 2 d with the chord c, which gives
+/// 2 (1 − t₀ · t₁) d² + 2 c · (t₀ + t₁) d − c² = 0.
 std::optional<Biarc> biarc_between(const Knot& from, const Knot& to) {
-  const Vec2 across = to.place - from.place;
-  const double along = across.dot(from.tangent + to.tangent), size = across.squaredNorm();
+  const Vec2 chord = to.place - from.place;
+  const double along = chord.dot(from.tangent + to.tangent), chord_squared = chord.squaredNorm();
   if (!(along > 0)) return std::nullopt;
   const double bend = 2 * (1 - from.tangent.dot(to.tangent));
-  const double d = size / (along + std::sqrt(along * along + bend * size));
-  const Vec2 middle_tangent = (across - d * (from.tangent + to.tangent)).normalized();
+  const double d = chord_squared / (along + std::sqrt(along * along + bend * chord_squared));
+  const Vec2 middle_tangent = (chord - d * (from.tangent + to.tangent)).normalized();
   const Vec2 middle = from.place + d * (from.tangent + middle_tangent);
   return Biarc{arc_between(from, middle), arc_between({middle, middle_tangent}, to.place), middle_tangent};
 }
@@ -65,9 +69,9 @@ class ArcFit {
     std::vector<BulgeVertex> vertices;
     for (std::size_t i = 0; i < points_.size();) {
       std::size_t last = i + 1;
-      std::optional<Biarc> longest = fitting(i, last);
+      std::optional<Biarc> longest = biarc_over(i, last);
       while (longest && last < points_.size() && last < i + k_longest_span) {
-        const std::optional<Biarc> longer = fitting(i, last + 1);
+        const std::optional<Biarc> longer = biarc_over(i, last + 1);
         if (!longer) break;
         longest = longer;
         ++last;
@@ -85,7 +89,8 @@ class ArcFit {
     return {points_[k], turned_left(outline_.points[k].normal)};
   }
 
-  std::optional<Biarc> fitting(std::size_t from, std::size_t to) const {
+  /// The biarc from one point to another, if it is convex and within the tolerance of the points between.
+  std::optional<Biarc> biarc_over(std::size_t from, std::size_t to) const {
     const Knot start = knot(from), end = knot(to);
     const double turn = elementary::atan2(cross(start.tangent, end.tangent), start.tangent.dot(end.tangent));
     if (!(turn >= 0) || turn > k_most_turn) return std::nullopt;

@@ -15,8 +15,8 @@ constexpr std::size_t k_most_between = 16;
 
 /// One end of an open path.
 struct PathEnd {
-  std::size_t path = 0;
-  bool last = false;
+  std::size_t path = 0;  ///< index
+  bool last = false;     ///< at its last point, else at its first
 };
 
 class PathJoiner {
@@ -58,6 +58,7 @@ class PathJoiner {
             std::equal(one.points.begin(), one.points.end(), other.points.rbegin(), is_near));
   }
 
+  /// All ends that meet the `last` (or first) end of a path, including that end.
   std::vector<PathEnd>& ends_of(std::size_t path, bool last) {
     const Polygon& points = paths_[path].points;
     Layer& layer = layers_[paths_[path].layer];
@@ -67,7 +68,7 @@ class PathJoiner {
   }
 
   /// The end that continues `path` at its `last` end, if there is exactly one.
-  std::optional<PathEnd> next(std::size_t path, bool last) {
+  std::optional<PathEnd> continuation(std::size_t path, bool last) {
     const std::vector<PathEnd>& ends = ends_of(path, last);
     if (ends.size() != 2) return std::nullopt;
     const PathEnd& other = ends[0].path == path && ends[0].last == last ? ends[1] : ends[0];
@@ -76,7 +77,7 @@ class PathJoiner {
 
   /// Extends `chain`, which ends with the `last` end of path `i`.
   void extend(Polygon& chain, std::size_t i, bool last) {
-    while (const auto end = next(i, last)) {
+    while (const auto end = continuation(i, last)) {
       const Polygon& points = paths_[end->path].points;
       if (end->last) {
         chain.insert(chain.end(), points.rbegin() + 1, points.rend());
@@ -105,8 +106,9 @@ class PathJoiner {
 
   struct Layer {
     EndPoints points;
-    std::vector<std::vector<PathEnd>> ends;
-    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> between;  ///< paths between two points
+    std::vector<std::vector<PathEnd>> ends;  ///< by number of the point
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>>
+        between;  ///< paths, by the numbers of both ends
   };
   std::vector<DrawingPath>& paths_;
   std::vector<bool> used_, repeated_;

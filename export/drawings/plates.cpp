@@ -20,13 +20,13 @@
 namespace fusee::formats {
 namespace {
 
-constexpr double k_least_wall = 1.0;     // least material between cuts, mm
-constexpr double k_least_feature = 1.0;  // narrowest feature that a laser cuts cleanly, mm
-constexpr double k_groove_room = 1.1;    // width between the flanges, in tendon diameters
-constexpr double k_engraving_margin = 0.5;
+constexpr double k_least_wall = 1.0;        // least material between cuts, mm
+constexpr double k_least_feature = 1.0;     // narrowest feature that a laser cuts cleanly, mm
+constexpr double k_groove_width = 1.1;      // between the flanges, in tendon diameters
+constexpr double k_engraving_margin = 0.5;  // mm
 
-/// The features of all plates, collected once.
-struct Stock {
+/// The features that plates are cut with, collected once.
+struct CutFeatures {
   const Product& product;
   const Mechanism& mechanism;
   solid::BodyLayout layout;
@@ -35,9 +35,9 @@ struct Stock {
   solid::FlangeRims rims;
   Polygon floor1;
   Polygon floor2;
-  double wall;
+  double wall;  ///< least material between cuts, mm
 
-  explicit Stock(const Product& made)
+  explicit CutFeatures(const Product& made)
       : product(made),
         mechanism(made.joint.mechanism),
         layout(layout_to_cut(made)),
@@ -48,7 +48,7 @@ struct Stock {
         floor2(profile::parallel(made.synthesis.p2, -0.5 * mechanism.tendon.diameter)),
         wall(std::max(layout.min_wall, k_least_wall)) {
     std::vector<Polygon> holes = layout.bore.screw_holes;
-    // A recess goes through all plates and includes the centre hole above it.
+    // A recess goes through all plates and includes the centre hole above it, which is the first hole.
     if (layout.bore.horn_recess > 0) holes.erase(holes.begin());
     for (const Polygon& hole : holes) screw_holes.push_back(circle_contour(solid::circle_within(hole)));
   }
@@ -57,7 +57,7 @@ struct Stock {
     return circle_contour({anchor.pocket, 2 * layout.pocket_radius});
   }
   /// The cuts into a plate's edge: channel and pocket in the groove's plate, or a slot to the face in its flange's.
-  std::vector<Polygon> in_edge(const solid::Anchor& anchor) const {
+  std::vector<Polygon> edge_cuts(const solid::Anchor& anchor) const {
     std::vector<Polygon> parts{anchor.channel};
     if (!anchor.seat) parts.push_back(pocket(anchor).points);
     return parts;
@@ -67,47 +67,49 @@ struct Stock {
 // ---- Dowels ---------------------------------------------------------------------------------------------------------
 
 /// The material common to all plates: within both floors, clear of all cuts.
-Material2d common_material(const Stock& stock) {
+Material2d common_material(const CutFeatures& features) {
   Material2d material;
-  material.add_outline(stock.floor1);
-  material.add_outline(stock.floor2);
-  material.add_hole(stock.bore.points);
-  for (const Contour& hole : stock.screw_holes) material.add_hole(hole.points);
-  for (const solid::Anchor& anchor : stock.product.pulley.anchors) {
+  material.add_outline(features.floor1);
+  material.add_outline(features.floor2);
+  material.add_hole(features.bore.points);
+  for (const Contour& hole : features.screw_holes) material.add_hole(hole.points);
+  for (const solid::Anchor& anchor : features.product.pulley.anchors) {
     if (anchor.channel.size() > 2) material.add_hole(anchor.channel);
-    if (stock.layout.pocket_radius > 0 && !anchor.seat) material.add_hole(stock.pocket(anchor).points);
+    if (features.layout.pocket_radius > 0 && !anchor.seat) material.add_hole(features.pocket(anchor).points);
   }
   return material;
 }
 
-std::optional<std::pair<Vec2, Vec2>> dowel_places(const Stock& stock, const Material2d& material, double diameter) {
-  return solid::pin_places(circumradius(stock.floor1), diameter, stock.wall,
-                           [&](const Vec2& place) { return material.holds(place, 0.5 * diameter + stock.wall); });
+std::optional<std::pair<Vec2, Vec2>> dowel_places(const CutFeatures& features, const Material2d& material,
+                                                  double diameter) {
+  return solid::pin_places(circumradius(features.floor1), diameter, features.wall,
+                           [&](const Vec2& place) { return material.holds(place, 0.5 * diameter + features.wall); });
 }
 
-void place_dowels(Plates& plates, const Stock& stock) {
-  const double wanted = stock.mechanism.cut.dowel;
-  if (!(wanted > 0)) {
+void place_dowels(Plates& plates, const CutFeatures& features) {
+  const double declared = features.mechanism.cut.dowel;
+  if (!(declared > 0)) {
     plates.notes.push_back("no dowels: cut.dowel_mm = 0");
     return;
   }
-  const Material2d material = common_material(stock);
-  for (const double share : {1.0, 0.85, 0.7, 0.5, 0.35}) {
-    const double diameter = share * wanted;
-    if (diameter - stock.mechanism.cut.kerf < k_least_feature) break;  // the cutter's path would be too narrow
-    const auto places = dowel_places(stock, material, diameter);
+  const Material2d material = common_material(features);
+  constexpr double k_shares[] = {1.0, 0.85, 0.7, 0.5, 0.35};  // of the declared diameter, until there is space
+  for (const double share : k_shares) {
+    const double diameter = share * declared;
+    if (diameter - features.mechanism.cut.kerf < k_least_feature) break;  // the cutter's path would be too narrow
+    const auto places = dowel_places(features, material, diameter);
     if (!places) continue;
     plates.dowels = {places->first, places->second};
     plates.dowel_diameter = diameter;
     if (share < 1)
       plates.notes.push_back(
-          fmt::format("dowels of {} mm: there is no space for {} mm", rounded(diameter), rounded(wanted)));
+          fmt::format("dowels of {} mm: there is no space for {} mm", rounded(diameter), rounded(declared)));
     return;
   }
   const char* why =
-      wanted - stock.mechanism.cut.kerf < k_least_feature ? "the cut would be too narrow" : "there is no space";
+      declared - features.mechanism.cut.kerf < k_least_feature ? "the cut would be too narrow" : "there is no space";
   plates.notes.push_back(
-      fmt::format("no dowels: {} for two of {} mm; align the plates on the shaft", why, rounded(wanted)));
+      fmt::format("no dowels: {} for two of {} mm; align the plates on the shaft", why, rounded(declared)));
 }
 
 // ---- Shapes ---------------------------------------------------------------------------------------------------------
@@ -118,7 +120,8 @@ void note_once(Plates& plates, const std::string& note) {
 
 class LayerMaker {
  public:
-  LayerMaker(Plates& plates, const Stock& stock) : plates_(plates), stock_(stock), kerf_(stock.mechanism.cut.kerf) {}
+  LayerMaker(Plates& plates, const CutFeatures& features)
+      : plates_(plates), features_(features), kerf_(features.mechanism.cut.kerf) {}
 
   /// `channels`: anchors that are cut into this plate's edge; `pockets`: those whose pocket is a hole in it.
   void add(const std::string& name, int count, const Polygon& outline,
@@ -127,26 +130,26 @@ class LayerMaker {
     layer.name = name;
     layer.count = count;
     layer.outer = {outline};
-    layer.cut_outer = {cut_round(outline, 0.5 * kerf_)};
+    layer.cut_outer = {cut_around(outline, 0.5 * kerf_)};
     for (const solid::Anchor* anchor : channels) cut_channel(layer, *anchor);
-    add_hole(layer, stock_.bore, "bore");
-    for (const Contour& hole : stock_.screw_holes) add_hole(layer, hole, "screw hole");
+    add_hole(layer, features_.bore, "bore");
+    for (const Contour& hole : features_.screw_holes) add_hole(layer, hole, "screw hole");
     for (const Vec2& dowel : plates_.dowels)
       add_hole(layer, circle_contour({dowel, plates_.dowel_diameter}), "dowel hole");
-    for (const solid::Anchor* anchor : pockets) add_hole(layer, stock_.pocket(*anchor), "knot pocket");
+    for (const solid::Anchor* anchor : pockets) add_hole(layer, features_.pocket(*anchor), "knot pocket");
     plates_.layers.push_back(std::move(layer));
   }
 
  private:
-  void add_hole(PlateLayer& layer, const Contour& hole, const char* what) {
+  void add_hole(PlateLayer& layer, const Contour& hole, const char* name) {
     const auto path = cut_hole(hole, kerf_);
     if (!path) {
-      note_once(plates_, fmt::format("the {} is omitted: a kerf of {} mm is wider", what, rounded(kerf_)));
+      note_once(plates_, fmt::format("the {} is omitted: a kerf of {} mm is wider", name, rounded(kerf_)));
       return;
     }
     if (bounding_box(path->points).size().minCoeff() < k_least_feature) {
       note_once(plates_, fmt::format("{}: the {} of {} mm is omitted, the cut would be narrower than {} mm: drill it",
-                                     layer.name, what, rounded(bounding_box(hole.points).size().minCoeff(), 3),
+                                     layer.name, name, rounded(bounding_box(hole.points).size().minCoeff(), 3),
                                      rounded(k_least_feature)));
       return;
     }
@@ -159,7 +162,7 @@ class LayerMaker {
   void cut_channel(PlateLayer& layer, const solid::Anchor& anchor) {
     std::vector<Polygon> finished;
     std::vector<Polygon> path;
-    for (const Polygon& part : stock_.in_edge(anchor)) {
+    for (const Polygon& part : features_.edge_cuts(anchor)) {
       const auto inner = part.size() > 2 && is_simple(part) ? cut_hole({part, {}, 0}, kerf_) : std::nullopt;
       if (!inner) {
         note_once(plates_, fmt::format("a tendon channel is omitted: a kerf of {} mm is wider", rounded(kerf_)));
@@ -186,40 +189,40 @@ class LayerMaker {
   }
 
   Plates& plates_;
-  const Stock& stock_;
+  const CutFeatures& features_;
   double kerf_;
 };
 
 /// Radius of the hub's disc, wide enough for the dowels.
-double hub_radius(const Stock& stock, const Plates& plates) {
-  double radius = stock.layout.hub_radius;
+double hub_radius(const CutFeatures& features, const Plates& plates) {
+  double radius = features.layout.hub_radius;
   for (const Vec2& dowel : plates.dowels)
-    radius = std::max(radius, dowel.norm() + 0.5 * plates.dowel_diameter + stock.wall);
+    radius = std::max(radius, dowel.norm() + 0.5 * plates.dowel_diameter + features.wall);
   return radius;
 }
 
-void add_layers(Plates& plates, const Stock& stock) {
-  const double t = stock.mechanism.cut.plate;
-  const int flange = plates_for(stock.layout.flange_thickness, t);
-  const int core = plates_for(k_groove_room * stock.mechanism.tendon.diameter, t);
-  const auto anchors_of = [&stock](transmission::Side side, bool through_face) {
+void add_layers(Plates& plates, const CutFeatures& features) {
+  const double thickness = features.mechanism.cut.plate;
+  const int flange = plates_for(features.layout.flange_thickness, thickness);
+  const int core = plates_for(k_groove_width * features.mechanism.tendon.diameter, thickness);
+  const auto anchors_of = [&features](transmission::Side side, bool through_face) {
     std::vector<const solid::Anchor*> anchors;
-    if (stock.layout.pocket_radius <= 0) return anchors;
-    for (const solid::Anchor& anchor : stock.product.pulley.anchors) {
+    if (features.layout.pocket_radius <= 0) return anchors;
+    for (const solid::Anchor& anchor : features.product.pulley.anchors) {
       if (anchor.side == side && anchor.seat.has_value() == through_face) anchors.push_back(&anchor);
     }
     return anchors;
   };
   const auto left = anchors_of(transmission::Side::left, false), right = anchors_of(transmission::Side::right, false);
-  LayerMaker maker(plates, stock);
-  maker.add("FLANGE 1", flange, stock.rims.lower, anchors_of(transmission::Side::left, true), left);
-  maker.add("P1 CORE", core, stock.floor1, left, {});
-  maker.add("MIDDLE", flange, stock.rims.middle, {}, {});
-  maker.add("P2 CORE", core, stock.floor2, right, {});
-  maker.add("FLANGE 2", flange, stock.rims.upper, anchors_of(transmission::Side::right, true), right);
-  if (stock.layout.hub_radius > 0) {
-    maker.add("HUB", plates_for(stock.layout.z_hub - stock.layout.z_top, t),
-              circle_polygon({0, 0}, hub_radius(stock, plates)), {}, {});
+  LayerMaker maker(plates, features);
+  maker.add("FLANGE 1", flange, features.rims.lower, anchors_of(transmission::Side::left, true), left);
+  maker.add("P1 CORE", core, features.floor1, left, {});
+  maker.add("MIDDLE", flange, features.rims.middle, {}, {});
+  maker.add("P2 CORE", core, features.floor2, right, {});
+  maker.add("FLANGE 2", flange, features.rims.upper, anchors_of(transmission::Side::right, true), right);
+  if (features.layout.hub_radius > 0) {
+    maker.add("HUB", plates_for(features.layout.z_hub - features.layout.z_top, thickness),
+              circle_polygon({0, 0}, hub_radius(features, plates)), {}, {});
   }
 }
 
@@ -248,13 +251,15 @@ void engrave_home(PlateLayer& layer, const Material2d& material) {
 std::optional<Vec2> label_place(const PlateLayer& layer, const Material2d& material, const Vec2& size) {
   const Box2d box = bounding_box(layer.outer.front());
   for (double y = box.low.y(); y + size.y() < box.high.y(); y += 1.0) {
-    for (int side = 0; side < 40; ++side) {
-      // Places alternate between left and right, from the middle outward.
-      const double x = (side % 2 ? 1 : -1) * 0.5 * (side + 1) / 2.0 * (box.size().x() / 20) - 0.5 * size.x();
+    for (int step = 0; step < 40; ++step) {
+      // Places alternate between left and right, from the middle outward, by eightieths of the plate's width.
+      const int side = step % 2 ? 1 : -1;
+      const double x = side * 0.5 * (step + 1) / 2.0 * (box.size().x() / 20) - 0.5 * size.x();
       if (x < box.low.x() || x + size.x() > box.high.x()) continue;
-      const bool on_mark =
-          !layer.engraving.empty() && x < 0.5 && x + size.x() > -0.5 && y + size.y() > layer.engraving[0][0].y() - 0.5;
-      if (!on_mark && material.holds_box({x, y}, size, k_engraving_margin)) return Vec2(x, y);
+      const double margin = k_engraving_margin;
+      const bool is_on_home_mark = !layer.engraving.empty() && x < margin && x + size.x() > -margin &&
+                                   y + size.y() > layer.engraving[0][0].y() - margin;
+      if (!is_on_home_mark && material.holds_box({x, y}, size, k_engraving_margin)) return Vec2(x, y);
     }
   }
   return std::nullopt;
@@ -285,37 +290,38 @@ void engrave(Plates& plates, std::size_t index, int total) {
 
 // ---- Notes ----------------------------------------------------------------------------------------------------------
 
-void describe_stack(Plates& plates, const Stock& stock) {
-  const double t = stock.mechanism.cut.plate;
+void describe_stack(Plates& plates, const CutFeatures& features) {
+  const double thickness = features.mechanism.cut.plate;
   std::vector<std::string> lines;
   int first = 1;
   for (const PlateLayer& layer : plates.layers) {
     const int last = first + layer.count - 1;
     const std::string which =
         layer.count == 1 ? fmt::format("plate {}", first) : fmt::format("plates {} to {}", first, last);
-    lines.push_back(
-        fmt::format("{}: {} - z {} to {} mm", layer.name, which, rounded((first - 1) * t), rounded(last * t)));
+    lines.push_back(fmt::format("{}: {} - z {} to {} mm", layer.name, which, rounded((first - 1) * thickness),
+                                rounded(last * thickness)));
     first = last + 1;
   }
-  const double room = t * plates.layers[1].count;
-  const double d = stock.mechanism.tendon.diameter;
+  const double groove_width = thickness * plates.layers[1].count;  // "P1 CORE" is between the flanges
+  const double tendon_diameter = features.mechanism.tendon.diameter;
+  lines.push_back(fmt::format("stack from plate 1 upward, numbers facing up, home marks in line; plates of {} mm",
+                              rounded(thickness)));
   lines.push_back(
-      fmt::format("stack from plate 1 upward, numbers facing up, home marks in line; plates of {} mm", rounded(t)));
-  lines.push_back(fmt::format("the grooves are {} mm wide for a tendon of {} mm", rounded(room), rounded(d)));
-  if (stock.layout.set_screw.present) lines.push_back("the plates have no set screw: drill it across the hub");
-  if (std::any_of(stock.product.pulley.anchors.begin(), stock.product.pulley.anchors.end(),
+      fmt::format("the grooves are {} mm wide for a tendon of {} mm", rounded(groove_width), rounded(tendon_diameter)));
+  if (features.layout.set_screw.present) lines.push_back("the plates have no set screw: drill it across the hub");
+  if (std::any_of(features.product.pulley.anchors.begin(), features.product.pulley.anchors.end(),
                   [](const solid::Anchor& anchor) { return anchor.tail.has_value(); }))
     lines.push_back("the plates have no slots for the tendons' tails: glue the tails down");
-  if (stock.layout.bore.horn_recess > 0)
+  if (features.layout.bore.horn_recess > 0)
     lines.push_back(fmt::format("the horn's recess goes through all plates; it would be {} mm deep",
-                                rounded(stock.layout.bore.horn_recess)));
+                                rounded(features.layout.bore.horn_recess)));
   plates.notes.insert(plates.notes.begin(), lines.begin(), lines.end());
 }
 
 /// Notes narrow cut features.
-void note_small_features(Plates& plates, const Stock& stock) {
-  const double narrow = stock.layout.channel_width;
-  if (!stock.product.pulley.anchors.empty() && narrow < k_least_feature) {
+void note_small_features(Plates& plates, const CutFeatures& features) {
+  const double narrow = features.layout.channel_width;
+  if (!features.product.pulley.anchors.empty() && narrow < k_least_feature) {
     plates.notes.push_back(fmt::format("the tendon channels are {} mm wide, below {} mm: see body.anchor_hole_mm",
                                        rounded(narrow), rounded(k_least_feature)));
   }
@@ -353,10 +359,10 @@ void choose_sheet(Plates& plates, const Cut& cut, const std::vector<Vec2>& sizes
 void lay_on_sheets(Plates& plates, const Cut& cut) {
   std::vector<Vec2> sizes;
   std::vector<Vec2> axes;  // from the box's lower left corner
-  for (std::size_t l = 0; l < plates.layers.size(); ++l) {
-    const Box2d box = bounding_box(plates.layers[l].cut_outer.front());
-    for (int k = 0; k < plates.layers[l].count; ++k) {
-      plates.placed.push_back({l, static_cast<int>(plates.placed.size()) + 1, Vec2::Zero()});
+  for (std::size_t i = 0; i < plates.layers.size(); ++i) {
+    const Box2d box = bounding_box(plates.layers[i].cut_outer.front());
+    for (int k = 0; k < plates.layers[i].count; ++k) {
+      plates.placed.push_back({i, static_cast<int>(plates.placed.size()) + 1, Vec2::Zero()});
       sizes.push_back(box.size());
       axes.push_back(-box.low);
     }
@@ -372,7 +378,9 @@ void lay_on_sheets(Plates& plates, const Cut& cut) {
 
 }  // namespace
 
-int plates_for(double height, double plate) { return std::max(1, static_cast<int>(std::ceil(height / plate - 1e-6))); }
+int plates_for(double height, double thickness) {
+  return std::max(1, static_cast<int>(std::ceil(height / thickness - 1e-6)));  // a rounding error adds no plate
+}
 
 std::string plate_label(const Plates& plates, const PlacedPlate& plate) {
   const PlateLayer& layer = plates.layers[plate.layer];
@@ -380,16 +388,16 @@ std::string plate_label(const Plates& plates, const PlacedPlate& plate) {
 }
 
 Plates make_plates(const Product& product) {
-  const Stock stock(product);
+  const CutFeatures features(product);
   Plates plates;
-  place_dowels(plates, stock);
-  add_layers(plates, stock);
+  place_dowels(plates, features);
+  add_layers(plates, features);
   const int total = std::accumulate(plates.layers.begin(), plates.layers.end(), 0,
                                     [](int sum, const PlateLayer& layer) { return sum + layer.count; });
   for (std::size_t i = 0; i < plates.layers.size(); ++i) engrave(plates, i, total);
-  note_small_features(plates, stock);
-  describe_stack(plates, stock);
-  lay_on_sheets(plates, stock.mechanism.cut);
+  note_small_features(plates, features);
+  describe_stack(plates, features);
+  lay_on_sheets(plates, features.mechanism.cut);
   return plates;
 }
 

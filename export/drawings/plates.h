@@ -38,18 +38,18 @@ struct PlacedPlate {
 struct Plates {
   std::vector<PlateLayer> layers;   ///< bottom to top
   std::vector<PlacedPlate> placed;  ///< by number
-  std::vector<Vec2>
-      dowels;  ///< centres on different radii, not in line with the axis, so that plates fit in one orientation only
+  /// Centres, on different radii and not in line with the axis, so that plates fit in one orientation only.
+  std::vector<Vec2> dowels;
   double dowel_diameter = 0;
   Vec2 sheet = Vec2::Zero();       ///< the sheet of [cut], or a larger one if a plate requires it
   int sheets = 1;                  ///< side by side from x = 0, k_sheet_gap between them
   std::vector<std::string> notes;  ///< the role of the plates, and omitted features
 };
 
-inline constexpr double k_sheet_gap = 20;
+inline constexpr double k_sheet_gap = 20;  // mm
 
-/// Number of plates that make at least `height`, at least one.
-int plates_for(double height, double plate);
+/// Number of plates of this thickness that make at least `height`, at least one.
+int plates_for(double height, double thickness);
 
 Plates make_plates(const Product& product);
 

@@ -13,8 +13,8 @@
 namespace fusee::formats {
 namespace {
 
-constexpr double k_text_height = 3;
-constexpr double k_line_pitch = 5;
+constexpr double k_text_height = 3;  // mm
+constexpr double k_line_pitch = 5;   // mm
 
 Polygon shifted(Polygon points, const Vec2& shift) {
   for (Vec2& p : points) p += shift;
@@ -24,35 +24,37 @@ Polygon shifted(Polygon points, const Vec2& shift) {
 void add_sheets(DxfDocument& drawing, const Plates& plates) {
   for (int i = 0; i < plates.sheets; ++i) {
     const Vec2 corner(i * (plates.sheet.x() + k_sheet_gap), 0);
-    drawing.closed("SHEET", rectangle(corner, corner + plates.sheet));
+    drawing.add_closed("SHEET", rectangle(corner, corner + plates.sheet));
   }
 }
 
 void add_engraving(DxfDocument& drawing, const Plates& plates) {
   for (const PlacedPlate& plate : plates.placed) {
     const PlateLayer& layer = plates.layers[plate.layer];
-    for (const Polygon& stroke : layer.engraving) drawing.open("ENGRAVE", shifted(stroke, plate.shift));
+    for (const Polygon& stroke : layer.engraving) drawing.add_open("ENGRAVE", shifted(stroke, plate.shift));
     if (layer.label_height > 0)
-      drawing.text("ENGRAVE", plate_label(plates, plate), layer.label + plate.shift, layer.label_height);
+      drawing.add_text("ENGRAVE", plate_label(plates, plate), layer.label + plate.shift, layer.label_height);
   }
 }
 
 void add_cuts(DxfDocument& drawing, const Plates& plates) {
   for (const PlacedPlate& plate : plates.placed) {
-    for (const Contour& hole : plates.layers[plate.layer].cut_holes) drawing.closed("CUT_INNER", hole, plate.shift);
+    for (const Contour& hole : plates.layers[plate.layer].cut_holes) drawing.add_closed("CUT_INNER", hole, plate.shift);
   }
   for (const PlacedPlate& plate : plates.placed) {
     for (const Polygon& outline : plates.layers[plate.layer].cut_outer)
-      drawing.closed("CUT_OUTER", shifted(outline, plate.shift));
+      drawing.add_closed("CUT_OUTER", shifted(outline, plate.shift));
   }
 }
 
 /// Adds the notes and a 10 mm square for checking the scale, below the sheets, where nothing is cut.
 void add_notes(DxfDocument& drawing, const std::vector<std::string>& notes) {
-  drawing.closed("CHECK_10MM", rectangle({0, -15}, {10, -5}));
-  double y = -5 - k_text_height;
+  constexpr double k_top = -5;         // y, mm
+  constexpr double k_text_begin = 15;  // x, mm: right of the square
+  drawing.add_closed("CHECK_10MM", rectangle({0, k_top - 10}, {10, k_top}));
+  double y = k_top - k_text_height;
   for (const std::string& note : notes) {
-    drawing.text("NOTES", note, {15, y}, k_text_height);
+    drawing.add_text("NOTES", note, {k_text_begin, y}, k_text_height);
     y -= k_line_pitch;
   }
 }

@@ -24,6 +24,7 @@ ExactPolygon points_of(const Polygon& polygon) {
   return result;
 }
 
+/// Counter-clockwise. Throws Bug for a polygon that crosses itself.
 ExactPolygon exact(const Polygon& polygon) {
   ExactPolygon result = points_of(polygon);
   demand(result.is_simple(), "a plate's outline of " + std::to_string(polygon.size()) + " points crosses itself");
@@ -31,9 +32,9 @@ ExactPolygon exact(const Polygon& polygon) {
   return result;
 }
 
-/// Rounded to double precision, with coincident points merged.
+/// The corners in double precision, with coincident ones merged.
 Polygon rounded_points(const ExactPolygon& polygon) {
-  constexpr double k_same = 1e-7;
+  constexpr double k_same = 1e-7;  // mm
   Polygon result;
   for (const auto& p : polygon.container()) {
     const Vec2 point(CGAL::to_double(p.x()), CGAL::to_double(p.y()));
@@ -53,10 +54,10 @@ int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
 bool is_simple(const Polygon& polygon) { return polygon.size() >= 3 && points_of(polygon).is_simple(); }
 
 std::vector<Polygon> difference(const Polygon& plate, const std::vector<Polygon>& cutters) {
-  CGAL::Polygon_set_2<Exact> rest(exact(plate));
-  for (const Polygon& cutter : cutters) rest.difference(exact(cutter));
+  CGAL::Polygon_set_2<Exact> remaining(exact(plate));
+  for (const Polygon& cutter : cutters) remaining.difference(exact(cutter));
   std::vector<CGAL::Polygon_with_holes_2<Exact>> parts;
-  rest.polygons_with_holes(std::back_inserter(parts));
+  remaining.polygons_with_holes(std::back_inserter(parts));
   std::vector<Polygon> loops;
   for (const auto& part : parts) {
     loops.push_back(rounded_points(part.outer_boundary()));

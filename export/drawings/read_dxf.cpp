@@ -1,11 +1,10 @@
 /// \file
 /// Reads DXF: ASCII, R12 to R2018. Straight and curved entities of model space become polylines in mm. Open ones whose
 /// ends meet on one layer (end_points.h: within 1e-4 mm) are joined. Other entities (text, dimensions, hatches …) are
-/// listed in `ignored`,
-/// and so are invisible entities and those of layers that are off or frozen.
+/// listed in `ignored`, and so are invisible entities and those of layers that are off or frozen.
 ///
-/// Bytes → tags (dxf_tags.h) → header, layers, blocks, entities (dxf_file.h) → placed curves (draw_dxf.h, with entity_curves.h
-/// and sampled_curves.h) → chains (join_paths.h).
+/// Bytes → tags (dxf_tags.h) → header, layers, blocks, entities (dxf_file.h) → placed curves (draw_dxf.h, with
+/// entity_curves.h and sampled_curves.h) → chains (join_paths.h).
 ///
 /// Safe for any bytes: every number is checked, blocks nest at most 16 deep, and the whole drawing may have 4 million
 /// points.
@@ -30,7 +29,8 @@ void refuse_other_formats(std::string_view bytes, const std::string& file) {
 }  // namespace
 
 Drawing read_dxf(std::string_view bytes, const std::string& file_name) {
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+  constexpr std::string_view k_byte_order_mark = "\xEF\xBB\xBF";
+  if (bytes.starts_with(k_byte_order_mark)) bytes.remove_prefix(k_byte_order_mark.size());
   refuse_other_formats(bytes, file_name);
   Drawing drawing = draw_dxf(read_dxf_file(bytes, file_name), file_name);
   drawing.paths = joined_paths(std::move(drawing.paths));

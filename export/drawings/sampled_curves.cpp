@@ -10,8 +10,10 @@ namespace {
 
 constexpr int k_most_steps = 20'000;  // per arc
 
+/// Number of chords. A chord that spans the angle φ has the sagitta r φ² / 8.
 int arc_steps(double radius, double turn, double sagitta) {
-  if (!(radius > sagitta)) return 8;
+  constexpr int k_steps_of_tiny_arc = 8;
+  if (!(radius > sagitta)) return k_steps_of_tiny_arc;
   const double steps = std::ceil(std::abs(turn) / std::sqrt(8 * sagitta / radius));
   return static_cast<int>(std::clamp(steps, 2.0, static_cast<double>(k_most_steps)));
 }
@@ -25,7 +27,7 @@ std::optional<double> diameter_of(const EllipticArc& arc) {
   return is_round ? std::optional<double>(2 * radius) : std::nullopt;
 }
 
-/// The semi-major axis.
+/// The semi-major axis: the square root of the larger eigenvalue of u uᵀ + v vᵀ.
 double longest_radius(const EllipticArc& arc) {
   const double uu = arc.u.squaredNorm(), vv = arc.v.squaredNorm(), uv = arc.u.dot(arc.v);
   return std::sqrt(0.5 * (uu + vv) + elementary::hypot(0.5 * (uu - vv), uv));
@@ -61,10 +63,12 @@ void append_arc(Polygon& points, const EllipticArc& arc, double sagitta) {
   }
 }
 
-/// Appends the edge from `from` (excluded) to `to`.
+/// Appends the edge from `from` (excluded) to `to`. The centre of a bulge b lies on the perpendicular bisector of the
+/// chord c, at (1 − b²) / (4 b) · c turned left.
 void append_bulge(Polygon& points, const Vec2& from, const Vec2& to, double bulge, double sagitta,
                   const DrawingPlacement& place) {
-  if (bulge != 0 && std::abs(bulge) < 1e6 && (to - from).norm() > 0) {
+  constexpr double k_most_bulge = 1e6;
+  if (bulge != 0 && std::abs(bulge) < k_most_bulge && (to - from).norm() > 0) {
     const double turn = 4 * elementary::atan(bulge);
     const Vec2 centre = 0.5 * (from + to) + turned_left(to - from) * ((1 - bulge * bulge) / (4 * bulge));
     const Vec2 spoke = from - centre;
@@ -112,8 +116,9 @@ struct SpanSampler {
     const double tm = 0.5 * (t0 + t1);
     const Vec2 middle = point_at(spline, tm, span);
     // The first bisections are unconditional: an inflection may put the middle on the chord.
-    const bool flat = (middle - 0.5 * (from + to)).norm() <= sagitta;
-    if (depth >= 12 || (flat && depth >= 2)) {
+    constexpr int k_unconditional = 2, k_deepest = 12;
+    const bool is_flat = (middle - 0.5 * (from + to)).norm() <= sagitta;
+    if (depth >= k_deepest || (is_flat && depth >= k_unconditional)) {
       out.push_back(to);
       return;
     }

@@ -15,10 +15,11 @@
 namespace fusee::formats {
 namespace {
 
-constexpr double k_sheet_margin = 4;
-constexpr double k_note_height = 3;
-constexpr double k_engraving_depth = 0.61;  // a slab up to this thickness is engraved instead of cut
-constexpr double k_least_cut = 1.0;         // narrowest feature that a laser cuts cleanly, mm
+constexpr double k_sheet_margin = 4;        // mm
+constexpr double k_note_height = 3;         // mm
+constexpr double k_note_pitch = 5;          // mm, of lines
+constexpr double k_engraving_depth = 0.61;  // mm; a thinner slab is engraved instead of cut
+constexpr double k_least_cut = 1.0;         // mm, narrowest feature that a laser cuts cleanly
 
 /// One shape of plate.
 struct KitPlate {
@@ -27,7 +28,7 @@ struct KitPlate {
   kit::DiscHull rim;
   std::vector<kit::DiscHull> holes;
   std::vector<kit::DiscHull> lines;  ///< engraved
-  double height = 0;
+  double height = 0;                 ///< of all slabs of this shape, mm
 };
 
 bool is_same(const kit::DiscHull& a, const kit::DiscHull& b) { return kit::outline_of(a) == kit::outline_of(b); }
@@ -38,7 +39,10 @@ bool has_hole(const KitPlate& plate, const kit::DiscHull& hull) {
 }
 
 std::string capitals(std::string name) {
-  for (char& c : name) c = c == '_' ? ' ' : c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  for (char& c : name) {
+    if (c == '_') c = ' ';
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  }
   return name;
 }
 
@@ -68,35 +72,37 @@ void add_plates(std::vector<KitPlate>& plates, const kit::KitPart& part, double 
     else
       plates.push_back(plate);
   }
-  const bool many = plates.size() - first > 1;
+  const bool has_several = plates.size() - first > 1;
   for (std::size_t i = first; i < plates.size(); ++i) {
     plates[i].count = plates_for(plates[i].height, thickness);
-    if (many) plates[i].label += " " + std::to_string(i - first + 1);
+    if (has_several) plates[i].label += " " + std::to_string(i - first + 1);
   }
 }
 
-Contour contour_of(const kit::DiscHull& hull, double grow) {
+/// The outline of a hull, `outward` (mm) of it.
+Contour contour_of(const kit::DiscHull& hull, double outward) {
   if (hull.discs.size() == 1)
-    return circle_contour({hull.discs.front().centre, 2 * (hull.discs.front().radius + grow)});
-  return {kit::outline_of(hull, grow), {}, 0};
+    return circle_contour({hull.discs.front().centre, 2 * (hull.discs.front().radius + outward)});
+  return {kit::outline_of(hull, outward), {}, 0};
 }
 
-double thinnest(const kit::DiscHull& hull) {
+double smallest_width(const kit::DiscHull& hull) {
   const Box2d bounding = bounding_box(kit::outline_of(hull));
   return bounding.size().minCoeff();
 }
 
-/// A place for the plate's name, searched from its lower left upwards.
+/// Lower left corner of a place for the plate's name, searched from the lower left of the plate upwards.
 std::optional<Vec2> label_corner(const KitPlate& plate) {
   Material2d material;
   material.add_outline(kit::outline_of(plate.rim));
   for (const kit::DiscHull& hole : plate.holes) material.add_hole(kit::outline_of(hole));
   for (const kit::DiscHull& line : plate.lines) material.add_hole(kit::outline_of(line));
   const Vec2 size(stroke_text_width(plate.label, k_note_height), k_note_height);
-  const Box2d all = bounding_box(kit::outline_of(plate.rim));
-  for (double y = all.low.y() + 1; y + size.y() < all.high.y(); y += 2) {
-    for (double x = all.low.x() + 1; x + size.x() < all.high.x(); x += 2) {
-      if (material.holds_box({x, y}, size, 1.0)) return Vec2(x, y);
+  constexpr double k_margin = 1, k_step = 2;  // mm
+  const Box2d box = bounding_box(kit::outline_of(plate.rim));
+  for (double y = box.low.y() + k_margin; y + size.y() < box.high.y(); y += k_step) {
+    for (double x = box.low.x() + k_margin; x + size.x() < box.high.x(); x += k_step) {
+      if (material.holds_box({x, y}, size, k_margin)) return Vec2(x, y);
     }
   }
   return std::nullopt;
@@ -131,7 +137,7 @@ class KitSheets {
   void draw(DxfDocument& drawing) const {
     for (int i = 0; i < count_; ++i) {
       const Vec2 corner(i * (sheet_.x() + k_sheet_gap), 0);
-      drawing.closed("SHEET", rectangle(corner, corner + sheet_));
+      drawing.add_closed("SHEET", rectangle(corner, corner + sheet_));
     }
   }
 
@@ -155,8 +161,8 @@ std::vector<std::string> remarks_of(const KitProduct& product, const std::vector
       "sheets of " + rounded(mechanism.cut.plate) + " mm; plates of one name are glued one upon another"};
   for (const KitPlate& plate : plates) {
     for (const kit::DiscHull& hole : plate.holes) {
-      if (thinnest(hole) - mechanism.cut.kerf < k_least_cut)
-        remarks.push_back(plate.label + ": a hole of " + rounded(thinnest(hole), 3) + " mm is omitted: drill it");
+      if (smallest_width(hole) - mechanism.cut.kerf < k_least_cut)
+        remarks.push_back(plate.label + ": a hole of " + rounded(smallest_width(hole), 3) + " mm is omitted: drill it");
     }
   }
   return remarks;
@@ -177,23 +183,25 @@ std::string kit_dxf(const KitProduct& product, DxfVersion version) {
   drawing.remarks = remarks_of(product, plates);
   for (const auto& [plate, shift] : sheets.placed()) {
     for (const kit::DiscHull& line : plate->lines)
-      drawing.open("ENGRAVE", {line.discs.front().centre + shift, line.discs.back().centre + shift});
-    if (const auto corner = label_corner(*plate)) drawing.text("ENGRAVE", plate->label, *corner + shift, k_note_height);
+      drawing.add_open("ENGRAVE", {line.discs.front().centre + shift, line.discs.back().centre + shift});
+    if (const auto corner = label_corner(*plate))
+      drawing.add_text("ENGRAVE", plate->label, *corner + shift, k_note_height);
   }
   for (const auto& [plate, shift] : sheets.placed()) {
     for (const kit::DiscHull& hole : plate->holes) {
-      if (thinnest(hole) - cut.kerf >= k_least_cut)
-        drawing.closed("CUT_INNER", contour_of(hole, -0.5 * cut.kerf), shift);
+      if (smallest_width(hole) - cut.kerf >= k_least_cut)
+        drawing.add_closed("CUT_INNER", contour_of(hole, -0.5 * cut.kerf), shift);
     }
   }
   for (const auto& [plate, shift] : sheets.placed())
-    drawing.closed("CUT_OUTER", moved(kit::outline_of(plate->rim, 0.5 * cut.kerf), shift));
+    drawing.add_closed("CUT_OUTER", moved(kit::outline_of(plate->rim, 0.5 * cut.kerf), shift));
   sheets.draw(drawing);
-  drawing.closed("CHECK_10MM", rectangle({0, -15}, {10, -5}));
-  double y = -5 - k_note_height;
+  constexpr double k_notes_top = -5, k_notes_left = 15;  // mm: below the sheets, right of the square
+  drawing.add_closed("CHECK_10MM", rectangle({0, k_notes_top - 10}, {10, k_notes_top}));
+  double y = k_notes_top - k_note_height;
   for (const std::string& remark : drawing.remarks) {
-    drawing.text("NOTES", remark, {15, y}, k_note_height);
-    y -= 5;
+    drawing.add_text("NOTES", remark, {k_notes_left, y}, k_note_height);
+    y -= k_note_pitch;
   }
   return dxf_text(drawing, version);
 }

@@ -62,8 +62,8 @@ std::vector<KitStep> steps_of(const KitProduct& product) {
   for (const kit::KitPin& pin : plan.pins) {
     const std::string letter = pin.side == transmission::Side::left ? "b" : "d",
                       name = pin.side == transmission::Side::left ? "B" : "D";
-    for (const char* which : {"spacer", "sleeve", "collar"}) {
-      if (part_named(plan, "pin_" + letter + "_" + which)) pins.parts.push_back("pin_" + letter + "_" + which);
+    for (const char* piece : {"spacer", "sleeve", "collar"}) {
+      if (part_named(plan, "pin_" + letter + "_" + piece)) pins.parts.push_back("pin_" + letter + "_" + piece);
     }
     pins.words.push_back(
         "Pin " + name + (pin.side == transmission::Side::left ? " (left): " : " (right): ") +
@@ -136,7 +136,8 @@ std::string pictures(const KitProduct& product) {
                           html + "</div>");
 }
 
-std::string longer_words(const KitProduct& product) {
+/// "tendon 1 is 120 mm shorter, tendon 2 …" of the joint without rig.
+std::string shorter_without_rig_words(const KitProduct& product) {
   std::string words;
   for (const KitCut& cut : kit_cuts(product))
     words += (words.empty() ? "tendon " : ", tendon ") + std::string(cut.side == transmission::Side::left ? "1" : "2") +
@@ -148,37 +149,39 @@ std::string tendon_section(const KitProduct& product) {
   std::string rows;
   for (const KitCut& cut : kit_cuts(product)) {
     const bool left = cut.side == transmission::Side::left;
-    const auto tendon = tendon_lengths(product.pulley);
-    const auto own =
-        std::find_if(tendon.begin(), tendon.end(), [&](const TendonLength& one) { return one.side == cut.side; });
+    const auto lengths = tendon_lengths(product.pulley);
+    const auto own_length =
+        std::find_if(lengths.begin(), lengths.end(), [&](const TendonLength& one) { return one.side == cut.side; });
     rows += "<tr>" + html_cell(left ? "Tendon 1" : "Tendon 2") +
             html_cell(left ? "P1 → pin B → the post’s lower end → slide" : "P2 → pin D → round the post") +
             html_number_cell(mm(cut.between_knots)) + html_number_cell(mm(cut.cut, 0)) +
-            html_number_cell(readable(degrees(own->spare_lap), 0) + "°") + html_cell(winding_words(cut.side)) + "</tr>";
+            html_number_cell(readable(degrees(own_length->spare_lap), 0) + "°") + html_cell(winding_words(cut.side)) +
+            "</tr>";
   }
-  return html_section("tendons", "Tendons",
-                      html_table({"", "path", "# taut, at home", "# cut at", "# left on the pulley at full pay-out",
-                                  "direction of winding"},
-                                 rows) +
-                          "<p class=\"hint\">Taut: from the knot on the pulley to C, and for tendon 1 on through the "
-                          "post to the slide’s screw. "
-                          "The cut length adds the turns round screw or post, both knots and a tail of 50 mm at each "
-                          "end, rounded up to 5 mm. It is " +
-                          longer_words(product) + ", the length without rig that <code>fusee build</code> prints.</p>" +
-                          html_list({"On the pulley: a figure-eight knot in each tendon’s end, pulled into its pocket; "
-                                     "the other spare hole of each groove "
-                                     "stays empty.",
-                                     "On the post: a bowline, which does not draw shut, so that the loop turns on the "
-                                     "post and pulls through C.",
-                                     "On the slide: one turn and a half round the screw, clamped by its washer; cut "
-                                     "the tail only after the first load."}));
+  return html_section(
+      "tendons", "Tendons",
+      html_table(
+          {"", "path", "# taut, at home", "# cut at", "# left on the pulley at full pay-out", "direction of winding"},
+          rows) +
+          "<p class=\"hint\">Taut: from the knot on the pulley to C, and for tendon 1 on through the "
+          "post to the slide’s screw. "
+          "The cut length adds the turns round screw or post, both knots and a tail of 50 mm at each "
+          "end, rounded up to 5 mm. It is " +
+          shorter_without_rig_words(product) + ", the length without rig that <code>fusee build</code> prints.</p>" +
+          html_list({"On the pulley: a figure-eight knot in each tendon’s end, pulled into its pocket; "
+                     "the other spare hole of each groove "
+                     "stays empty.",
+                     "On the post: a bowline, which does not draw shut, so that the loop turns on the "
+                     "post and pulls through C.",
+                     "On the slide: one turn and a half round the screw, clamped by its washer; cut "
+                     "the tail only after the first load."}));
 }
 
 std::string parts_section(const KitProduct& product) {
   std::string rows;
   for (const kit::KitPart& part : product.plan.parts) {
-    const solid::Bounds box_of = solid::bounds(kit::mesh_of(part.body));
-    const Vec3 size = box_of.high - box_of.low;
+    const solid::Bounds box = solid::bounds(kit::mesh_of(part.body));
+    const Vec3 size = box.high - box.low;
     rows += "<tr>" + html_number_cell(std::to_string(part.count)) + html_cell(part.words) +
             html_number_cell(readable(size.x(), 1) + " × " + readable(size.y(), 1) + " × " + readable(size.z(), 1) +
                              " mm") +
@@ -216,10 +219,10 @@ std::string coupon_section(const Mechanism& mechanism) {
 std::string fit_section(const KitProduct& product) {
   std::string rows;
   for (const profile::Condition& condition : product.plan.conditions) {
-    const bool counts = condition.unit != "mm";
+    const bool is_count = condition.unit != "mm";
     rows += "<tr>" + html_cell(plain_name(condition.name)) +
-            html_number_cell(counts ? readable(condition.value, 0) : mm(condition.value, 2)) +
-            html_number_cell(counts ? readable(condition.limit, 0) : mm(condition.limit, 2)) +
+            html_number_cell(is_count ? readable(condition.value, 0) : mm(condition.value, 2)) +
+            html_number_cell(is_count ? readable(condition.limit, 0) : mm(condition.limit, 2)) +
             html_number_cell(readable(degrees(condition.alpha), 1) + "°") + "</tr>";
   }
   return html_section(
@@ -244,19 +247,20 @@ std::string key_section(const KitProduct& product) {
   return html_section("numbers", "In short", numbers.html(mechanism.units));
 }
 
-// ---- plates to drill
+// ---- plates to drill ------------------------------------------------------------------------------------------------
 
 std::vector<std::string> template_words(const KitProduct& product) {
   const Mechanism& mechanism = product.pulley.joint.mechanism;
   const bool idlers = mechanism.guides.kind == GuideKind::idler;
   const bool is_helical = product.plan.heights.has_value();
+  std::string guide_words = "Rods into B and D, upright: the tendons run on their outer sides.";
+  if (idlers && is_helical && !mechanism.guides.collar)
+    guide_words = "Smooth rollers onto bolts at B and D, over the whole height range of the tendons there.";
+  else if (idlers)
+    guide_words = "Idlers onto bolts at B and D, their grooves at the heights of both tendons.";
   std::vector<std::string> words{
       "Use the plates of base and link as drilling templates, or cut them (kit.dxf): every hole is at its axis.",
-      idlers ? is_helical && !mechanism.guides.collar
-                   ? "Smooth rollers onto bolts at B and D, over the whole height range of the tendons there."
-                   : "Idlers onto bolts at B and D, their grooves at the heights of both tendons."
-             : "Rods into B and D, upright: the tendons run on their outer sides.",
-      "The motor with the pulley at the large hole, P1 towards the base."};
+      guide_words, "The motor with the pulley at the large hole, P1 towards the base."};
   if (mechanism.joint.drum_radius > 0)
     words.push_back(
         "The drum under the link, both on the axle: glue or screw them to each other, so that the tendons " +
@@ -299,11 +303,11 @@ std::string template_sections(const KitProduct& product) {
   const std::vector<TendonLength> lengths = tendon_lengths(product.pulley);
   std::string rows, cuts;
   for (const KitCut& cut : kit_cuts(product)) {
-    const auto own =
+    const auto own_length =
         std::find_if(lengths.begin(), lengths.end(), [&](const TendonLength& one) { return one.side == cut.side; });
     cuts += "<tr>" + html_cell(cut.side == transmission::Side::left ? "Tendon 1" : "Tendon 2") +
             html_number_cell(mm(cut.between_knots)) + html_number_cell(mm(cut.cut, 0)) +
-            (is_helical ? html_number_cell(readable(own->lap_at_home / k_two_pi, 2)) : std::string()) +
+            (is_helical ? html_number_cell(readable(own_length->lap_at_home / k_two_pi, 2)) : std::string()) +
             html_cell(winding_words(cut.side)) + "</tr>";
   }
   std::vector<std::string> heads{"", "# taut, at home", "# cut at"};

@@ -14,7 +14,7 @@ namespace fusee::formats {
 struct KitStep {
   std::string title;
   std::vector<std::string> parts;  ///< names of the parts added
-  bool motor = false;              ///< true: the step adds the motor
+  bool motor = false;              ///< the step adds the motor
   bool rods = false;               ///< the step adds the rods
   bool pulley = false;             ///< the step adds the pulley
   bool tendons = false;            ///< the step adds the tendons

@@ -15,7 +15,7 @@
 namespace fusee::formats {
 namespace {
 
-/// Rounds to a micrometre, because the last digits of a sum are meaningless. Adding 0.0 turns −0 into 0.
+/// A length, mm, rounded to a micrometre: the last digits of a sum are meaningless. Adding 0.0 turns −0 into 0.
 double rounded_to_micrometre(double value) { return std::round(1000 * value) / 1000 + 0.0; }
 
 std::string csv_quoted(const std::string& words) {
@@ -47,12 +47,12 @@ Json parts_json(const KitProduct& product) {
 }
 
 Json heights_json(const kit::TendonHeights& heights) {
-  const auto span = [](const kit::TendonHeights::Span& of) {
-    return Json{rounded_to_micrometre(of.low), rounded_to_micrometre(of.high)};
+  const auto span_json = [](const kit::TendonHeights::Span& span) {
+    return Json{rounded_to_micrometre(span.low), rounded_to_micrometre(span.high)};
   };
   return {{"ends", {rounded_to_micrometre(heights.ends[0]), rounded_to_micrometre(heights.ends[1])}},
-          {"guides", {span(heights.guides[0]), span(heights.guides[1])}},
-          {"drum", span(heights.drum)}};
+          {"guides", {span_json(heights.guides[0]), span_json(heights.guides[1])}},
+          {"drum", span_json(heights.drum)}};
 }
 
 Json places_json(const kit::KitPlan& plan) {
@@ -82,13 +82,13 @@ std::string kit_file_name(const kit::KitPart& part, const std::string& ending) {
 
 std::vector<KitCut> rig_cuts(const Product& pulley, const std::array<kit::KitTendon, 2>& rig) {
   std::vector<KitCut> cuts;
-  const double end = tendon_end(pulley.joint.mechanism.tendon);
+  const double end_length = tendon_end(pulley.joint.mechanism.tendon);
   for (const TendonLength& tendon : tendon_lengths(pulley)) {
-    const kit::KitTendon& held = rig[tendon.side == transmission::Side::left ? 0 : 1];
+    const kit::KitTendon& on_rig = rig[tendon.side == transmission::Side::left ? 0 : 1];
     KitCut cut;
     cut.side = tendon.side;
-    cut.between_knots = tendon.between_knots + held.beyond;
-    cut.cut = cut_length(cut.between_knots + held.at_joint + 2 * end);
+    cut.between_knots = tendon.between_knots + on_rig.beyond;
+    cut.cut = cut_length(cut.between_knots + on_rig.at_joint + 2 * end_length);
     cut.longer = cut.cut - tendon.cut;
     cuts.push_back(cut);
   }

@@ -34,7 +34,7 @@ struct Grid {
 
   double step() const { return range / (std::ldexp(1.0, bits) - 1.0); }
   /// Half the diagonal of a cell, the largest displacement of a vertex.
-  double reach() const { return 0.5 * std::numbers::sqrt3 * step(); }
+  double largest_displacement() const { return 0.5 * std::numbers::sqrt3 * step(); }
   Vec3 snapped(const Vec3& v) const {
     return origin + step() * ((v - origin) / step() + Vec3::Constant(0.5)).array().floor().matrix();
   }
@@ -47,14 +47,14 @@ solid::TriangleMesh snapped(solid::TriangleMesh mesh, const Grid& grid) {
 
 /// True if every face keeps its orientation. Thin faces may collapse or turn over on a grid that meets the tolerance.
 bool keeps_faces(const solid::TriangleMesh& mesh, const solid::TriangleMesh& on_grid) {
-  constexpr double k_least_share = 0.1;  // relative to its area
+  constexpr double k_least_share = 0.1;  // of the area, projected on the original plane
   const auto area_vector = [](const std::vector<Vec3>& v, const std::array<std::uint32_t, 3>& t) {
     return Vec3((v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]));
   };
   return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& triangle) {
     const Vec3 before = area_vector(mesh.vertices, triangle);
-    const double size = before.squaredNorm();
-    return size == 0 || before.dot(area_vector(on_grid.vertices, triangle)) > k_least_share * size;
+    const double area_squared = before.squaredNorm();
+    return area_squared == 0 || before.dot(area_vector(on_grid.vertices, triangle)) > k_least_share * area_squared;
   });
 }
 
@@ -63,25 +63,25 @@ bool keeps_faces(const solid::TriangleMesh& mesh, const solid::TriangleMesh& on_
 std::optional<Grid> grid_for(const solid::TriangleMesh& mesh, double tolerance) {
   const solid::Bounds box = solid::bounds(mesh);
   Grid grid{box.low, (box.high - box.low).maxCoeff(), 1};
-  while (grid.bits < k_most_bits && grid.reach() > tolerance) ++grid.bits;
+  while (grid.bits < k_most_bits && grid.largest_displacement() > tolerance) ++grid.bits;
   for (; grid.bits <= k_most_bits; ++grid.bits) {
     if (keeps_faces(mesh, solid::rounded_to_float(snapped(mesh, grid)))) return grid;
   }
   return std::nullopt;
 }
 
-void fill(draco::Mesh& to, const solid::TriangleMesh& mesh) {
-  to.SetNumFaces(mesh.triangles.size());
+void fill(draco::Mesh& target, const solid::TriangleMesh& mesh) {
+  target.SetNumFaces(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
-    to.SetFace(draco::FaceIndex(static_cast<std::uint32_t>(i)),
-               {draco::PointIndex(t[0]), draco::PointIndex(t[1]), draco::PointIndex(t[2])});
+    target.SetFace(draco::FaceIndex(static_cast<std::uint32_t>(i)),
+                   {draco::PointIndex(t[0]), draco::PointIndex(t[1]), draco::PointIndex(t[2])});
   }
   const auto count = static_cast<std::uint32_t>(mesh.vertices.size());
-  to.set_num_points(count);
+  target.set_num_points(count);
   draco::GeometryAttribute position;
   position.Init(draco::GeometryAttribute::POSITION, nullptr, 3, draco::DT_FLOAT32, false, 3 * sizeof(float), 0);
-  draco::PointAttribute* values = to.attribute(to.AddAttribute(position, true, count));
+  draco::PointAttribute* values = target.attribute(target.AddAttribute(position, true, count));
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::array<float, 3> v = {float(mesh.vertices[i].x()), float(mesh.vertices[i].y()),
                                     float(mesh.vertices[i].z())};
@@ -124,13 +124,13 @@ class BoundedDecoder : public Decoder {
     return announced(*this->buffer()) <= k_most_faces_per_byte * size_ && Decoder::DecodeConnectivity();
   }
   bool DecodeAllAttributes() override {
-    std::uint64_t bytes_a_point = 0;
+    std::uint64_t bytes_per_point = 0;
     for (int i = 0; i < this->point_cloud()->num_attributes(); ++i) {
       const auto stride =
           static_cast<std::uint64_t>(std::max<std::int64_t>(0, this->point_cloud()->attribute(i)->byte_stride()));
-      bytes_a_point += stride + sizeof(std::uint32_t);
+      bytes_per_point += stride + sizeof(std::uint32_t);
     }
-    return bytes_a_point * this->point_cloud()->num_points() <= k_most_unpacking * size_ &&
+    return bytes_per_point * this->point_cloud()->num_points() <= k_most_unpacking * size_ &&
            Decoder::DecodeAllAttributes();
   }
 
@@ -151,7 +151,7 @@ draco::DracoHeader read_header(const Source& source) {
   draco::DracoHeader header;
   const draco::Status status = draco::PointCloudDecoder::DecodeHeader(&buffer, &header);
   if (!status.ok()) fail_at_byte(source, 0, fmt::format("expected a Draco header: {}", status.error_msg()));
-  constexpr std::size_t k_version = 5;
+  constexpr std::size_t k_version = 5;  // bytes of the header
   constexpr std::size_t k_geometry = 7;
   if (header.encoder_type != draco::TRIANGULAR_MESH)
     fail_at_byte(source, k_geometry, "expected a mesh, found a cloud of points");
@@ -220,13 +220,13 @@ solid::TriangleMesh from_draco(const Source& source, const draco::Mesh& mesh) {
 }
 
 std::string encoded(const solid::TriangleMesh& mesh, const std::optional<Grid>& grid) {
-  draco::Mesh to;
-  fill(to, mesh);
+  draco::Mesh target;
+  fill(target, mesh);
   draco::Encoder encoder;
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
   if (grid) encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, grid->bits);
   draco::EncoderBuffer buffer;
-  const draco::Status status = encoder.EncodeMeshToBuffer(to, &buffer);
+  const draco::Status status = encoder.EncodeMeshToBuffer(target, &buffer);
   demand(status.ok(), fmt::format("Draco, {} bits: {}", grid ? grid->bits : 32, status.error_msg()));
   return {buffer.data(), buffer.size()};
 }
@@ -261,7 +261,7 @@ solid::TriangleMesh read_drc(const Source& source) {
   } else if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING) {
     decode<SequentialDecoder>(source, mesh);
   } else {
-    constexpr std::size_t k_method = 8;
+    constexpr std::size_t k_method = 8;  // byte of the header
     fail_at_byte(source, k_method, fmt::format("expected Draco's method 0 or 1, found {}", header.encoder_method));
   }
   return solid::weld(from_draco(source, mesh));

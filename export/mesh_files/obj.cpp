@@ -15,7 +15,7 @@
 namespace fusee::formats {
 namespace {
 
-constexpr std::array<std::string_view, 41> k_passed_over = {
+constexpr std::array<std::string_view, 41> k_skipped_statements = {
     "vt",     "vn",     "vp",     "p",   "l",    "g",     "s",        "o",        "mg",   "usemtl",     "mtllib",
     "usemap", "maplib", "cstype", "deg", "bmat", "step",  "curv",     "curv2",    "surf", "parm",       "trim",
     "hole",   "scrv",   "sp",     "end", "con",  "bevel", "c_interp", "d_interp", "lod",  "shadow_obj", "trace_obj",
@@ -63,7 +63,7 @@ void read_face(TextScanner& text, std::size_t vertices, PolygonSplitter& polygon
   if (const auto expected = polygons.add(corners)) text.fail(*expected);
 }
 
-void put_line(fmt::memory_buffer& to, const Vec3& v) {
+void put_vertex(fmt::memory_buffer& to, const Vec3& v) {
   // Adding zero removes the sign of a negative zero. Nine digits read back as the same float. As doubles they are so
   // close to it that volumes agree with the STL's: with the shortest such texts, a pulley of 0.3 m was 1e-7 off.
   fmt::format_to(std::back_inserter(to), "v {:.9g} {:.9g} {:.9g}\n", float(v.x()) + 0.0F, float(v.y()) + 0.0F,
@@ -76,7 +76,7 @@ std::string obj_text(const solid::TriangleMesh& mesh, const std::string& name) {
   fmt::memory_buffer text;
   text.reserve(64 + 40 * mesh.vertices.size() + 24 * mesh.triangles.size());
   fmt::format_to(std::back_inserter(text), "# {}, unit mm\no {}\n", k_tool, printable(name));
-  for (const Vec3& vertex : mesh.vertices) put_line(text, vertex);
+  for (const Vec3& vertex : mesh.vertices) put_vertex(text, vertex);
   for (const auto& t : mesh.triangles) {
     fmt::format_to(std::back_inserter(text), "f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
   }
@@ -94,7 +94,8 @@ solid::TriangleMesh read_obj(const Source& source) {
       mesh.vertices.push_back(read_vertex(text));
     } else if (keyword == "f" || keyword == "fo") {
       read_face(text, mesh.vertices.size(), polygons, greatest);
-    } else if (std::find(k_passed_over.begin(), k_passed_over.end(), keyword) == k_passed_over.end()) {
+    } else if (std::find(k_skipped_statements.begin(), k_skipped_statements.end(), keyword) ==
+               k_skipped_statements.end()) {
       text.fail("an OBJ statement ('v', 'f', …)");
     } else {
       while (!statement_word(text).empty()) {

@@ -17,9 +17,10 @@ namespace {
 struct OffHeader {
   std::uint64_t vertices = 0;
   std::uint64_t faces = 0;
-  std::size_t words_a_vertex = 3;  ///< coordinates, plus the values declared by the keyword's prefix
+  std::size_t words_per_vertex = 3;  ///< coordinates, plus the values declared by the keyword's prefix
 };
 
+/// A whole number of at least 0.
 std::uint64_t count(const TextScanner& text, std::string_view word, std::string_view expected) {
   const std::int64_t value = text.integer(word, expected);
   if (value < 0) text.fail(expected);
@@ -28,7 +29,7 @@ std::uint64_t count(const TextScanner& text, std::string_view word, std::string_
 
 /// Skips the number of edges. It follows on the line of the faces' number or alone on the next one. Some writers omit
 /// it.
-void pass_edge_count(TextScanner& text) {
+void skip_edge_count(TextScanner& text) {
   if (!text.word().empty()) return;
   TextScanner ahead = text;
   if (!ahead.flowing_word().empty() && ahead.word().empty()) text.flowing_word();
@@ -46,19 +47,20 @@ OffHeader read_off_header(TextScanner& text) {
     word = text.flowing_word();
   } else if (word.ends_with("OFF")) {
     if (word.find_first_of("4n") != std::string_view::npos) text.fail("an OFF file of three dimensions");
-    if (word.starts_with("ST")) header.words_a_vertex += 2;
-    if (word.find('C') != std::string_view::npos) header.words_a_vertex += 4;
-    if (word.find('N') != std::string_view::npos) header.words_a_vertex += 3;
+    if (word.starts_with("ST")) header.words_per_vertex += 2;                    // texture coordinates
+    if (word.find('C') != std::string_view::npos) header.words_per_vertex += 4;  // colour
+    if (word.find('N') != std::string_view::npos) header.words_per_vertex += 3;  // normal
     word = text.flowing_word();
   }
   if (word == "BINARY") text.fail("an OFF file in text");
   header.vertices = count(text, word, "the number of vertices");
   header.faces = count(text, text.flowing_word(), "the number of faces");
-  pass_edge_count(text);
+  skip_edge_count(text);
   return header;
 }
 
-std::size_t words_left(TextScanner& text) {
+/// Number of words up to the end of the line, which are skipped.
+std::size_t remaining_words(TextScanner& text) {
   std::size_t words = 0;
   while (!text.word().empty()) ++words;
   return words;
@@ -66,27 +68,27 @@ std::size_t words_left(TextScanner& text) {
 
 /// Writers add values that the keyword does not declare, or omit some. Such a file still has one vertex on each line:
 /// as many lines as vertices follow, with equal numbers of words.
-bool has_a_vertex_a_line(TextScanner text, std::uint64_t vertices) {
+bool has_one_vertex_per_line(TextScanner text, std::uint64_t vertices) {
   if (!text.word().empty()) return false;
   std::size_t words = 0;
   for (std::uint64_t i = 0; i < vertices; ++i) {
     if (!text.next_line()) return false;
-    const std::size_t here = words_left(text);
-    if (here < 3 || (i > 0 && here != words)) return false;
-    words = here;
+    const std::size_t words_on_line = remaining_words(text);
+    if (words_on_line < 3 || (i > 0 && words_on_line != words)) return false;
+    words = words_on_line;
   }
   return true;
 }
 
 void read_vertices(TextScanner& text, const OffHeader& header, solid::TriangleMesh& mesh) {
-  const bool by_lines = has_a_vertex_a_line(text, header.vertices);
+  const bool has_vertex_lines = has_one_vertex_per_line(text, header.vertices);
   mesh.vertices.reserve(header.vertices);
   for (std::uint64_t i = 0; i < header.vertices; ++i) {
     mesh.vertices.push_back(text.flowing_point("a coordinate of a vertex"));
-    if (by_lines) {
+    if (has_vertex_lines) {
       text.rest_of_line();
     } else {
-      for (std::size_t k = 3; k < header.words_a_vertex; ++k) text.number(text.flowing_word(), "a value of a vertex");
+      for (std::size_t k = 3; k < header.words_per_vertex; ++k) text.number(text.flowing_word(), "a value of a vertex");
     }
   }
 }
@@ -108,13 +110,13 @@ void read_face(TextScanner& text, std::uint64_t vertices, PolygonSplitter& polyg
 
 /// A colour ends with its line. If there are fewer lines than faces, faces share lines and have no colours.
 void read_faces(TextScanner& text, const OffHeader& header, solid::TriangleMesh& mesh) {
-  const bool have_lines = text.lines_ahead(header.faces) == header.faces;
+  const bool has_one_face_per_line = text.lines_ahead(header.faces) == header.faces;
   mesh.triangles.reserve(header.faces);
   PolygonSplitter polygons(text.source(), mesh);
   std::vector<std::uint32_t> corners;
   for (std::uint64_t i = 0; i < header.faces; ++i) {
     read_face(text, mesh.vertices.size(), polygons, corners);
-    if (have_lines) text.rest_of_line();
+    if (has_one_face_per_line) text.rest_of_line();
   }
   polygons.split_concave();
 }
@@ -126,7 +128,7 @@ solid::TriangleMesh read_off(const Source& source) {
   constexpr std::size_t k_least_face = 4;    // "1 0 "
   TextScanner text(source, '#');
   const OffHeader header = read_off_header(text);
-  // One more for a last line without an end.
+  // One byte less: the last line may have no end.
   demand_room(source, text.offset(), header.vertices, k_least_vertex - 1, "vertices");
   demand_room(source, text.offset(), header.faces, k_least_face - 1, "faces");
   solid::TriangleMesh mesh;

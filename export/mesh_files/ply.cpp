@@ -81,7 +81,7 @@ struct Element {
 struct Header {
   Encoding encoding = Encoding::ascii;
   std::vector<Element> elements;
-  std::uint64_t vertices = 0;
+  std::uint64_t vertices = 0;  ///< of all vertex elements
 };
 
 // Header -------------------------------------------------------------------------------------------------------------
@@ -185,25 +185,26 @@ Header read_header(const Source& source, TextScanner& text) {
 class AsciiValues {
  public:
   AsciiValues(TextScanner& text, std::uint64_t rows)
-      : text_(text), has_a_row_a_line_(text.lines_ahead(rows + 1) == rows) {}
+      : text_(text), has_one_row_per_line_(text.lines_ahead(rows + 1) == rows) {}
   void begin_row(const Element& element) {
-    if (has_a_row_a_line_ && !text_.next_line()) text_.fail("an element '" + printable(element.name) + "'");
+    if (has_one_row_per_line_ && !text_.next_line()) text_.fail("an element '" + printable(element.name) + "'");
   }
-  double value(Scalar) { return text_.number(has_a_row_a_line_ ? text_.word() : text_.flowing_word(), "a number"); }
+  double value(Scalar) { return text_.number(has_one_row_per_line_ ? text_.word() : text_.flowing_word(), "a number"); }
   [[noreturn]] void fail(const std::string& expected) const { text_.fail(expected); }
 
  private:
   TextScanner& text_;
-  bool has_a_row_a_line_;
+  bool has_one_row_per_line_;
 };
 
-/// Elements without properties take no space in the text.
+/// Number of rows of values. Elements without properties take no space in the text.
 std::uint64_t rows_of(const Header& header) {
   std::uint64_t rows = 0;
   for (const Element& element : header.elements) rows += element.properties.empty() ? 0 : element.count;
   return rows;
 }
 
+/// The number of this type whose bytes are the lowest ones of `bits`.
 template <class Number>
 double as_number(std::uint64_t bits) {
   if constexpr (sizeof(Number) == 8) {
@@ -267,11 +268,11 @@ class BinaryValues {
 
 // Elements -----------------------------------------------------------------------------------------------------------
 
-/// Fails unless `value` is an integer in [0, limit).
+/// Fails unless `value` is an integer in [0, limit). `meaning`: for the message.
 template <class Values>
-std::uint64_t whole(const Values& values, double value, double limit, std::string_view what) {
+std::uint64_t whole(const Values& values, double value, double limit, std::string_view meaning) {
   if (!(value >= 0 && value < limit && value == std::floor(value))) {
-    values.fail(fmt::format("{} from 0 to {:.0f}", what, limit - 1));
+    values.fail(fmt::format("{} from 0 to {:.0f}", meaning, limit - 1));
   }
   return static_cast<std::uint64_t>(value);
 }
@@ -323,7 +324,8 @@ class ElementReader {
   }
 
   void read_list(const Property& property) {
-    const std::uint64_t size = whole(values_, values_.value(property.count_type), 4294967296.0, "the length of a list");
+    constexpr double k_lengths = 4294967296.0;  // 2³² values of the largest type, uint
+    const std::uint64_t size = whole(values_, values_.value(property.count_type), k_lengths, "the length of a list");
     if (property.role != Role::corners) {
       for (std::uint64_t i = 0; i < size; ++i) values_.value(property.type);
       return;

@@ -31,7 +31,8 @@ bool is_counterclockwise(const Vec2& a, const Vec2& b, const Vec2& c) {
 class FlatPolygon {
  public:
   FlatPolygon(const solid::TriangleMesh& mesh, std::vector<std::uint32_t> corners) : corners_(std::move(corners)) {
-    Vec3 normal = Vec3::Zero();  // Newell
+    // The vector area of the polygon (Newell's method).
+    Vec3 normal = Vec3::Zero();
     const Vec3& origin = mesh.vertices[corners_.front()];
     for (std::size_t i = 0; i < corners_.size(); ++i)
       normal += (mesh.vertices[corners_[i]] - origin).cross(mesh.vertices[corners_[next(i)]] - origin);
@@ -39,9 +40,9 @@ class FlatPolygon {
     normal.cwiseAbs().maxCoeff(&axis);
     has_area_ = std::isfinite(normal.sum()) && normal[axis] != 0;
     const Eigen::Index x = (axis + 1) % 3, y = (axis + 2) % 3;
-    const double side = normal[axis] < 0 ? -1 : 1;
+    const double mirror = normal[axis] < 0 ? -1 : 1;
     for (const std::uint32_t corner : corners_)
-      points_.emplace_back(mesh.vertices[corner][x], side * mesh.vertices[corner][y]);
+      points_.emplace_back(mesh.vertices[corner][x], mirror * mesh.vertices[corner][y]);
   }
 
   /// True if the fan about the first corner has facets of the polygon's direction only.
@@ -56,25 +57,26 @@ class FlatPolygon {
   std::vector<Facet> ears(std::uint64_t& comparisons) {
     std::vector<Facet> facets;
     if (!has_area_) return facets;
-    left_.resize(points_.size());
-    for (std::size_t i = 0; i < left_.size(); ++i) left_[i] = i;
-    std::size_t at = 0, tried = 0;
-    while (left_.size() > 3) {
-      if (tried++ == left_.size()) return {};
-      at = at >= left_.size() ? 0 : at;
-      const std::size_t before = left_[(at + left_.size() - 1) % left_.size()], after = left_[(at + 1) % left_.size()];
-      if (comparisons < left_.size()) return {};
-      comparisons -= left_.size();
-      if (!is_ear(before, left_[at], after)) {
-        ++at;
+    unclipped_.resize(points_.size());
+    for (std::size_t i = 0; i < unclipped_.size(); ++i) unclipped_[i] = i;
+    std::size_t tip = 0, tried = 0;  // `tried`: corners in succession that are no ears
+    while (unclipped_.size() > 3) {
+      if (tried++ == unclipped_.size()) return {};
+      tip = tip >= unclipped_.size() ? 0 : tip;
+      const std::size_t before = unclipped_[(tip + unclipped_.size() - 1) % unclipped_.size()],
+                        after = unclipped_[(tip + 1) % unclipped_.size()];
+      if (comparisons < unclipped_.size()) return {};
+      comparisons -= unclipped_.size();
+      if (!is_ear(before, unclipped_[tip], after)) {
+        ++tip;
         continue;
       }
-      facets.push_back({corners_[before], corners_[left_[at]], corners_[after]});
-      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(at));
+      facets.push_back({corners_[before], corners_[unclipped_[tip]], corners_[after]});
+      unclipped_.erase(unclipped_.begin() + static_cast<std::ptrdiff_t>(tip));
       tried = 0;
-      ++at;  // facets about one corner would be long and narrow
+      ++tip;  // facets about one corner would be long and narrow
     }
-    facets.push_back({corners_[left_[0]], corners_[left_[1]], corners_[left_[2]]});
+    facets.push_back({corners_[unclipped_[0]], corners_[unclipped_[1]], corners_[unclipped_[2]]});
     return facets;
   }
 
@@ -86,7 +88,7 @@ class FlatPolygon {
   bool is_ear(std::size_t before, std::size_t tip, std::size_t after) const {
     const Vec2 &a = points_[before], &b = points_[tip], &c = points_[after];
     if (!is_counterclockwise(a, b, c)) return false;
-    return std::none_of(left_.begin(), left_.end(), [&](std::size_t other) {
+    return std::none_of(unclipped_.begin(), unclipped_.end(), [&](std::size_t other) {
       const Vec2& p = points_[other];
       if (p == a || p == b || p == c) return false;
       return doubled_area(a, b, p) >= 0 && doubled_area(b, c, p) >= 0 && doubled_area(c, a, p) >= 0;
@@ -95,18 +97,18 @@ class FlatPolygon {
 
   std::vector<std::uint32_t> corners_;
   std::vector<Vec2> points_;
-  std::vector<std::size_t> left_;  ///< corners not clipped yet
+  std::vector<std::size_t> unclipped_;  ///< corners not clipped yet
   bool has_area_ = false;
 };
 
 }  // namespace
 
 std::optional<std::string> PolygonSplitter::add(std::span<const std::uint32_t> corners) {
-  constexpr std::size_t k_always = 100'000, k_bytes_a_facet = 6;
+  constexpr std::size_t k_always_allowed = 100'000, k_bytes_per_facet = 6;
   if (corners.empty()) return {};
   const std::uint64_t vertices = std::uint64_t{*std::max_element(corners.begin(), corners.end())} + 1;
   if (corners.size() > 2 * vertices) return "a face that has a vertex at most twice";
-  const std::size_t most = k_always + source_.bytes.size() / k_bytes_a_facet;
+  const std::size_t most = k_always_allowed + source_.bytes.size() / k_bytes_per_facet;
   if (mesh_.triangles.size() + corners.size() > most + 2)
     return fmt::format("no more than {} facets in a file of {} bytes", most, source_.bytes.size());
   if (corners.size() > 3) fans_.push_back({mesh_.triangles.size(), corners.size() - 2});

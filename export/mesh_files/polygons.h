@@ -30,7 +30,7 @@ class PolygonSplitter {
   void split_concave();
 
  private:
-  /// The facets of a polygon of four or more corners.
+  /// The facets of a polygon of four or more corners: index of the first in the mesh, and their number.
   struct Fan {
     std::size_t first = 0, facets = 0;
   };

@@ -56,29 +56,29 @@ void fail_at_byte(const Source& source, std::size_t offset, const std::string& m
 
 void demand_room(const Source& source, std::size_t offset, std::uint64_t count, std::size_t least_bytes,
                  const std::string& things) {
-  const std::size_t left = source.bytes.size() - std::min(offset, source.bytes.size());
-  if (least_bytes == 0 || count <= left / least_bytes) return;
+  const std::size_t remaining = source.bytes.size() - std::min(offset, source.bytes.size());
+  if (least_bytes == 0 || count <= remaining / least_bytes) return;
   fail_at_byte(source, offset,
                fmt::format("expected {} {} of at least {} bytes each, but only {} bytes follow", count, things,
-                           least_bytes, left));
+                           least_bytes, remaining));
 }
 
 /// Unused vertices do not affect size or position and may be infinite.
 solid::TriangleMesh without_unused_vertices(const solid::TriangleMesh& mesh) {
   constexpr auto k_unused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> number(mesh.vertices.size(), k_unused);
+  std::vector<std::uint32_t> new_index(mesh.vertices.size(), k_unused);
   for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t corner : triangle) number[corner] = 0;
+    for (const std::uint32_t corner : triangle) new_index[corner] = 0;  // used; numbered below
   }
-  if (std::find(number.begin(), number.end(), k_unused) == number.end()) return mesh;
+  if (std::find(new_index.begin(), new_index.end(), k_unused) == new_index.end()) return mesh;
   solid::TriangleMesh used;
-  for (std::size_t i = 0; i < number.size(); ++i) {
-    if (number[i] == k_unused) continue;
-    number[i] = static_cast<std::uint32_t>(used.vertices.size());
+  for (std::size_t i = 0; i < new_index.size(); ++i) {
+    if (new_index[i] == k_unused) continue;
+    new_index[i] = static_cast<std::uint32_t>(used.vertices.size());
     used.vertices.push_back(mesh.vertices[i]);
   }
   used.triangles.reserve(mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles) used.triangles.push_back({number[a], number[b], number[c]});
+  for (const auto& [a, b, c] : mesh.triangles) used.triangles.push_back({new_index[a], new_index[b], new_index[c]});
   return used;
 }
 

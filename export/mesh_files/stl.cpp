@@ -36,17 +36,18 @@ Float3 to_floats(const Vec3& v) { return {float(v.x()), float(v.y()), float(v.z(
 /// Unit normal of a facet; zero for a degenerate one.
 Vec3 facet_normal(const solid::TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   const Vec3& a = mesh.vertices[triangle[0]];
-  const Vec3 across = (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a);
-  const double length = across.norm();
-  return length > 0 ? Vec3(across / length) : Vec3(Vec3::Zero());
+  const Vec3 normal = (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a);
+  const double length = normal.norm();
+  return length > 0 ? Vec3(normal / length) : Vec3(Vec3::Zero());
 }
 
+/// Writes the 50 bytes of a facet and returns the end of them.
 char* put_facet(char* to, const solid::TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   std::array<Float3, 4> record;
   record[0] = to_floats(facet_normal(mesh, triangle));
   for (int k = 0; k < 3; ++k) record[k + 1] = to_floats(mesh.vertices[triangle[k]]);
   std::memcpy(to, record.data(), sizeof record);
-  to[48] = to[49] = 0;
+  to[48] = to[49] = 0;  // attribute bytes, unused
   return to + k_facet_size;
 }
 
@@ -58,9 +59,9 @@ bool has_high_byte(std::string_view bytes) {
 /// Almost every facet has one, downward facets always (the sign of their normal). If the first facets have none, one
 /// that has is swapped with the first.
 void distinguish_from_ascii(std::string& bytes) {
-  constexpr std::size_t k_looked_at = 128;
+  constexpr std::size_t k_examined = 128;
   const std::string_view facets = std::string_view(bytes).substr(k_facets_start);
-  if (has_high_byte(facets.substr(0, k_looked_at))) return;
+  if (has_high_byte(facets.substr(0, k_examined))) return;
   for (std::size_t at = 0; at < facets.size(); at += k_facet_size) {
     if (!has_high_byte(facets.substr(at, k_facet_size))) continue;
     char* first = bytes.data() + k_facets_start;
@@ -69,6 +70,7 @@ void distinguish_from_ascii(std::string& bytes) {
   }
 }
 
+/// Facets of a binary file; each has vertices of its own.
 solid::TriangleMesh read_facets(std::string_view bytes, std::size_t count) {
   solid::TriangleMesh soup;
   soup.vertices.reserve(3 * count);
@@ -83,6 +85,7 @@ solid::TriangleMesh read_facets(std::string_view bytes, std::size_t count) {
   return soup;
 }
 
+/// Keywords are of lower case; files may have them in upper case.
 bool is_word(std::string_view word, std::string_view keyword) {
   return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
                     [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
@@ -94,7 +97,7 @@ void expect(TextScanner& text, std::string_view keyword) {
 
 /// The normal is redundant, because the corners' order gives it. Writers omit it, or write "nan", "-nan(ind)" or
 /// "1.#QNAN". Up to "outer", anything but another keyword is accepted.
-void pass_normal(TextScanner& text) {
+void skip_normal(TextScanner& text) {
   std::string_view word = text.flowing_word();
   for (; !word.empty() && !is_word(word, "outer"); word = text.flowing_word()) {
     if (std::any_of(k_keywords.begin(), k_keywords.end(), [&](std::string_view k) { return is_word(word, k); })) break;
@@ -104,7 +107,7 @@ void pass_normal(TextScanner& text) {
 
 /// The part of a facet after its first word.
 void read_ascii_facet(TextScanner& text, solid::TriangleMesh& soup) {
-  pass_normal(text);
+  skip_normal(text);
   expect(text, "loop");
   for (int corner = 0; corner < 3; ++corner) {
     expect(text, "vertex");
@@ -125,7 +128,7 @@ bool is_name_over(TextScanner ahead) {
 }
 
 /// Skips the name after "solid" or "endsolid". It ends with its line, or before a facet or "endsolid" on that line.
-void pass_name(TextScanner& text) {
+void skip_name(TextScanner& text) {
   while (!is_name_over(text) && !text.word().empty()) {
   }
 }
@@ -146,12 +149,13 @@ solid::TriangleMesh read_ascii_stl(const Source& source) {
   TextScanner text(source);
   bool is_open = false, has_solid = false;
   for (std::string_view word = uncommented_word(text); is_open || !is_padding(word); word = uncommented_word(text)) {
+    // A file without the line "solid" may still end with "endsolid".
     const bool may_end = is_open || (!has_solid && !soup.triangles.empty());
     if (is_word(word, "facet")) {
       read_ascii_facet(text, soup);
       is_open = has_solid;
     } else if (is_word(word, may_end ? "endsolid" : "solid")) {
-      pass_name(text);
+      skip_name(text);
       is_open = !may_end;
       has_solid = true;
     } else {
@@ -164,11 +168,12 @@ solid::TriangleMesh read_ascii_stl(const Source& source) {
 /// Some writers omit the line "solid".
 bool starts_as_text(const Source& source) {
   // A binary header may start with "solid" too, but text contains no zero byte.
-  constexpr std::size_t k_looked_at = k_facets_start + k_facet_size;
-  if (source.bytes.substr(0, k_looked_at).find('\0') != std::string_view::npos) return false;
+  constexpr std::size_t k_examined = k_facets_start + k_facet_size;
+  if (source.bytes.substr(0, k_examined).find('\0') != std::string_view::npos) return false;
   TextScanner text(source);
   const std::string_view word = uncommented_word(text);
-  if (is_word(word, "solid") || !is_word(word, "facet")) return is_word(word, "solid");
+  if (is_word(word, "solid")) return true;
+  if (!is_word(word, "facet")) return false;
   const std::string_view next = text.flowing_word();
   return is_word(next, "normal") || is_word(next, "outer");
 }
@@ -184,11 +189,11 @@ std::uint32_t announced_facets(std::string_view bytes) {
 std::optional<std::size_t> binary_facets(std::string_view bytes) {
   if (bytes.size() < k_facets_start) return std::nullopt;
   const std::size_t announced = announced_facets(bytes);
-  const std::size_t held = (bytes.size() - k_facets_start) / k_facet_size;
+  const std::size_t possible = (bytes.size() - k_facets_start) / k_facet_size;
   const bool is_whole = (bytes.size() - k_facets_start) % k_facet_size == 0;
   const bool is_unknown = announced == 0 || announced == std::numeric_limits<std::uint32_t>::max();
-  if (is_whole && (is_unknown || announced == held)) return held;
-  if (!is_whole && !is_unknown && announced <= held) return announced;
+  if (is_whole && (is_unknown || announced == possible)) return possible;
+  if (!is_whole && !is_unknown && announced <= possible) return announced;
   return std::nullopt;
 }
 

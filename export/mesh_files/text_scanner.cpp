@@ -116,17 +116,17 @@ std::size_t TextScanner::lines_ahead(std::size_t enough) const {
 }
 
 Place TextScanner::place() const {
-  return {source_.name, line_, static_cast<int>(std::min<std::size_t>(word_start_ - line_start_ + 1, 1'000'000'000))};
+  constexpr std::size_t k_most_columns = 1'000'000'000;  // so that it fits into an int
+  return {source_.name, line_, static_cast<int>(std::min(word_start_ - line_start_ + 1, k_most_columns))};
 }
 
 void TextScanner::fail(std::string_view expected) const {
   const std::string_view found = source_.bytes.substr(word_start_, word_end_ - word_start_);
   const bool at_end = found.empty() && next_ >= source_.bytes.size();
-  const std::string what = !found.empty() ? fmt::format("found '{}'", printable(found))
-                           : at_end       ? std::string("the file ends here")
-                                          : std::string("the line ends here");
+  std::string finding = at_end ? "the file ends here" : "the line ends here";
+  if (!found.empty()) finding = fmt::format("found '{}'", printable(found));
   const char* hint = has_decimal_comma(found) ? "it has a decimal comma: write decimal points in the whole file" : "";
-  throw InputError({Severity::error, place(), fmt::format("expected {}, {}", expected, what), hint});
+  throw InputError({Severity::error, place(), fmt::format("expected {}, {}", expected, finding), hint});
 }
 
 std::string printable(std::string_view text) {
@@ -134,8 +134,8 @@ std::string printable(std::string_view text) {
   std::string shown;
   for (const char c : text.substr(0, k_longest)) {
     const auto byte = static_cast<unsigned char>(c);
-    const bool plain = byte >= 0x20 && byte < 0x7f && c != '\\';
-    shown += plain ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
+    const bool is_printable = byte >= 0x20 && byte < 0x7f && c != '\\';
+    shown += is_printable ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
   }
   return text.size() > k_longest ? shown + "…" : shown;
 }

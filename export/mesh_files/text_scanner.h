@@ -59,7 +59,7 @@ class TextScanner {
   std::size_t next_ = 0;  ///< first byte of the next line
   std::size_t line_start_ = 0;
   std::size_t line_end_ = 0;  ///< end of the line's words, without a comment
-  std::size_t cursor_ = 0;
+  std::size_t cursor_ = 0;    ///< first byte that was not read
   std::size_t word_start_ = 0;
   std::size_t word_end_ = 0;
   int line_ = 0;

@@ -38,9 +38,9 @@ constexpr std::string_view k_relationships = R"(<?xml version="1.0" encoding="UT
 </Relationships>
 )";
 
-// Names of metadata outside the core specification carry a namespace of their own.
+// Texts kept as metadata. Names outside the core specification carry a namespace of their own.
 constexpr std::string_view k_namespace = "urn:fusee:mechanism:1";
-constexpr std::array<std::string_view, 2> k_kept{"mechanism", "table"};
+constexpr std::array<std::string_view, 2> k_kept_texts{"mechanism", "table"};
 
 /// Text of an XML element. Line ends of Windows would be read back as those of Unix.
 std::string element_text(std::string_view bytes) {
@@ -81,8 +81,8 @@ std::string kept_xml(const std::vector<OutputFile>& mechanism) {
   std::string xml;
   for (std::size_t i = 0; i < mechanism.size(); ++i) {
     const std::string& bytes = mechanism[i].bytes;
-    xml += fmt::format(" <metadata name=\"fusee:{}\" preserve=\"1\" type=\"xs:string\">{}</metadata>\n", k_kept.at(i),
-                       element_text(i == 0 ? bytes : percent_encoded(bytes)));
+    xml += fmt::format(" <metadata name=\"fusee:{}\" preserve=\"1\" type=\"xs:string\">{}</metadata>\n",
+                       k_kept_texts.at(i), element_text(i == 0 ? bytes : percent_encoded(bytes)));
   }
   return xml;
 }
@@ -126,7 +126,9 @@ constexpr std::uint64_t k_largest_part = std::uint64_t{128} << 20;
 /// Text of coordinates is compressed 5 to 20 times. A part that expands to more than this many times the file is a zip
 /// bomb.
 constexpr std::uint64_t k_most_inflation = 100;
-constexpr std::uint64_t k_always_unpacked = std::uint64_t{1} << 20;
+constexpr std::uint64_t k_always_unpacked = std::uint64_t{1} << 20;  // bytes
+/// Elements that are allowed in addition to one for each byte.
+constexpr std::uint64_t k_always_added = k_always_unpacked;
 /// Deepest nesting of components.
 constexpr int k_deepest = 32;
 
@@ -189,7 +191,7 @@ class ThreemfReader {
   ModelPart& part(const std::string& path);
   double unit_of(const ModelPart& part, const pugi::xml_node& model) const;
   void refuse_unknown_extensions(const ModelPart& part, const pugi::xml_node& model) const;
-  bool is_of_the_solid(const ModelPart& part, const pugi::xml_node& object) const;
+  bool is_part_of_solid(const ModelPart& part, const pugi::xml_node& object) const;
   void refuse_other_geometry(const ModelPart& part, const pugi::xml_node& object) const;
 
   [[noreturn]] void fail(const ModelPart& part, const pugi::xml_node& node, const std::string& message) const {
@@ -204,21 +206,22 @@ class ThreemfReader {
   void add_object(ModelPart& part, const pugi::xml_node& object, const Placement& place, int depth);
   void add_vertices(ModelPart& part, const pugi::xml_node& mesh, const Placement& place);
   void add_triangles(ModelPart& part, const pugi::xml_node& mesh, const Placement& place, std::size_t first);
-  void spend(ModelPart& part, const pugi::xml_node& node);
+  /// Counts a vertex, triangle or placed object. Fails if the mesh would be far larger than the file.
+  void count_element(ModelPart& part, const pugi::xml_node& node);
 
   const Source& source_;
   ZipArchive archive_;
   std::map<std::string, std::unique_ptr<ModelPart>> parts_;
-  std::uint64_t unpacked_left_;
-  std::uint64_t elements_left_ = 0;
-  std::size_t left_out_ = 0;  ///< objects that are not part of the solid
+  std::uint64_t remaining_bytes_;         ///< that further parts may have
+  std::uint64_t remaining_elements_ = 0;  ///< vertices, triangles and objects that may still be added
+  std::size_t omitted_objects_ = 0;       ///< objects that are not part of the solid
   solid::TriangleMesh mesh_;
 };
 
 ThreemfReader::ThreemfReader(const Source& source)
     : source_(source),
       archive_(source.bytes, source.name, "a zip archive with a 3MF model"),
-      unpacked_left_(
+      remaining_bytes_(
           std::min<std::uint64_t>(k_largest_part, k_always_unpacked + k_most_inflation * source.bytes.size())) {}
 
 std::string ThreemfReader::unpacked(const std::string& path) {
@@ -228,7 +231,7 @@ std::string ThreemfReader::unpacked(const std::string& path) {
   }
   if (!entry) fail_in_entry(source_.name, path, -1, "expected this part in the archive");
   return archive_.unpacked(
-      *entry, unpacked_left_,
+      *entry, remaining_bytes_,
       fmt::format("parts may have {} MiB and {} times the file's bytes", k_largest_part >> 20, k_most_inflation));
 }
 
@@ -261,7 +264,7 @@ ModelPart& ThreemfReader::part(const std::string& path) {
   slot = std::make_unique<ModelPart>();
   slot->path = name;
   slot->text = unpacked(name);
-  elements_left_ += slot->text.size();
+  remaining_elements_ += slot->text.size();
   parse(name, slot->text, slot->xml);
   const pugi::xml_node model = child(slot->xml, "model");
   if (!model) fail_in_entry(source_.name, name, 0, "expected the element 'model'");
@@ -289,7 +292,7 @@ void ThreemfReader::refuse_unknown_extensions(const ModelPart& part, const pugi:
 }
 
 /// Supports and other auxiliary objects are not part of the solid.
-bool ThreemfReader::is_of_the_solid(const ModelPart& part, const pugi::xml_node& object) const {
+bool ThreemfReader::is_part_of_solid(const ModelPart& part, const pugi::xml_node& object) const {
   const std::string_view type = collapsed(object.attribute("type").value());
   if (type.empty() || type == "model" || type == "surface") return true;
   if (type == "support" || type == "solidsupport" || type == "other") return false;
@@ -366,10 +369,11 @@ Placement ThreemfReader::placement(const ModelPart& part, const pugi::xml_node& 
   return place;
 }
 
-/// Objects may be placed many times, in components of components. The total is bounded by the file's size.
-void ThreemfReader::spend(ModelPart& part, const pugi::xml_node& node) {
-  if (elements_left_ == 0) fail(part, node, "places its objects too often: the mesh would be far larger than the file");
-  --elements_left_;
+/// Objects may be placed many times, in components of components. Each byte of the unpacked parts allows one element.
+void ThreemfReader::count_element(ModelPart& part, const pugi::xml_node& node) {
+  if (remaining_elements_ == 0)
+    fail(part, node, "places its objects too often: the mesh would be far larger than the file");
+  --remaining_elements_;
 }
 
 void ThreemfReader::add_reference(ModelPart& part, const pugi::xml_node& reference, const Placement& outer, int depth) {
@@ -377,19 +381,19 @@ void ThreemfReader::add_reference(ModelPart& part, const pugi::xml_node& referen
   for (const pugi::xml_attribute& attribute : reference.attributes()) {
     if (local_name(attribute.name()) == "path") path = attribute.value();
   }
-  ModelPart& home = path.empty() ? part : this->part(std::string(path));
-  const auto object = home.objects.find(integer(part, reference, "objectid"));
-  if (object == home.objects.end()) {
+  ModelPart& owner = path.empty() ? part : this->part(std::string(path));
+  const auto object = owner.objects.find(integer(part, reference, "objectid"));
+  if (object == owner.objects.end()) {
     fail(part, reference, fmt::format("expected an object of the id {}", reference.attribute("objectid").value()));
   }
-  add_object(home, object->second, outer.after(placement(part, reference)), depth);
+  add_object(owner, object->second, outer.after(placement(part, reference)), depth);
 }
 
 void ThreemfReader::add_object(ModelPart& part, const pugi::xml_node& object, const Placement& place, int depth) {
   if (depth > k_deepest) fail(part, object, fmt::format("components within components, deeper than {}", k_deepest));
-  spend(part, object);
-  if (!is_of_the_solid(part, object)) {
-    ++left_out_;
+  count_element(part, object);
+  if (!is_part_of_solid(part, object)) {
+    ++omitted_objects_;
     return;
   }
   refuse_other_geometry(part, object);
@@ -404,7 +408,7 @@ void ThreemfReader::add_object(ModelPart& part, const pugi::xml_node& object, co
 
 void ThreemfReader::add_vertices(ModelPart& part, const pugi::xml_node& mesh, const Placement& place) {
   for_children(child(mesh, "vertices"), "vertex", [&](const pugi::xml_node& vertex) {
-    spend(part, vertex);
+    count_element(part, vertex);
     const Vec3 position(number(part, vertex, "x"), number(part, vertex, "y"), number(part, vertex, "z"));
     mesh_.vertices.push_back(part.unit * (place.linear * position + place.shift));
   });
@@ -414,7 +418,7 @@ void ThreemfReader::add_triangles(ModelPart& part, const pugi::xml_node& mesh, c
                                   std::size_t first) {
   const auto count = static_cast<std::int64_t>(mesh_.vertices.size() - first);
   for_children(child(mesh, "triangles"), "triangle", [&](const pugi::xml_node& triangle) {
-    spend(part, triangle);
+    count_element(part, triangle);
     std::array<std::uint32_t, 3> corners{};
     constexpr std::array<const char*, 3> k_names = {"v1", "v2", "v3"};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -430,7 +434,7 @@ void ThreemfReader::add_triangles(ModelPart& part, const pugi::xml_node& mesh, c
 }
 
 solid::TriangleMesh ThreemfReader::read() {
-  elements_left_ = k_always_unpacked;
+  remaining_elements_ = k_always_added;
   ModelPart& root = part(model_path());
   const pugi::xml_node model = child(root.xml, "model");
   bool is_empty = true;
@@ -446,7 +450,7 @@ solid::TriangleMesh ThreemfReader::read() {
   if (is_empty) fail(root, model, "the build is empty: place the object on the plate and export it again");
   if (mesh_.triangles.empty() && unprintable > 0)
     fail(root, model, "no part of the build is marked as printable: mark it so and export it again");
-  if (mesh_.triangles.empty() && left_out_ > 0)
+  if (mesh_.triangles.empty() && omitted_objects_ > 0)
     fail(root, model, "the build holds supports and auxiliary objects alone, no part: export the part with them");
   return std::move(mesh_);
 }
@@ -455,15 +459,15 @@ solid::TriangleMesh ThreemfReader::read() {
 KeptMechanism ThreemfReader::kept_mechanism() {
   ModelPart& root = part(model_path());
   const pugi::xml_node model = child(root.xml, "model");
-  std::array<std::optional<std::string>, k_kept.size()> texts;
+  std::array<std::optional<std::string>, k_kept_texts.size()> texts;
   for_children(model, "metadata", [&](const pugi::xml_node& metadata) {
     const std::string name = metadata.attribute("name").value();
     const std::size_t colon = name.find(':');
     if (colon == std::string::npos) return;
     const std::string_view space = model.attribute(("xmlns:" + name.substr(0, colon)).c_str()).value();
-    const auto known = std::find(k_kept.begin(), k_kept.end(), std::string_view(name).substr(colon + 1));
-    if (space != k_namespace || known == k_kept.end()) return;
-    texts.at(static_cast<std::size_t>(known - k_kept.begin())) = metadata.text().get();
+    const auto known = std::find(k_kept_texts.begin(), k_kept_texts.end(), std::string_view(name).substr(colon + 1));
+    if (space != k_namespace || known == k_kept_texts.end()) return;
+    texts.at(static_cast<std::size_t>(known - k_kept_texts.begin())) = metadata.text().get();
   });
   if (!texts[0]) {
     throw InputError(source_.name, "it keeps no mechanism file",

@@ -31,6 +31,7 @@ pugi::xml_document xml_of(const std::vector<OutputFile>& outputs, const std::str
   return document;
 }
 
+/// Numbers between blanks; NaN for other words.
 std::vector<double> numbers_in(std::string_view text) {
   std::vector<double> values;
   while (true) {
@@ -56,12 +57,13 @@ double error_of_joint_xml(const ModelProduct& product, const std::vector<OutputF
       .error;
 }
 
-pugi::xml_node named(const pugi::xml_node& parent, const char* kind, const std::string& name) {
+pugi::xml_node child_named(const pugi::xml_node& parent, const char* kind, const std::string& name) {
   return parent.find_child([&](const pugi::xml_node& node) {
     return std::string_view(node.name()) == kind && node.attribute("name").value() == name;
   });
 }
 
+/// The position of an element, mm.
 Vec2 point_in(const pugi::xml_node& node) {
   const std::vector<double> values = numbers_in(node.attribute("pos").value());
   demand(values.size() == 3, "a place of " + std::to_string(values.size()) + " numbers");
@@ -76,35 +78,36 @@ double error_of_tendons_xml(const ModelProduct& product, const std::vector<Outpu
   model::WrappedTendon tendon;
   tendon.side = std::string_view(equality.attribute("tendon1").value()) == "tendon_1" ? transmission::Side::left
                                                                                       : transmission::Side::right;
-  const std::string n = tendon.side == transmission::Side::left ? "1" : "2";
-  const pugi::xml_node spatial = named(root.child("tendon"), "spatial", "tendon_" + n);
-  const pugi::xml_node link = named(world, "body", "link");
-  tendon.end = point_in(named(link, "site", spatial.child("site").attribute("site").value()));
+  const std::string number = tendon.side == transmission::Side::left ? "1" : "2";
+  const pugi::xml_node spatial = child_named(root.child("tendon"), "spatial", "tendon_" + number);
+  const pugi::xml_node link = child_named(world, "body", "link");
+  tendon.end = point_in(child_named(link, "site", spatial.child("site").attribute("site").value()));
   for (const pugi::xml_node& wrapped : spatial.children("geom")) {
     const std::string name = wrapped.attribute("geom").value();
     const bool on_link = name == "drum";
-    const pugi::xml_node cylinder = named(on_link ? link : world, "geom", name);
+    const pugi::xml_node cylinder = child_named(on_link ? link : world, "geom", name);
     (on_link ? tendon.drum : tendon.rho) = 1e3 * numbers_in(cylinder.attribute("size").value()).front();
     if (!on_link) tendon.pin = point_in(cylinder);
   }
-  if (tendon.rho == 0) tendon.pin = point_in(named(world, "site", "over_" + n));
-  tendon.anchor = point_in(named(world, "site", "anchor_" + n));
+  if (tendon.rho == 0) tendon.pin = point_in(child_named(world, "site", "over_" + number));
+  tendon.anchor = point_in(child_named(world, "site", "anchor_" + number));
+  // The polynomial of the length (m) of the tendon "wound", which is radius · α, becomes one of α in mm.
   model::Polynomial length{numbers_in(equality.attribute("polycoef").value())};
-  double arm = 1e3;
-  const double coef = named(root.child("tendon"), "fixed", equality.attribute("tendon2").value())
-                          .child("joint")
-                          .attribute("coef")
-                          .as_double();
+  double scale = 1e3;
+  const double radius = child_named(root.child("tendon"), "fixed", equality.attribute("tendon2").value())
+                            .child("joint")
+                            .attribute("coef")
+                            .as_double();
   for (double& c : length.c) {
-    c *= arm;
-    arm *= coef;
+    c *= scale;
+    scale *= radius;
   }
   return model::tendon_error(tendon, length, product.curves.physical.middle);
 }
 
 double error_of_urdf(const ModelProduct& product, const std::vector<OutputFile>& outputs) {
   const pugi::xml_document document = xml_of(outputs, "joint.urdf");
-  const pugi::xml_node mimic = named(document.child("robot"), "joint", "theta").child("mimic");
+  const pugi::xml_node mimic = child_named(document.child("robot"), "joint", "theta").child("mimic");
   return model::measured({true, {{mimic.attribute("offset").as_double(), mimic.attribute("multiplier").as_double()}}},
                          product.curves.physical.middle)
       .error;
@@ -177,14 +180,16 @@ std::size_t differing_entries(const ModelProduct& product, const std::string& he
   return differing;
 }
 
-/// Number of entries that do not increase (decrease, for counts that decrease as α increases).
-std::size_t standing_still(const model::JointTable& table) {
+/// Number of entries that do not increase; that do not decrease, where counts decrease as α increases.
+std::size_t non_monotonic_entries(const model::JointTable& table) {
   std::size_t count = 0;
   const bool falls = table.unit.per_turn < 0;
   for (const model::OneWayTable& way : table.ways) {
     for (const std::vector<float>* entries : {&way.theta_deg, &way.motor}) {
-      for (std::size_t i = 1; i < entries->size(); ++i)
-        count += falls ? !((*entries)[i] < (*entries)[i - 1]) : !((*entries)[i] > (*entries)[i - 1]);
+      for (std::size_t i = 1; i < entries->size(); ++i) {
+        const bool is_monotonic = falls ? (*entries)[i] < (*entries)[i - 1] : (*entries)[i] > (*entries)[i - 1];
+        if (!is_monotonic) ++count;
+      }
     }
   }
   return count;
@@ -193,26 +198,23 @@ std::size_t standing_still(const model::JointTable& table) {
 }  // namespace
 
 std::vector<Check> check_model(const ModelProduct& product, const std::vector<OutputFile>& outputs) {
-  // Rounding to nine digits.
-  constexpr double k_last_digits = 1e-8;  // rad
+  constexpr double k_last_digits = 1e-8;  // rad, by which coefficients of nine digits miss
   std::vector<Check> checks;
-  const auto in_degrees = [&](const std::string& name, double error, double limit) {
-    // Beyond the ninth decimal, the number depends on the compiler.
+  const auto add = [&](const std::string& name, double error, double limit) {
+    // Digits beyond the ninth decimal depend on the compiler.
     const double rounded_error = std::isfinite(error) ? std::round(1e9 * degrees(error)) / 1e9 : error;
     checks.push_back(at_most(name, rounded_error, degrees(limit), "deg"));
   };
-  if (product.with_polynomial)
-    in_degrees("joint_xml_theta_error", error_of_joint_xml(product, outputs), product.most_error);
-  if (product.tendons)
-    in_degrees("joint_tendons_xml_theta_error", error_of_tendons_xml(product, outputs), product.most_error);
-  in_degrees("joint_urdf_theta_error", error_of_urdf(product, outputs), product.line.error + k_last_digits);
-  in_degrees("joint_ros2_control_urdf_theta_error", error_of_ros2_control(product, outputs),
-             product.line.error + k_last_digits);
+  if (product.with_polynomial) add("joint_xml_theta_error", error_of_joint_xml(product, outputs), product.most_error);
+  if (product.tendons) add("joint_tendons_xml_theta_error", error_of_tendons_xml(product, outputs), product.most_error);
+  add("joint_urdf_theta_error", error_of_urdf(product, outputs), product.line.error + k_last_digits);
+  add("joint_ros2_control_urdf_theta_error", error_of_ros2_control(product, outputs),
+      product.line.error + k_last_digits);
   const model::JointTable read = table_in(bytes_of(outputs, "joint_table.json"));
   const model::TableErrors errors = model::measured(read, product.curves.sensed);
-  in_degrees("joint_table_json_theta_error", errors.theta, product.most_table_error);
-  in_degrees("joint_table_json_returned_theta_error", errors.returned, product.most_table_error);
-  checks.push_back(exactly("joint_table_json_not_growing", static_cast<double>(standing_still(read)), 0, "1"));
+  add("joint_table_json_theta_error", errors.theta, product.most_table_error);
+  add("joint_table_json_returned_theta_error", errors.returned, product.most_table_error);
+  checks.push_back(exactly("joint_table_json_not_growing", static_cast<double>(non_monotonic_entries(read)), 0, "1"));
   checks.push_back(exactly("joint_table_h_differing_entries",
                            static_cast<double>(differing_entries(product, bytes_of(outputs, "joint_table.h"))), 0,
                            "1"));

@@ -41,25 +41,25 @@ std::string array(const std::string& name, const std::vector<float>& values) {
   return text + line + "};\n\n";
 }
 
-/// The words and numbers that differ between a table in degrees and one in counts.
+/// Writes the header, for a table in degrees or in counts.
 class Header {
  public:
   explicit Header(const ModelProduct& product)
-      : product_(product), table_(product.table), p_(product.prefix), P_(upper(product.prefix)) {}
+      : product_(product), table_(product.table), prefix_(product.prefix), macro_prefix_(upper(product.prefix)) {}
 
   std::string text() const {
-    std::string text = comment() + "#ifndef " + P_ + "_JOINT_TABLE_H\n#define " + P_ +
+    std::string text = comment() + "#ifndef " + macro_prefix_ + "_JOINT_TABLE_H\n#define " + macro_prefix_ +
                        "_JOINT_TABLE_H\n\n#include <stdint.h>\n\n" + limits();
     const std::vector<std::string> names = way_names();
     for (std::size_t way = 0; way < names.size(); ++way) {
-      text += array(p_ + "_theta" + names[way] + "_table", table_.ways[way].theta_deg);
-      text += array(p_ + "_motor" + names[way] + "_table", table_.ways[way].motor);
+      text += array(prefix_ + "_theta" + names[way] + "_table", table_.ways[way].theta_deg);
+      text += array(prefix_ + "_motor" + names[way] + "_table", table_.ways[way].motor);
     }
-    text += array(p_ + "_slope_table", table_.slope);
-    if (!table_.holding.empty()) text += array(p_ + "_holding_table", table_.holding);
+    text += array(prefix_ + "_slope_table", table_.slope);
+    if (!table_.holding.empty()) text += array(prefix_ + "_holding_table", table_.holding);
     text += lookup();
     for (std::size_t way = 0; way < names.size(); ++way) text += conversions(names[way], table_.ways[way]);
-    if (names.size() > 1) text += middle();
+    if (names.size() > 1) text += mean_conversions();
     return text + torques() + (table_.unit.ticks ? unwrap() : "") + "#endif\n";
   }
 
@@ -77,7 +77,7 @@ class Header {
     const model::TableErrors& errors = table_.errors;
     std::vector<std::string> lines{"joint_table.h: " + product_.mechanism.name + ", by " + std::string(k_tool) +
                                    " model"};
-    const std::vector<std::string> source = of_curve(product_.curves.sensed, product_, true);
+    const std::vector<std::string> source = curve_words(product_.curves.sensed, product_, true);
     lines.insert(lines.end(), source.begin(), source.end());
     const model::AngleMap& map = product_.curves.sensed.middle;
     const auto degs = [](double angle) { return rounded(degrees(angle), 6); };
@@ -91,14 +91,15 @@ class Header {
                     " deg at most in the theta that results at the motor angle read");
     lines.push_back("  from theta (" + at_most_deg(errors.motor) + " deg at most at the motor).");
     if (has_ticks()) {
-      const double half = k_pi / std::abs(table_.unit.per_turn);
+      const double half_count = k_pi / std::abs(table_.unit.per_turn);  // rad
       double steepest = 0;
       for (const float slope : table_.slope) steepest = std::max(steepest, double(slope));
       lines.push_back("Motor in counts: " + rounded(std::abs(table_.unit.per_turn), 9) + " a turn, " +
                       (table_.unit.per_turn < 0 ? "fewer" : "more") + " as alpha increases, " + zero() +
                       " at alpha = 0. They continue over the end of a turn:");
-      lines.push_back("pass the reading of an encoder that restarts each turn through " + p_ +
-                      "_unwrap(). A whole count is " + at_most_deg(half * steepest) + " deg of theta off at most.");
+      lines.push_back("pass the reading of an encoder that restarts each turn through " + prefix_ +
+                      "_unwrap(). A whole count is " + at_most_deg(half_count * steepest) +
+                      " deg of theta off at most.");
     }
     lines.push_back(
         "Slope: d(theta)/d(alpha) = joint speed per motor speed = motor torque per joint torque without friction.");
@@ -117,12 +118,13 @@ class Header {
   }
 
   std::string limits() const {
-    return "#define " + P_ + "_THETA_FIRST_DEG (" + c_float(table_.theta_first_deg) + ")\n#define " + P_ +
-           "_THETA_LAST_DEG (" + c_float(table_.theta_last_deg) + ")\n\n";
+    return "#define " + macro_prefix_ + "_THETA_FIRST_DEG (" + c_float(table_.theta_first_deg) + ")\n#define " +
+           macro_prefix_ + "_THETA_LAST_DEG (" + c_float(table_.theta_last_deg) + ")\n\n";
   }
 
+  /// Linear interpolation in a table, constant beyond its ends.
   std::string lookup() const {
-    return "static inline float " + p_ +
+    return "static inline float " + prefix_ +
            "_between(const float *table, float at) {\n"
            "  int i;\n"
            "  if (!(at > 0.0f)) return table[0];\n"
@@ -134,13 +136,13 @@ class Header {
            "}\n\n";
   }
 
-  /// Steps of a table per unit of its argument.
-  std::string per_step(float first, float last) const {
+  /// C literal: steps of a table per unit of its argument.
+  std::string steps_per_unit(float first, float last) const {
     return c_float(static_cast<float>(table_.pieces / (double(last) - double(first))));
   }
 
-  /// The place of the motor's angle in a table.
-  std::string motor_place(const model::OneWayTable& way) const {
+  /// C expression: index (with fraction) of the motor's angle in a table.
+  std::string table_position(const model::OneWayTable& way) const {
     std::string value = motor_word();
     if (has_ticks()) {
       // Clamped just beyond the ends before the subtraction, so that no count overflows.
@@ -149,9 +151,10 @@ class Header {
       value = "(float)((count < " + std::to_string(low) + " ? " + std::to_string(low) + " : count > " +
               std::to_string(high) + " ? " + std::to_string(high) + " : count) - (" + zero() + "))";
     }
-    return "(" + value + " - (" + c_float(way.first) + ")) * " + per_step(way.first, way.last);
+    return "(" + value + " - (" + c_float(way.first) + ")) * " + steps_per_unit(way.first, way.last);
   }
 
+  /// Returns a motor angle; counts are rounded half away from 0, and shifted by their zero.
   std::string motor_value(const std::string& value) const {
     if (!has_ticks()) return "  return " + value + ";\n";
     return "  const float count = " + value + ";\n  return " + zero() +
@@ -159,54 +162,53 @@ class Header {
   }
 
   std::string conversions(const std::string& way, const model::OneWayTable& table) const {
-    const std::string theta = p_ + "_theta" + way, motor = p_ + (has_ticks() ? "_count" : "_alpha") + way;
+    const std::string theta = prefix_ + "_theta" + way, motor = prefix_ + (has_ticks() ? "_count" : "_alpha") + way;
     return "/* The joint's angle, deg. */\nstatic inline float " + theta + "_deg(" + motor_type() + " " + motor_word() +
-           ") {\n  return " + p_ + "_between(" + theta + "_table, " + motor_place(table) +
+           ") {\n  return " + prefix_ + "_between(" + theta + "_table, " + table_position(table) +
            ");\n}\n\n/* The motor angle for a joint angle. */\nstatic inline " + motor_type() + " " + motor +
            (has_ticks() ? "" : "_deg") + "(float theta_deg) {\n" +
-           motor_value(p_ + "_between(" + p_ + "_motor" + way + "_table, (theta_deg - (" +
+           motor_value(prefix_ + "_between(" + prefix_ + "_motor" + way + "_table, (theta_deg - (" +
                        c_float(table_.theta_first_deg) + ")) * " +
-                       per_step(table_.theta_first_deg, table_.theta_last_deg) + ")") +
+                       steps_per_unit(table_.theta_first_deg, table_.theta_last_deg) + ")") +
            "}\n\n";
   }
 
-  std::string middle() const {
-    const std::string motor = p_ + (has_ticks() ? "_count" : "_alpha");
-    const std::string half = has_ticks() ? "" : "0.5f * ", after = has_ticks() ? " / 2" : "";
-    std::string sum = motor + "_up" + (has_ticks() ? "" : "_deg") + "(theta_deg) + " + motor + "_down" +
-                      (has_ticks() ? "" : "_deg") + "(theta_deg)";
-    // The mean without the sum of two counts, which may overflow.
-    if (has_ticks()) sum = motor + "_up(theta_deg) + (" + motor + "_down(theta_deg) - " + motor + "_up(theta_deg))";
-    return "/* The mean of both directions. */\nstatic inline float " + p_ + "_theta_deg(" + motor_type() + " " +
-           motor_word() + ") {\n  return 0.5f * (" + p_ + "_theta_up_deg(" + motor_word() + ") + " + p_ +
+  std::string mean_conversions() const {
+    const std::string motor = prefix_ + (has_ticks() ? "_count" : "_alpha");
+    std::string mean = "0.5f * (" + motor + "_up_deg(theta_deg) + " + motor + "_down_deg(theta_deg))";
+    // The sum of two counts may overflow.
+    if (has_ticks())
+      mean = motor + "_up(theta_deg) + (" + motor + "_down(theta_deg) - " + motor + "_up(theta_deg)) / 2";
+    return "/* The mean of both directions. */\nstatic inline float " + prefix_ + "_theta_deg(" + motor_type() + " " +
+           motor_word() + ") {\n  return 0.5f * (" + prefix_ + "_theta_up_deg(" + motor_word() + ") + " + prefix_ +
            "_theta_down_deg(" + motor_word() + "));\n}\n\nstatic inline " + motor_type() + " " + motor +
-           (has_ticks() ? "" : "_deg") + "(float theta_deg) {\n  return " +
-           (has_ticks() ? sum + after : half + "(" + sum + ")") + ";\n}\n\n";
+           (has_ticks() ? "" : "_deg") + "(float theta_deg) {\n  return " + mean + ";\n}\n\n";
   }
 
   std::string torques() const {
-    const std::string place = motor_place(table_.ways.front()), argument = motor_type() + " " + motor_word();
+    const std::string place = table_position(table_.ways.front()), argument = motor_type() + " " + motor_word();
     std::string text =
-        "/* d(theta)/d(alpha). */\nstatic inline float " + p_ + "_slope(" + argument + ") {\n  return " + p_ +
-        "_between(" + p_ + "_slope_table, " + place +
-        ");\n}\n\n/* Motor torque for a joint torque, without friction: virtual work. */\nstatic inline float " + p_ +
-        "_motor_torque(" + argument + ", float joint_torque) {\n  return joint_torque * " + p_ + "_slope(" +
-        motor_word() + ");\n}\n\n/* Speed of the joint for a speed of the motor. */\nstatic inline float " + p_ +
-        "_joint_speed(" + argument + ", float motor_speed) {\n  return motor_speed * " + p_ + "_slope(" + motor_word() +
-        ");\n}\n\n";
+        "/* d(theta)/d(alpha). */\nstatic inline float " + prefix_ + "_slope(" + argument + ") {\n  return " + prefix_ +
+        "_between(" + prefix_ + "_slope_table, " + place +
+        ");\n}\n\n/* Motor torque for a joint torque, without friction: virtual work. */\nstatic inline float " +
+        prefix_ + "_motor_torque(" + argument + ", float joint_torque) {\n  return joint_torque * " + prefix_ +
+        "_slope(" + motor_word() + ");\n}\n\n/* Speed of the joint for a speed of the motor. */\nstatic inline float " +
+        prefix_ + "_joint_speed(" + argument + ", float motor_speed) {\n  return motor_speed * " + prefix_ + "_slope(" +
+        motor_word() + ");\n}\n\n";
     if (!table_.holding.empty())
-      text += "/* Motor torque that holds the declared load, N mm. */\nstatic inline float " + p_ +
-              "_holding_torque_Nmm(" + argument + ") {\n  return " + p_ + "_between(" + p_ + "_holding_table, " +
-              place + ");\n}\n\n";
+      text += "/* Motor torque that holds the declared load, N mm. */\nstatic inline float " + prefix_ +
+              "_holding_torque_Nmm(" + argument + ") {\n  return " + prefix_ + "_between(" + prefix_ +
+              "_holding_table, " + place + ");\n}\n\n";
     return text;
   }
 
+  /// For encoders that restart each turn.
   std::string unwrap() const {
     const std::string turn = std::to_string(whole(std::abs(table_.unit.per_turn)));
     return "/* The count nearest to the last one that an encoder shows as `reading` (0 to " + turn +
            " - 1). Called at least twice a turn. */\n"
            "static inline int32_t " +
-           p_ +
+           prefix_ +
            "_unwrap(int32_t reading, int32_t last) {\n"
            "  int32_t step = (reading - last % " +
            turn + ") % " + turn +
@@ -223,7 +225,7 @@ class Header {
 
   const ModelProduct& product_;
   const model::JointTable& table_;
-  std::string p_, P_;
+  std::string prefix_, macro_prefix_;
 };
 
 }  // namespace

@@ -18,13 +18,13 @@ using namespace model_words;
 /// A float as a short number that reads back as the same float.
 double short_number(float value) { return std::stod(c_float(value)); }
 
-Json list_of(const std::vector<float>& values) {
+Json list_json(const std::vector<float>& values) {
   Json list = Json::array();
   for (const float value : values) list.push_back(short_number(value));
   return list;
 }
 
-Json coefficients(const model::Polynomial& p) {
+Json coefficients_json(const model::Polynomial& p) {
   Json list = Json::array();
   for (const double c : p.c) list.push_back(std::stod(coefficient(c)));
   return list;
@@ -45,9 +45,10 @@ std::string_view word(model::CurveSource source) {
   return "declared";
 }
 
-std::string way_word(const model::JointTable& table, std::size_t way) {
+/// The motor's direction of motion for which a table holds.
+std::string direction_word(const model::JointTable& table, std::size_t index) {
   if (table.ways.size() == 1) return "both";
-  return way == 0 ? "up" : "down";
+  return index == 0 ? "up" : "down";
 }
 
 }  // namespace
@@ -60,7 +61,7 @@ std::string joint_table_json(const ModelProduct& product) {
                {"name", product.mechanism.name}};
   json["source"] = word(product.curves.sensed.source);
   json["what"] = Json::array();
-  for (const std::string& line : of_curve(product.curves.sensed, product, true)) json["what"].push_back(line);
+  for (const std::string& line : curve_words(product.curves.sensed, product, true)) json["what"].push_back(line);
   json["motor_unit"] = {
       {"name", table.unit.ticks ? "count" : "deg"}, {"per_turn", table.unit.per_turn}, {"zero", table.unit.zero}};
   json["pieces"] = table.pieces;
@@ -68,20 +69,20 @@ std::string joint_table_json(const ModelProduct& product) {
   json["ways"] = Json::array();
   for (std::size_t i = 0; i < table.ways.size(); ++i) {
     const model::OneWayTable& way = table.ways[i];
-    json["ways"].push_back({{"moving", way_word(table, i)},
+    json["ways"].push_back({{"moving", direction_word(table, i)},
                             {"motor", {short_number(way.first), short_number(way.last)}},
-                            {"theta_deg_of_motor", list_of(way.theta_deg)},
-                            {"motor_of_theta", list_of(way.motor)}});
+                            {"theta_deg_of_motor", list_json(way.theta_deg)},
+                            {"motor_of_theta", list_json(way.motor)}});
   }
-  json["slope_of_motor"] = list_of(table.slope);
-  json["holding_torque_Nmm_of_motor"] = table.holding.empty() ? Json(nullptr) : list_of(table.holding);
+  json["slope_of_motor"] = list_json(table.slope);
+  json["holding_torque_Nmm_of_motor"] = table.holding.empty() ? Json(nullptr) : list_json(table.holding);
   json["errors"] = {{"theta_deg", bound_deg(table.errors.theta)},
                     {"returned_theta_deg", bound_deg(table.errors.returned)},
                     {"alpha_deg", bound_deg(table.errors.motor)}};
   json["polynomial"] = {{"of", product.equality.of_alpha ? "alpha" : "theta"},
-                        {"coefficients_rad", coefficients(product.equality.p)},
+                        {"coefficients_rad", coefficients_json(product.equality.p)},
                         {"theta_error_deg", bound_deg(product.equality.error)}};
-  json["line"] = {{"coefficients_rad", coefficients(product.line.p)},
+  json["line"] = {{"coefficients_rad", coefficients_json(product.line.p)},
                   {"theta_error_deg", bound_deg(product.line.error)}};
   return json_text(json, 1);
 }

@@ -12,6 +12,7 @@ namespace {
 
 using namespace model_words;
 
+/// Mass (kg) centred at (0, y) (m), with the moments of inertia (kg m²) about y (`along`), x (`across`) and z.
 std::string inertial(double mass, double y, double along, double across, double about_z) {
   return "    <inertial>\n      <origin xyz=\"0 " + number(y) + " 0\"/>\n      <mass value=\"" + number(mass) +
          "\"/>\n      <inertia ixx=\"" + number(across) + "\" ixy=\"0\" ixz=\"0\" iyy=\"" + number(along) +
@@ -20,9 +21,11 @@ std::string inertial(double mass, double y, double along, double across, double 
 
 std::string link_of(const ModelProduct& product, const SimulatedBody& body) {
   const double R = product.mechanism.joint.R * 1e-3;
-  return "  <link name=\"link\">\n" + inertial(body.mass, body.lever, 0.05 * body.inertia, body.inertia, body.inertia) +
+  const double width = 0.06 * R;  // for display only
+  return "  <link name=\"link\">\n" +
+         inertial(body.mass, body.lever, k_twist_share * body.inertia, body.inertia, body.inertia) +
          "    <visual>\n      <origin xyz=\"0 " + number(0.5 * R) + " 0\"/>\n      <geometry><box size=\"" +
-         number(0.06 * R) + " " + number(R) + " " + number(0.06 * R) + "\"/></geometry>\n    </visual>\n  </link>\n";
+         number(width) + " " + number(R) + " " + number(width) + "\"/></geometry>\n    </visual>\n  </link>\n";
 }
 
 std::string hinge(const std::string& name, const std::string& child, const std::string& origin, double low, double high,
@@ -43,7 +46,7 @@ std::string theta_joint(const ModelProduct& product, const SimulatedBody& body, 
 
 std::string head(const ModelProduct& product, const std::vector<std::string>& coupling, const SimulatedBody& body) {
   std::vector<std::string> lines{product.mechanism.name + ", by " + std::string(k_tool) + " model"};
-  for (const auto& more : {of_curve(product.curves.physical, product, false), coupling, body.words})
+  for (const auto& more : {curve_words(product.curves.physical, product, false), coupling, body.words})
     lines.insert(lines.end(), more.begin(), more.end());
   return "<?xml version=\"1.0\"?>\n" + xml_comment(lines) + "<robot name=\"" + xml_attribute(product.mechanism.name) +
          "\">\n  <link name=\"base_link\"/>\n";
@@ -62,7 +65,7 @@ std::string joint_urdf(const ModelProduct& product) {
       at_most_deg(product.line.error) + " deg at most, over the whole range; torques by " +
           rounded(100 * product.line.slope_error, 2) + " % at most. joint.xml and joint_table.h are more accurate."};
   return head(product, coupling, body) + "  <link name=\"pulley\">\n" +
-         inertial(0.01, 0, 0.6 * body.armature, 0.6 * body.armature, body.armature) +
+         inertial(k_pulley_mass, 0, k_disc_share * body.armature, k_disc_share * body.armature, body.armature) +
          "    <visual>\n      <geometry><cylinder radius=\"" + number(body.pulley_radius) +
          "\" length=\"0.01\"/></geometry>\n    </visual>\n  </link>\n" + link_of(product, body) +
          hinge("alpha", "pulley", "0 " + number(axis.y() * 1e-3) + " 0", map.alpha_min, map.alpha_max, body.effort,
@@ -90,10 +93,11 @@ std::string ros2_control_urdf(const ModelProduct& product) {
       "includes joint_table.h has them without that error: position " + name + "_theta_deg(), velocity and effort by " +
           name + "_slope().",
       "The hardware is ros2_control's mock: replace it by your own plugin."};
-  const auto interface = [](const std::string& kind, const std::string& which, double low, double high) {
+  // Without limits if low is not below high.
+  const auto interface = [](const std::string& kind, const std::string& quantity, double low, double high) {
     const std::string tag = kind + "_interface";
-    if (!(low < high)) return "      <" + tag + " name=\"" + which + "\"/>\n";
-    return "      <" + tag + " name=\"" + which + "\">\n        <param name=\"min\">" + number(low) +
+    if (!(low < high)) return "      <" + tag + " name=\"" + quantity + "\"/>\n";
+    return "      <" + tag + " name=\"" + quantity + "\">\n        <param name=\"min\">" + number(low) +
            "</param>\n        <param name=\"max\">" + number(high) + "</param>\n      </" + tag + ">\n";
   };
   return head(product, coupling, body) + link_of(product, body) + theta_joint(product, body, "") +

@@ -14,21 +14,21 @@ constexpr std::size_t k_short_table = 13;
 
 // ---- columns of the files -------------------------------------------------------------------------------------------
 
-/// A named number of a row.
-struct Number {
+/// A column of numbers: declared geometry, or the paper's equations.
+struct RowColumn {
   std::string_view name;
   double (*value)(const analysis::AnalysisRow&);
 };
 
-/// A named number of the full model in either direction.
-struct FullNumber {
+/// A column of numbers of the full model, in either direction.
+struct StateColumn {
   std::string_view name;
   double (*value)(const joint::EquilibriumPoint&, const analysis::AnalysisRow&);
 };
 
-const std::vector<Number>& paper_numbers() {
+const std::vector<RowColumn>& row_columns() {
   using Row = analysis::AnalysisRow;
-  static const std::vector<Number> all = {
+  static const std::vector<RowColumn> all = {
       {"alpha_deg", [](const Row& row) { return degrees(row.declared.alpha); }},
       {"theta_deg", [](const Row& row) { return degrees(row.declared.theta); }},
       {"r1_mm", [](const Row& row) { return row.declared.t1.p; }},
@@ -48,10 +48,10 @@ const std::vector<Number>& paper_numbers() {
   return all;
 }
 
-const std::vector<FullNumber>& full_numbers() {
+const std::vector<StateColumn>& state_columns() {
   using Point = joint::EquilibriumPoint;
   using Row = analysis::AnalysisRow;
-  static const std::vector<FullNumber> all = {
+  static const std::vector<StateColumn> all = {
       {"theta_deg", [](const Point& point, const Row&) { return degrees(point.theta); }},
       {"T1_N", [](const Point& point, const Row&) { return point.t1.upper; }},
       {"T1_below_N", [](const Point& point, const Row&) { return point.t1.lower; }},
@@ -112,14 +112,14 @@ const std::vector<Direction>& directions() {
   return both;
 }
 
-/// Calls number(name, value or nothing) and word(name, word) for every column in order.
+/// Calls number(name, value or nullopt) and word(name, word) for every column in order.
 template <typename OnNumber, typename OnWord>
 void for_each_column(const analysis::AnalysisRow& row, OnNumber number, OnWord word) {
-  for (const Number& column : paper_numbers()) number(std::string(column.name), std::optional(column.value(row)));
+  for (const RowColumn& column : row_columns()) number(std::string(column.name), std::optional(column.value(row)));
   for (const Direction& direction : directions()) {
     const joint::EquilibriumPoint& point = row.*direction.point;
     word(direction.prefix + "status", name(point.status));
-    for (const FullNumber& column : full_numbers()) {
+    for (const StateColumn& column : state_columns()) {
       number(direction.prefix + std::string(column.name),
              has_equilibrium(point) ? std::optional(column.value(point, row)) : std::nullopt);
     }
@@ -148,8 +148,8 @@ std::vector<analysis::AnalysisRow> thinned(const std::vector<analysis::AnalysisR
 
 using Cells = std::vector<std::string>;
 
-std::string columns_of(const std::vector<std::string_view>& titles, const std::vector<analysis::AnalysisRow>& rows,
-                       Cells (*cells)(const analysis::AnalysisRow&)) {
+std::string stroke_table(const std::vector<std::string_view>& titles, const std::vector<analysis::AnalysisRow>& rows,
+                         Cells (*cells)(const analysis::AnalysisRow&)) {
   std::vector<Column> columns;
   for (const std::string_view title : titles) columns.push_back({title, Align::right});
   std::vector<Cells> lines;
@@ -168,30 +168,33 @@ Cells geometry_cells(const analysis::AnalysisRow& row) {
           fixed(degrees(row.paper.phi), 2)};
 }
 
+/// True if the load is on tendon 1. By the paper's equations only one tendon has a tension.
+bool is_first_loaded(const analysis::AnalysisRow& row) { return row.paper.T1 > 0; }
+
 Cells force_cells(const analysis::AnalysisRow& row) {
   const joint::EquilibriumPoint& full = row.rising;
-  const bool by_first = row.paper.T1 > 0;
+  const bool first_is_loaded = is_first_loaded(row);
   return {fixed(degrees(row.declared.alpha), 1),
           cell(row.paper.T1),
           full_cell(full, full.t1.upper),
           cell(row.paper.T2),
           full_cell(full, full.t2.upper),
           cell(row.paper.Tb),
-          full_cell(full, by_first ? full.t1.lower : full.t2.lower),
+          full_cell(full, first_is_loaded ? full.t1.lower : full.t2.lower),
           cell(row.paper.motor_torque),
           full_cell(full, full.motor_torque)};
 }
 
 Cells elastic_cells(const analysis::AnalysisRow& row) {
   const joint::EquilibriumPoint& full = row.rising;
-  const bool by_first = row.paper.T1 > 0;
-  const bool both = has_equilibrium(full) && has_equilibrium(row.falling);
+  const bool first_is_loaded = is_first_loaded(row);
+  const bool has_hysteresis = has_equilibrium(full) && has_equilibrium(row.falling);
   return {fixed(degrees(row.declared.alpha), 1),
           cell(row.paper.elongation),
-          full_cell(full, by_first ? full.t1.stretch : full.t2.stretch),
+          full_cell(full, first_is_loaded ? full.t1.stretch : full.t2.stretch),
           cell(degrees(row.paper.theta_error)),
           full_cell(full, degrees(row.declared.theta - full.theta)),
-          both ? cell(degrees(full.theta - row.falling.theta)) : "-",
+          has_hysteresis ? cell(degrees(full.theta - row.falling.theta)) : "-",
           cell(radians(row.paper.stiffness)),
           full_cell(full, radians(full.stiffness))};
 }
@@ -201,11 +204,11 @@ Cells elastic_cells(const analysis::AnalysisRow& row) {
 std::string stroke_tables(const std::vector<analysis::AnalysisRow>& rows, bool all) {
   const std::vector<analysis::AnalysisRow> shown = thinned(rows, all);
   std::string text = "Geometry (deg, mm)\n";
-  text += columns_of({"alpha", "theta", "r1", "r2", "gamma1", "gamma2", "phi1", "phi2"}, shown, geometry_cells);
+  text += stroke_table({"alpha", "theta", "r1", "r2", "gamma1", "gamma2", "phi1", "phi2"}, shown, geometry_cells);
   text += "\nForces (N, Nmm): the paper's [6]-[8] beside the full model, alpha growing\n";
-  text += columns_of({"alpha", "T1", "full", "T2", "full", "T_b", "full", "torque", "full"}, shown, force_cells);
+  text += stroke_table({"alpha", "T1", "full", "T2", "full", "T_b", "full", "torque", "full"}, shown, force_cells);
   text += "\nCompliance (mm, deg, Nmm/deg): the paper's [9]-[11] beside the full model\n";
-  text += columns_of({"alpha", "Delta", "full", "dtheta", "full", "loop", "stiffness", "full"}, shown, elastic_cells);
+  text += stroke_table({"alpha", "Delta", "full", "dtheta", "full", "loop", "stiffness", "full"}, shown, elastic_cells);
   return text;
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 // ---- summary --------------------------------------------------------------------------------------------------------
 
-constexpr std::size_t k_column = 18;
+constexpr std::size_t k_column = 18;  // at which the texts begin
 
 std::string line(const std::string& title, const std::string& text) { return titled(title, text, k_column); }
 
@@ -204,9 +204,10 @@ void add_findings(const analysis::AnalysisResult& result, const std::string& fil
     const auto breaks = analysis::tendon_breaks({result.largest_tension, result.largest_at_joint}, *result.strength);
     report(breaks->severity, breaks->message, breaks->hint);
   }
-  const bool declared_loose = result.largest_tension.tension < 1e-6;
+  // Without pretension and load no tendon ever has a tension: the file declares a slack joint.
+  const bool is_declared_slack = result.largest_tension.tension < 1e-6;  // N
   if (!result.untensioned.empty()) {
-    report(declared_loose ? Severity::warning : Severity::error,
+    report(is_declared_slack ? Severity::warning : Severity::error,
            "both tendons are slack " + slack_text(result, result.untensioned) + ": nothing holds the joint",
            result.taut_pretension ? "tendon.pretension_N >= " + rounded(*result.taut_pretension, 3) + " keeps both taut"
                                   : "raise tendon.pretension_N");
@@ -222,7 +223,7 @@ analysis::AnalysisOptions analysis_options_from(const Arguments& arguments) {
   options.steps = static_cast<int>(arguments.number("--steps", options.steps, 2, 2000, "(steps)"));
   options.dimension_tolerance = arguments.number("--tolerance-mm", options.dimension_tolerance, 0.0, 10.0, "mm");
   options.samples = static_cast<int>(arguments.number("--samples", options.samples, 10, 100000, "(samples)"));
-  options.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1, 0, 4294967295.0, "(a whole number)"));
+  options.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1, 0, k_largest_seed, "(a whole number)"));
   return options;
 }
 

@@ -68,15 +68,15 @@ std::string take_word(std::string_view& text) {
 
 // Numbers -------------------------------------------------------------------------------------------------------------
 
-/// Digits with a decimal point, or with a decimal comma where `comma` allows it.
-std::optional<double> take_decimal(std::string_view& text, bool comma) {
+/// Digits with a decimal point, or with a decimal comma where `may_have_comma`.
+std::optional<double> take_decimal(std::string_view& text, bool may_have_comma) {
   std::string digits;
   std::size_t end = 0;
   const auto take_digits = [&] {
     while (end < text.size() && is_digit(text[end])) digits += text[end++];
   };
   take_digits();
-  const bool point = end < text.size() && (text[end] == '.' || (comma && text[end] == ','));
+  const bool point = end < text.size() && (text[end] == '.' || (may_have_comma && text[end] == ','));
   if (point && end + 1 < text.size() && is_digit(text[end + 1])) {
     digits += '.';
     ++end;
@@ -97,21 +97,22 @@ std::optional<double> take_number(std::string_view& text) {
   std::string_view rest = text;
   std::optional<double> value = take_decimal(rest, true);
   if (!value) return std::nullopt;
-  const auto over = [](std::string_view& from) -> std::optional<double> {
+  const auto take_denominator = [](std::string_view& from) -> std::optional<double> {
     if (from.size() < 2 || from.front() != '/' || !is_digit(from[1])) return std::nullopt;
     from.remove_prefix(1);
     return take_decimal(from, false);
   };
-  if (const auto below = over(rest); below && *below > 0) {
-    value = *value / *below;
+  if (const auto denominator = take_denominator(rest); denominator && *denominator > 0) {
+    value = *value / *denominator;
   } else {
-    std::string_view further = rest;
-    if (skip(further, " ") || skip(further, "-")) {
-      const std::optional<double> above = take_decimal(further, false);
-      const std::optional<double> part = above ? over(further) : std::nullopt;
-      if (part && *part > 0) {
-        value = *value + *above / *part;
-        rest = further;
+    // A fraction after a whole number: "1 3/4", "1-3/4".
+    std::string_view after = rest;
+    if (skip(after, " ") || skip(after, "-")) {
+      const std::optional<double> numerator = take_decimal(after, false);
+      const std::optional<double> divisor = numerator ? take_denominator(after) : std::nullopt;
+      if (divisor && *divisor > 0) {
+        value = *value + *numerator / *divisor;
+        rest = after;
       }
     }
   }
@@ -120,25 +121,27 @@ std::optional<double> take_number(std::string_view& text) {
 }
 
 /// Takes a signed number. Blanks may separate the sign from the digits.
-std::optional<double> take_signed(std::string_view& text, bool comma = true) {
+std::optional<double> take_signed(std::string_view& text, bool may_have_comma = true) {
   skip_blanks(text);
   std::string_view rest = text;
   const bool minus = skip(rest, "-");
   if (!minus) skip(rest, "+");
   skip_blanks(rest);
-  const auto value = take_decimal(rest, comma);
+  const auto value = take_decimal(rest, may_have_comma);
   if (!value) return std::nullopt;
   text = rest;
   return minus ? -*value : *value;
 }
 
-Refusal not_read(std::string_view typed, std::string_view what, std::string_view examples) {
-  return {fmt::format("{} is not {}: type it as {}", in_quotes(typed), what, examples)};
+Refusal not_understood(std::string_view typed, std::string_view expected, std::string_view examples) {
+  return {fmt::format("{} is not {}: type it as {}", in_quotes(typed), expected, examples)};
 }
 
 // Lengths -------------------------------------------------------------------------------------------------------------
 
 constexpr std::string_view k_lengths = "45, 45 mm, 4.5 cm, 1.8 in or 1 3/4\"";
+
+constexpr double k_inch = 25.4, k_foot = 304.8;  // mm
 
 /// mm per unit; empty for an unknown one.
 std::optional<double> unit_of_length(std::string_view word) {
@@ -157,15 +160,15 @@ std::optional<double> unit_of_length(std::string_view word) {
                                                                               {"metre", 1000},
                                                                               {"meter", 1000},
                                                                               {"meters", 1000},
-                                                                              {"in", 25.4},
-                                                                              {"inch", 25.4},
-                                                                              {"inches", 25.4},
-                                                                              {"\"", 25.4},
-                                                                              {"''", 25.4},
-                                                                              {"ft", 304.8},
-                                                                              {"foot", 304.8},
-                                                                              {"feet", 304.8},
-                                                                              {"'", 304.8}}};
+                                                                              {"in", k_inch},
+                                                                              {"inch", k_inch},
+                                                                              {"inches", k_inch},
+                                                                              {"\"", k_inch},
+                                                                              {"''", k_inch},
+                                                                              {"ft", k_foot},
+                                                                              {"foot", k_foot},
+                                                                              {"feet", k_foot},
+                                                                              {"'", k_foot}}};
   for (const auto& [name, size] : units)
     if (name == word) return size;
   return std::nullopt;
@@ -179,19 +182,19 @@ std::optional<double> take_length(std::string_view& text, LengthUnit plain = Len
     const auto number = take_number(rest);
     if (!number) return sum;
     const std::string word = take_word(rest);
-    const auto unit = word.empty() && plain == LengthUnit::inch ? 25.4 : unit_of_length(word);
+    const auto unit = word.empty() && plain == LengthUnit::inch ? k_inch : unit_of_length(word);
     if (!unit) return sum;
     skip(rest, ".");
     sum = sum.value_or(0) + *number * *unit;
     text = rest;
-    if (*unit != 304.8) return sum;
+    if (*unit != k_foot) return sum;
   }
 }
 
-/// Rounds off the last digits of a conversion: 1 3/4 in is 44.45 mm.
-double in_micrometres(double length) {
-  const double written = std::round(1e6 * length) / 1e6;
-  return written > 0 ? written : length;
+/// A length, mm, in whole nanometres. Removes the rounding error of a conversion: 1 3/4 in is 44.45 mm.
+double to_nanometres(double length) {
+  const double whole = std::round(1e6 * length) / 1e6;
+  return whole > 0 ? whole : length;  // a positive length stays positive
 }
 
 // Words of the catalogue ----------------------------------------------------------------------------------------------
@@ -208,18 +211,18 @@ std::vector<std::string> split_words(std::string_view text) {
   }
 }
 
-/// Words for a kind of entry, beside its description.
-std::string kind_of(const ShaftType& type) { return fmt::format("motor shaft {} mm", rounded(type.diameter)); }
-std::string kind_of(const HornType& type) { return type.horn.spline_teeth > 0 ? "spline" : "servo horn"; }
-std::string kind_of(const TendonType&) { return ""; }
+/// Words by which an entry is also found, in addition to its name and description.
+std::string search_words(const ShaftType& type) { return fmt::format("motor shaft {} mm", rounded(type.diameter)); }
+std::string search_words(const HornType& type) { return type.horn.spline_teeth > 0 ? "spline" : "servo horn"; }
+std::string search_words(const TendonType&) { return ""; }
 
 /// The entries whose name or description has all words; the entry of that name alone if there is one.
 template <class Type>
 std::vector<const Type*> matching(const std::vector<Type>& types, const std::vector<std::string>& words) {
   std::vector<const Type*> found;
   for (const Type& type : types) {
-    const std::string text = simplified(fmt::format("{} {} {}", type.name, type.description, kind_of(type)));
-    std::string joined = text;
+    const std::string text = simplified(fmt::format("{} {} {}", type.name, type.description, search_words(type)));
+    std::string joined = text;  // finds "nema17" in "NEMA 17"
     std::erase_if(joined, [](char c) { return c == ' ' || c == '-'; });
     if (words.size() == 1 && words.front() == simplified(type.name)) return {&type};
     const auto has = [&](std::string word) {
@@ -254,10 +257,10 @@ std::string choice_words(const std::vector<const ShaftType*>& types) {
 
 /// The rotation of a motor in the catalogue that has this horn, rad; 0: unlimited.
 double travel_with(std::string_view horn) {
-  constexpr double servo = radians(180.0);
+  constexpr double k_servo_travel = radians(180.0);
   for (const MotorType& motor : motor_types()) {
     if (motor.name != "standard servo") continue;
-    if (std::find(motor.fits.begin(), motor.fits.end(), horn) != motor.fits.end()) return servo;
+    if (std::find(motor.fits.begin(), motor.fits.end(), horn) != motor.fits.end()) return k_servo_travel;
   }
   return 0;
 }
@@ -272,9 +275,9 @@ Answer<double> read_length(std::string_view typed, LengthUnit plain) {
     if (skip(text, word)) skip_blanks(text);
   const auto length = take_length(text, plain);
   skip_blanks(text);
-  if (!length || !text.empty()) return not_read(typed, "a length", k_lengths);
+  if (!length || !text.empty()) return not_understood(typed, "a length", k_lengths);
   if (!(*length > 0)) return Refusal{"the length must be greater than 0"};
-  return in_micrometres(*length);
+  return to_nanometres(*length);
 }
 
 bool is_in_inches(std::string_view typed) {
@@ -282,7 +285,7 @@ bool is_in_inches(std::string_view typed) {
   std::string_view text = simple;
   while (!text.empty()) {
     const auto unit = unit_of_length(take_word(text));
-    if (unit == 25.4 || unit == 304.8) return true;
+    if (unit == k_inch || unit == k_foot) return true;
     text.remove_prefix(text.empty() ? 0 : 1);
   }
   return false;
@@ -308,32 +311,34 @@ Answer<AngleRange> read_range(std::string_view typed) {
   if (symmetric) {
     const auto end = take_signed(text);
     skip_blanks(text);
-    if (!end || !text.empty()) return not_read(typed, "a range", k_examples);
+    if (!end || !text.empty()) return not_understood(typed, "a range", k_examples);
     range = {-*end * unit, *end * unit};
   } else {
     // A comma is decimal only where something else separates the ends.
-    const auto blank = std::find_if(simple.begin(), simple.end(), is_digit);
-    const std::string_view between(std::string_view(simple).substr(static_cast<std::size_t>(blank - simple.begin())));
-    const std::string_view ends = between.substr(0, between.find_last_of("0123456789") + 1);
-    const bool comma = ends.find_first_of(" ;") != std::string_view::npos ||
-                       ends.find("..") != std::string_view::npos || ends.find("to") != std::string_view::npos;
-    const auto low = take_signed(text, comma);
-    if (!low) return not_read(typed, "a range", k_examples);
-    const bool apart = text.starts_with(' ');
+    const auto first_digit = std::find_if(simple.begin(), simple.end(), is_digit);
+    const std::string_view from_first_digit(
+        std::string_view(simple).substr(static_cast<std::size_t>(first_digit - simple.begin())));
+    const std::string_view ends = from_first_digit.substr(0, from_first_digit.find_last_of("0123456789") + 1);
+    const bool comma_is_decimal = ends.find_first_of(" ;") != std::string_view::npos ||
+                                  ends.find("..") != std::string_view::npos ||
+                                  ends.find("to") != std::string_view::npos;
+    const auto low = take_signed(text, comma_is_decimal);
+    if (!low) return not_understood(typed, "a range", k_examples);
+    const bool has_blank = text.starts_with(' ');
     skip_blanks(text);
     // "0-80" and "0 - 80" have a dash, "0 -80" a sign.
-    const bool is_sign = apart && text.size() > 1 && text.front() == '-' && text[1] != ' ';
-    bool separated = apart;
+    const bool is_sign = has_blank && text.size() > 1 && text.front() == '-' && text[1] != ' ';
+    bool separated = has_blank;
     for (const std::string_view sign : {"...", "..", "to", "and", "until", "till", "bis", ",", ";", ":", "/"})
       if (skip(text, sign)) separated = true;
     if (!is_sign && text.starts_with('-') && !separated)
       separated = skip(text, "-");
     else if (!is_sign && text.starts_with("- "))
       skip(text, "-");
-    const auto high = take_signed(text, comma);
+    const auto high = take_signed(text, comma_is_decimal);
     skip_blanks(text);
     if (!high && text.empty()) return Refusal{"give both ends of the range, such as 0 80 or ±30"};
-    if (!high || !separated || !text.empty()) return not_read(typed, "a range", k_examples);
+    if (!high || !separated || !text.empty()) return not_understood(typed, "a range", k_examples);
     range = {*low * unit, *high * unit};
   }
   const Field& field = *find_field("joint.range_deg");
@@ -351,13 +356,16 @@ Answer<TypedLoad> read_load(std::string_view typed) {
   const std::string simple = simplified(typed);
   std::string_view text = simple;
   const auto number = take_signed(text);
-  if (!number) return not_read(typed, "a load", k_examples);
+  if (!number) return not_understood(typed, "a load", k_examples);
   skip_blanks(text);
   const measurement::Unit* unit = find_unit(measurement::Quantity::load, text.empty() ? "N" : text);
   if (unit == nullptr)
     return Refusal{fmt::format("{} is not a unit of force or torque: type it as {}", in_quotes(text), k_examples)};
   const double size = *number * unit->factor;
-  const TypedLoad load{unit->base == "N" ? size : 0, unit->base == "Nmm" ? size : unit->base == "Nm" ? 1000 * size : 0};
+  TypedLoad load;
+  if (unit->base == "N") load.force = size;
+  if (unit->base == "Nmm") load.torque = size;
+  if (unit->base == "Nm") load.torque = 1000 * size;
   for (const auto& [key, value] : {std::pair{"load.tip_force_N", load.force}, {"load.torque_Nmm", load.torque}}) {
     const Field& field = *find_field(key);
     if (value < field.least || value > field.most)
@@ -369,7 +377,7 @@ Answer<TypedLoad> read_load(std::string_view typed) {
 
 namespace {
 
-/// Removes "180 deg" from a motor's name and returns it, rad; 0 for none.
+/// Removes an angle such as "180 deg" from a motor's name and returns it, rad; 0 for none.
 double extract_travel(std::string& simple) {
   for (std::size_t at = 0; at < simple.size(); ++at) {
     if (!is_digit(simple[at]) || (at > 0 && simple[at - 1] != ' ' && simple[at - 1] != ',')) continue;
@@ -434,7 +442,7 @@ std::optional<Answer<TypedMotor>> read_shaft(std::string_view text, LengthUnit p
   if (!(*diameter > 0) || *diameter > most)
     return Refusal{fmt::format("a shaft of {} mm is not within 0 to {} mm", rounded(*diameter), rounded(most))};
   TypedMotor motor;
-  motor.bore = in_micrometres(*diameter);
+  motor.bore = to_nanometres(*diameter);
   motor.flat = std::any_of(words.begin(), words.end(), is_flat);
   motor.words = fmt::format("a {} shaft of {} mm", motor.flat ? "D" : "round", rounded(*diameter));
   return motor;
@@ -442,10 +450,10 @@ std::optional<Answer<TypedMotor>> read_shaft(std::string_view text, LengthUnit p
 
 /// The words of an answer that may be part of a name.
 std::vector<std::string> words_of_name(std::string_view text) {
-  constexpr std::array<std::string_view, 7> k_others{"hobby", "a", "with", "for", "and", "that", "turns"};
+  constexpr std::array<std::string_view, 7> k_fillers{"hobby", "a", "with", "for", "and", "that", "turns"};
   std::vector<std::string> words = split_words(text);
   std::erase_if(words, [&](const std::string& word) {
-    return std::find(k_others.begin(), k_others.end(), word) != k_others.end();
+    return std::find(k_fillers.begin(), k_fillers.end(), word) != k_fillers.end();
   });
   return words;
 }
@@ -496,7 +504,8 @@ Answer<TypedMotor> read_motor(std::string_view typed, LengthUnit plain) {
 
 namespace {
 
-double times(double one, double other) { return std::max(one / other, other / one); }
+/// The larger of a ratio and its inverse.
+double ratio_above_one(double one, double other) { return std::max(one / other, other / one); }
 
 /// Removes the first length from an answer and returns it. A number that is part of a name ("7x7", "100 lb") is none.
 std::optional<double> extract_diameter(std::string& answer, LengthUnit plain) {
@@ -516,7 +525,7 @@ std::optional<double> extract_diameter(std::string& answer, LengthUnit plain) {
     const std::string word = take_word(next);
     if (word == "lb" || word == "lbs" || word == "strands" || word == "strand") continue;
     answer.replace(at, taken, " ");
-    return in_micrometres(*length);
+    return to_nanometres(*length);
   }
   return std::nullopt;
 }
@@ -563,9 +572,9 @@ Answer<TypedTendon> read_tendon(std::string_view typed, LengthUnit plain) {
                                rounded(field.most))};
   if (types.empty()) types = matching(tendon_types(), {"hmpe"});  // a diameter alone: the most usual material
   const TendonType& nearest = **std::min_element(types.begin(), types.end(), [d](const auto* one, const auto* other) {
-    return times(one->diameter, d) < times(other->diameter, d);
+    return ratio_above_one(one->diameter, d) < ratio_above_one(other->diameter, d);
   });
-  const bool is_entry = std::abs(nearest.diameter - d) < 0.005;
+  const bool is_entry = std::abs(nearest.diameter - d) < 0.005;  // mm
   return TypedTendon{
       d, nearest.modulus, nearest.bend_ratio,
       fmt::format("{} mm, {}{}: {}", rounded(d), is_entry ? "" : "of the kind of ", nearest.name, nearest.description)};

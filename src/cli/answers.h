@@ -40,7 +40,7 @@ Answer<TypedLoad> read_load(std::string_view text);
 
 struct TypedMotor {
   std::string shaft;        ///< a name of the catalogue, or empty
-  std::string horn;         ///< the same
+  std::string horn;         ///< a name of the catalogue, or empty
   double bore = 0;          ///< diameter of any other shaft, mm
   bool flat = false;        ///< that shaft is a D shaft
   std::string model;        ///< a motor of the catalogue by its maker's name, or empty
@@ -49,15 +49,15 @@ struct TypedMotor {
   std::string words;        ///< for the summary
   std::string choice;       ///< name of the shaft that was chosen from a family, and the others; empty without a choice
 };
-/// A name of the catalogue or part of it ("n20-d3", "MG996R horn", "nema 17 round"), a model ("XL430-W250"), or a shaft
-/// ("5 mm", "1/4 in D"). "180 deg" beside it is its travel. A plain number is in `plain`.
+/// Reads a name of the catalogue or part of it ("n20-d3", "MG996R horn", "nema 17 round"), a model ("XL430-W250"), or a
+/// shaft ("5 mm", "1/4 in D"). "180 deg" beside it is its travel. A plain number is in `plain`.
 Answer<TypedMotor> read_motor(std::string_view text, LengthUnit plain = LengthUnit::mm);
 
 struct TypedTendon {
-  double diameter = 0;  ///< mm
-  double modulus = 0;   ///< MPa
-  double bend_ratio = 0;
-  std::string words;
+  double diameter = 0;    ///< mm
+  double modulus = 0;     ///< MPa
+  double bend_ratio = 0;  ///< minimum bend diameter / tendon diameter
+  std::string words;      ///< for the summary
 };
 /// A diameter, a name of the catalogue, or both: "0.6", "hmpe-0.56", "Dyneema 0.6 mm", "steel 1/16 in", "nylon".
 Answer<TypedTendon> read_tendon(std::string_view text, LengthUnit plain = LengthUnit::mm);

@@ -32,16 +32,16 @@ UsageError value_missing(const Option& option) {
 }
 
 /// CLI11's messages name its types and counts. Each of its errors is an option whose value is missing or unexpected.
-UsageError in_our_words(const CLI::ParseError& error, const CLI::App& app, const Command& command,
-                        const std::vector<Option>& options) {
-  const std::string what = error.what();
-  for (const std::string& word : app.remaining()) return unknown_option(word, command, options);
+UsageError usage_error_for(const CLI::ParseError& error, const CLI::App& app, const Command& command,
+                           const std::vector<Option>& options) {
+  const std::string message = error.what();
+  if (const std::vector<std::string> unknown = app.remaining(); !unknown.empty())
+    return unknown_option(unknown.front(), command, options);
   for (const Option& option : options) {
     const std::string name(option.name());
-    if (what.find(name) == std::string::npos) continue;
-    return value_missing(option);
+    if (message.find(name) != std::string::npos) return value_missing(option);
   }
-  return UsageError(what);
+  return UsageError(message);
 }
 
 /// CLI11 would accept --json=3 as --json.
@@ -81,7 +81,8 @@ void check_values(const Option& option, const std::vector<std::string>& values) 
   }
 }
 
-/// Switches of one letter ("-qv") and values in the same word ("--set=a.b=1", "-oDIR") take no further word.
+/// True for an option whose value is the next word. Switches of one letter ("-qv") and values in the same word
+/// ("--set=a.b=1", "-oDIR") take no further word.
 bool takes_next_word(const std::string& word) {
   for (const Command& command : commands()) {
     for (const Option& option : options_of(command)) {
@@ -152,17 +153,18 @@ Arguments::Arguments(const Command& command, const std::vector<std::string>& wor
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 reads from the back
   } catch (const CLI::ParseError& error) {
-    throw in_our_words(error, app, command, options);
+    throw usage_error_for(error, app, command, options);
   }
   for (const Option& option : options) {
     const std::string name(option.name());
-    if (option.value.empty() ? !switches[name] : values_[name].empty()) {
+    const bool is_switch = option.value.empty();
+    const bool is_given = is_switch ? switches[name] : !values_[name].empty();
+    if (!is_given)
       values_.erase(name);
-    } else if (!option.value.empty()) {
+    else if (is_switch)
+      values_.try_emplace(name);  // without values: has() asks for the name only
+    else
       check_values(option, values_[name]);
-    } else {
-      values_[name];
-    }
   }
   if (!has("--help") && !has("--version")) check_count(command, positionals_);
 }

@@ -36,6 +36,9 @@ struct Option {
   std::string_view name() const { return flags.substr(flags.rfind(',') + 1); }
 };
 
+/// The largest value of --seed where it is a 32-bit number: 2³² − 1.
+inline constexpr double k_largest_seed = 4294967295.0;
+
 /// The options of every command, accepted before or after its name.
 const std::vector<Option>& common_options();
 /// The command's own options and common_options().
@@ -60,7 +63,7 @@ class Arguments {
 
  private:
   std::vector<std::string> positionals_;
-  std::map<std::string, std::vector<std::string>> values_;
+  std::map<std::string, std::vector<std::string>> values_;  ///< given options; a switch has an empty list
 };
 
 /// Index of the command's name: the first word that is neither an option nor an option's value.

@@ -53,7 +53,7 @@ std::string checks_table(const std::vector<Check>& checks) {
 void add_failures(const std::vector<Check>& checks, Reply& reply) {
   for (const Check& check : checks) {
     if (check.ok) continue;
-    reply.diagnostics.push_back(note(
+    reply.diagnostics.push_back(make_diagnostic(
         Severity::error, "check '" + check.name + "' failed: " + with_unit(check.value, check.unit) + ", limit " +
                              with_unit(check.limit, check.unit) + (check.where.empty() ? "" : "; " + check.where)));
   }

@@ -17,7 +17,7 @@ pipeline::AsBuiltLimits limits_from(const Arguments& arguments);
 
 /// Summary, such as "theta within 0.0012 deg, excess length within 0.003 mm".
 std::string as_built_text(const profile::RewindResult& as_built);
-/// The JSON object of manifest.json.
+/// The object "as_built", as in manifest.json.
 Json to_json(const profile::RewindResult& as_built);
 std::string checks_table(const std::vector<Check>& checks);
 /// Adds an error for each failed check.

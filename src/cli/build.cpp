@@ -32,7 +32,8 @@ Range range_over(const std::vector<transmission::TransmissionPoint>& stroke, Val
 }
 
 struct StrokeRanges {
-  Range alpha, theta, r1, r2;  ///< deg, mm
+  Range alpha, theta;  ///< deg
+  Range r1, r2;        ///< mm
 };
 
 StrokeRanges ranges_of(const std::vector<transmission::TransmissionPoint>& stroke) {
@@ -51,14 +52,16 @@ std::string bytes_text(std::size_t bytes) {
 }
 
 std::string files_text(const pipeline::BuildResult& built, const pipeline::BuildOptions& options) {
+  constexpr std::size_t k_indent = 14, k_name_width = 18, k_size_width = 8;
   if (options.dry_run) return titled("files", "none written (--dry-run)");
   if (!built.published) return titled("files", "none written: " + options.folder.string() + " keeps its earlier run");
   std::string text = titled("files", "in " + options.folder.string());
   for (const OutputFile& file : built.outputs) {
     std::string name = file.name;
-    name.resize(18, ' ');
+    name.resize(k_name_width, ' ');
     const std::string size = bytes_text(file.bytes.size());
-    text += std::string(14, ' ') + name + std::string(8 - std::min<std::size_t>(8, size.size()), ' ') + size + "\n";
+    text += std::string(k_indent, ' ') + name + std::string(k_size_width - std::min(k_size_width, size.size()), ' ') +
+            size + "\n";
   }
   return text;
 }
@@ -97,9 +100,9 @@ std::string knots_text(const solid::Holding& holding) {
   std::string text;
   for (const solid::KnotHold& knot : holding.knots) {
     const std::optional<double> share = holding.share(knot);
-    const std::string of_what = text.empty() ? " % of its strength)" : " %)";
+    const std::string percent_words = text.empty() ? " % of its strength)" : " %)";
     text += (text.empty() ? "" : ", ") + std::string(knot.side == transmission::Side::left ? "1" : "2") + " up to " +
-            rounded(knot.at_knot, 3) + " N" + (share ? " (" + rounded(100.0 * *share, 2) + of_what : "");
+            rounded(knot.at_knot, 3) + " N" + (share ? " (" + rounded(100.0 * *share, 2) + percent_words : "");
   }
   return text.empty() ? text : titled("knots", text);
 }
@@ -172,9 +175,9 @@ void add_failed_checks(const pipeline::BuildResult& built, const pipeline::Build
   reply.exit = Exit::check_failed;
   add_failures(built.product.checks, reply);
   if (!built.published && !options.dry_run) {
-    reply.diagnostics.push_back(note(Severity::note,
-                                     "the files of the earlier run in " + options.folder.string() + " were kept",
-                                     "use --force to replace them with the faulty ones"));
+    reply.diagnostics.push_back(
+        make_diagnostic(Severity::note, "the files of the earlier run in " + options.folder.string() + " were kept",
+                        "use --force to replace them with the faulty ones"));
   }
 }
 
@@ -210,10 +213,11 @@ pipeline::BuildOptions build_options_from(const Arguments& arguments) {
 /// Explains the folder of a trial.
 void add_trial_note(const Arguments& arguments, Reply& reply) {
   if (arguments.settings().empty() || arguments.has("--out")) return;
-  reply.diagnostics.push_back(note(Severity::note,
-                                   "a trial with --set has a folder of its own: files of " +
-                                       arguments.positionals().front() + " without --set are not replaced",
-                                   "mechanism.toml there has the new values; -o DIR chooses another folder"));
+  reply.diagnostics.push_back(
+      make_diagnostic(Severity::note,
+                      "a trial with --set has a folder of its own: files of " + arguments.positionals().front() +
+                          " without --set are not replaced",
+                      "mechanism.toml there has the new values; -o DIR chooses another folder"));
 }
 
 Reply run_build(const Arguments& arguments, Console& console, const RunContext& context) {

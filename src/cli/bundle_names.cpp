@@ -11,12 +11,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The absolute path, normalised and without a trailing slash.
-fs::path whole_of(const fs::path& here, const fs::path& path) {
-  fs::path whole = (here / path).lexically_normal();
-  return whole.has_filename() ? whole : whole.parent_path();
+fs::path absolute_path(const fs::path& here, const fs::path& path) {
+  fs::path absolute = (here / path).lexically_normal();
+  return absolute.has_filename() ? absolute : absolute.parent_path();
 }
 
-/// Index at which a path begins in a word: after "--out=", "-o" and "pulley.table=".
+/// Index at which a path begins in a word: after "--out=", "-o" and "pulley.table="; the word's size if it has none.
 std::size_t path_begin(const std::string& word, bool is_setting) {
   std::size_t begin = 0;
   if (word.rfind("--", 0) == 0) {
@@ -32,7 +32,7 @@ std::size_t path_begin(const std::string& word, bool is_setting) {
   return equals == std::string::npos ? word.size() : equals + 1;
 }
 
-bool belongs_to_name(char c) {
+bool is_name_character(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' ||
          static_cast<unsigned char>(c) >= 0x80;
 }
@@ -41,10 +41,10 @@ void replace_name(std::string& text, const std::string& from, const std::string&
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos;) {
     const char before = at == 0 ? ' ' : text[at - 1];
     const std::size_t end = at + from.size();
-    const bool inside =
-        belongs_to_name(before) || before == '/' || before == '.' || (end < text.size() && belongs_to_name(text[end]));
-    if (!inside) text.replace(at, from.size(), to);
-    at += inside ? from.size() : to.size();
+    const bool is_part_of_longer_name = is_name_character(before) || before == '/' || before == '.' ||
+                                        (end < text.size() && is_name_character(text[end]));
+    if (!is_part_of_longer_name) text.replace(at, from.size(), to);
+    at += is_part_of_longer_name ? from.size() : to.size();
   }
 }
 
@@ -55,17 +55,21 @@ fs::path working_folder() {
   return fs::current_path(error);
 }
 
-fs::path seen_from(const fs::path& here, const fs::path& path) { return whole_of(here, path).lexically_relative(here); }
+fs::path path_from(const fs::path& here, const fs::path& path) {
+  return absolute_path(here, path).lexically_relative(here);
+}
 
-bool leads_out(const fs::path& seen) { return seen.empty() || seen.is_absolute() || *seen.begin() == ".."; }
+bool is_outside(const fs::path& relative) {
+  return relative.empty() || relative.is_absolute() || *relative.begin() == "..";
+}
 
-std::string tame(std::string_view name) {
-  std::string tamed = cleaned_line(name);
-  for (std::size_t i = 0; i < tamed.size(); ++i) {
-    const bool hides = tamed[i] == '.' && (i == 0 || tamed[i - 1] == '/');
-    if (hides || tamed[i] == '\\' || tamed[i] == ':') tamed[i] = '_';
+std::string valid_inner_name(std::string_view name) {
+  std::string valid_name = cleaned_line(name);
+  for (std::size_t i = 0; i < valid_name.size(); ++i) {
+    const bool makes_hidden_file = valid_name[i] == '.' && (i == 0 || valid_name[i - 1] == '/');
+    if (makes_hidden_file || valid_name[i] == '\\' || valid_name[i] == ':') valid_name[i] = '_';
   }
-  return is_inner_path(tamed) ? tamed : "file";
+  return is_inner_path(valid_name) ? valid_name : "file";
 }
 
 BundleNames::BundleNames(const fs::path& here) : here_(here) {
@@ -91,58 +95,61 @@ std::string BundleNames::unused(const std::string& folder, const std::string& na
   return full;
 }
 
-std::string BundleNames::outside(const fs::path& whole) {
-  const fs::path folder = whole.parent_path();
-  std::string& home = named_[folder];
-  if (home.empty()) {
-    home = "outside";
-    for (int i = 2; !used_.insert(home).second; ++i) home = "outside_" + std::to_string(i);
-    add_folder(folder, home);
+std::string BundleNames::outside(const fs::path& absolute) {
+  const fs::path folder = absolute.parent_path();
+  std::string& folder_name = named_[folder];
+  if (folder_name.empty()) {
+    folder_name = "outside";
+    for (int i = 2; !used_.insert(folder_name).second; ++i) folder_name = "outside_" + std::to_string(i);
+    add_folder(folder, folder_name);
   }
-  return unused(home + "/", tame(whole.filename().string()));
+  return unused(folder_name + "/", valid_inner_name(absolute.filename().string()));
 }
 
 std::string BundleNames::inner(const fs::path& path) {
-  const fs::path near = seen_from(here_, path), whole = whole_of(here_, path);
-  if (near == ".") return ".";
-  auto known = named_.find(whole);
+  const fs::path relative = path_from(here_, path), absolute = absolute_path(here_, path);
+  if (relative == ".") return ".";
+  auto known = named_.find(absolute);
   if (known == named_.end())
-    known = named_.emplace(whole, leads_out(near) ? outside(whole) : unused("", tame(near.string()))).first;
+    known = named_
+                .emplace(absolute,
+                         is_outside(relative) ? outside(absolute) : unused("", valid_inner_name(relative.string())))
+                .first;
   const std::string& name = known->second;
   add(path.string(), name);
-  add(whole.string(), name);
+  add(absolute.string(), name);
   std::error_code error;
   const fs::path real = fs::weakly_canonical(here_ / path, error);
   if (!error) add(real.string(), name);
-  if (!leads_out(near)) return name;
-  if (const auto home = named_.find(whole.parent_path()); home != named_.end()) {
-    if (path.has_parent_path()) add_folder(path.parent_path(), home->second);
-    if (!error) add_folder(real.parent_path(), home->second);
+  if (!is_outside(relative)) return name;
+  if (const auto folder = named_.find(absolute.parent_path()); folder != named_.end()) {
+    if (path.has_parent_path()) add_folder(path.parent_path(), folder->second);
+    if (!error) add_folder(real.parent_path(), folder->second);
   }
   return name;
 }
 
 std::vector<std::string> BundleNames::inner_words(const std::vector<std::string>& words) {
   std::vector<std::string> renamed = words;
-  bool only_paths = false;
+  bool only_paths = false;  // after "--"
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     const std::string flag = i == 0 || only_paths ? "" : words[i - 1];
     const std::size_t begin = only_paths ? 0 : path_begin(word, flag == "--set");
     const std::string value = word.substr(begin);
     // A value of --set is relative to the mechanism file's folder, where the replayed run looks for its name.
-    if (!value.empty() && (fs::path(value).is_absolute() || leads_out(seen_from(here_, value)) || !is_utf8(value)))
+    if (!value.empty() && (fs::path(value).is_absolute() || is_outside(path_from(here_, value)) || !is_utf8(value)))
       renamed[i] = word.substr(0, begin) + inner(value);
     only_paths = only_paths || word == "--";
   }
   return renamed;
 }
 
-std::string BundleNames::text(std::string words) const {
-  if (const auto exact = renamed_.find(words); exact != renamed_.end()) return exact->second;
+std::string BundleNames::text(std::string message) const {
+  if (const auto exact = renamed_.find(message); exact != renamed_.end()) return exact->second;
   for (const auto& [from, to] : renamed_)
-    if (from.find_first_not_of("./") != std::string::npos) replace_name(words, from, to);
-  return words;
+    if (from.find_first_not_of("./") != std::string::npos) replace_name(message, from, to);
+  return message;
 }
 
 Json BundleNames::document(Json json) const {

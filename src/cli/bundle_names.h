@@ -26,7 +26,7 @@ class BundleNames {
   /// Replaces `from` by `to` in the run's messages.
   void add(const std::string& from, const std::string& to);
   /// Replaces all names from add() and inner() in a message by their names in the bundle.
-  std::string text(std::string words) const;
+  std::string text(std::string message) const;
   /// Replaces the names in every text of a document.
   Json document(Json json) const;
 
@@ -37,22 +37,25 @@ class BundleNames {
     }
   };
 
-  std::string outside(const std::filesystem::path& path);
+  /// A new name outside/… for an absolute path.
+  std::string outside(const std::filesystem::path& absolute);
+  /// folder + name, with a number between them if that name is used.
   std::string unused(const std::string& folder, const std::string& name);
   void add_folder(std::filesystem::path folder, std::string name);
 
   std::filesystem::path here_;
-  std::map<std::filesystem::path, std::string> named_;  ///< files and folders, with absolute path
-  std::set<std::string> used_;
-  std::map<std::string, std::string, LongestFirst> renamed_;
+  std::map<std::filesystem::path, std::string> named_;        ///< absolute path of a file or folder → its name
+  std::set<std::string> used_;                                ///< names of the bundle, each given once
+  std::map<std::string, std::string, LongestFirst> renamed_;  ///< name in messages → its replacement
 };
 
 /// The normalised path relative to `here`, so that equal files have equal names. Empty, or beginning with "..", for a
 /// path outside.
-std::filesystem::path seen_from(const std::filesystem::path& here, const std::filesystem::path& path);
-bool leads_out(const std::filesystem::path& seen);
+std::filesystem::path path_from(const std::filesystem::path& here, const std::filesystem::path& path);
+/// True for a path of path_from() that leads out of its folder.
+bool is_outside(const std::filesystem::path& relative);
 /// A valid bundle name for any name; unchanged if it is valid.
-std::string tame(std::string_view name);
+std::string valid_inner_name(std::string_view name);
 /// The working folder of the process; empty if it no longer exists.
 std::filesystem::path working_folder();
 

@@ -21,9 +21,10 @@ std::vector<std::filesystem::path> paths(const std::vector<std::string>& names) 
 std::vector<std::filesystem::path> runs_from(const Arguments& arguments) {
   std::vector<std::filesystem::path> runs = paths(arguments.positionals());
   runs.erase(runs.begin());
-  std::set<std::filesystem::path> held;
-  for (const auto& name : paths(arguments.texts("--hold-out"))) held.insert(name.lexically_normal());
-  if (std::all_of(runs.begin(), runs.end(), [&](const auto& run) { return held.count(run.lexically_normal()) > 0; }))
+  std::set<std::filesystem::path> held_out;
+  for (const auto& name : paths(arguments.texts("--hold-out"))) held_out.insert(name.lexically_normal());
+  if (std::all_of(runs.begin(), runs.end(),
+                  [&](const auto& run) { return held_out.count(run.lexically_normal()) > 0; }))
     throw UsageError("every run is held out: no run remains for the fit", "remove --hold-out for one of them");
   return runs;
 }
@@ -43,9 +44,9 @@ void add_notes(const pipeline::CalibrateResult& result, bool verbose, Reply& rep
   add_log_notes(logs.runs, logs.sources, reply);
   add_log_notes(logs.runs, verbose ? logs.notes : formats::shortened_notes(logs.notes), reply);
   if (result.rewritten)
-    reply.diagnostics.push_back(
-        note(Severity::note,
-             "corrected.toml includes the values of --set and has every key; comments of the file are omitted"));
+    reply.diagnostics.push_back(make_diagnostic(
+        Severity::note,
+        "corrected.toml includes the values of --set and has every key; comments of the file are omitted"));
 }
 
 pipeline::CalibrateOptions calibrate_options_from(const Arguments& arguments) {

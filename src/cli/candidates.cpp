@@ -11,15 +11,17 @@ namespace {
 /// Splits a line like a shell, with quotes and backslashes removed; the last word is being typed.
 std::vector<std::string> words_of(std::string_view line) {
   std::vector<std::string> words = {""};
-  char quote = 0;
+  char quote = 0;  // the open quote, if any
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
     if (quote == 0 && (c == ' ' || c == '\t')) {
       if (!words.back().empty()) words.emplace_back();
     } else if (c == '\\' && quote != '\'' && i + 1 < line.size()) {
       words.back() += line[++i];
-    } else if (quote != 0 ? c == quote : c == '\'' || c == '"') {
-      quote = quote == 0 ? c : 0;
+    } else if (quote == 0 && (c == '\'' || c == '"')) {
+      quote = c;
+    } else if (quote != 0 && c == quote) {
+      quote = 0;
     } else {
       words.back() += c;
     }
@@ -43,7 +45,7 @@ const Option* option_named(const std::vector<Option>& options, const std::string
 
 Json fields_of_a_mechanism() { return parse_json(explain_json(""))["fields"]; }
 
-/// "pulley.law=compensate" for a key with a few words, else "pulley.r1_mm=".
+/// Keys such as "pulley.r1_mm="; after "=" the words that the key accepts, such as "pulley.law=compensate".
 Candidates settings(const std::string& typed) {
   Candidates found;
   const std::string key = typed.substr(0, typed.find('='));
@@ -52,9 +54,11 @@ Candidates settings(const std::string& typed) {
     const std::string name = field["name"];
     if (!wants_value) {
       found.words.push_back({name + "=", field["meaning"]});
-    } else if (const char* list = field.contains("known") ? "known" : "choices"; name == key && field.contains(list)) {
-      for (const Json& choice : field[list]) found.words.push_back({key + "=" + choice.get<std::string>(), ""});
+      continue;
     }
+    const char* const list = field.contains("known") ? "known" : "choices";
+    if (name != key || !field.contains(list)) continue;
+    for (const Json& choice : field[list]) found.words.push_back({key + "=" + choice.get<std::string>(), ""});
   }
   found.goes_on = !wants_value;
   return found;
@@ -101,42 +105,47 @@ Candidates names_of_options(const std::vector<Option>& options) {
   return found;
 }
 
-/// The n-th word of "SPEC RUN.csv...", whose name determines the kind of candidates.
-Candidates arguments(const Command& command, std::size_t n) {
+/// Candidates for an argument by its name in the usage line, such as "SPEC RUN.csv...".
+Candidates argument_candidates(const Command& command, std::size_t index) {
   const std::vector<std::string> expected = split(command.positionals, ' ');
-  if (expected.empty() || (n >= expected.size() && !command.positionals.ends_with("..."))) return {};
-  const std::string& name = expected[std::min(n, expected.size() - 1)];
+  if (expected.empty() || (index >= expected.size() && !command.positionals.ends_with("..."))) return {};
+  const std::string& name = expected[std::min(index, expected.size() - 1)];
   const auto is = [&name](const char* word) { return name.find(word) != std::string::npos; };
   if (is("TEMPLATE")) return names_of_templates();
   if (is("KEY")) return keys();
   if (is("COMMAND")) return names_of_commands();
-  if (is("SHELL")) return {{{"bash", ""}, {"zsh", ""}, {"fish", ""}}, false, "", false};
+  if (is("SHELL")) {
+    Candidates shells;
+    for (const char* shell : {"bash", "zsh", "fish"}) shells.words.push_back({shell, ""});
+    return shells;
+  }
   if (is("SPEC")) return files(".toml");
   if (is(".csv")) return files(".csv");
   return files();
 }
 
 /// All possible words at this place, including those that do not begin as typed.
-Candidates all_at(const std::vector<std::string>& words, const std::string& typed) {
+Candidates unfiltered_candidates(const std::vector<std::string>& words, const std::string& typed) {
   const std::vector<std::string> before(words.begin(), words.end() - 1);
-  const auto at = find_command(before);
-  const auto known = std::find_if(commands().begin(), commands().end(),
-                                  [&](const Command& command) { return at && command.name == before[*at]; });
-  if (at && known == commands().end()) return {};
-  const std::vector<Option> options = at ? options_of(*known) : common_options();
-  const Option* waiting = before.empty() ? nullptr : option_named(options, before.back());
-  if (waiting != nullptr && !waiting->value.empty()) return values(*waiting, typed);
+  const auto command_index = find_command(before);
+  const auto known = std::find_if(commands().begin(), commands().end(), [&](const Command& command) {
+    return command_index && command.name == before[*command_index];
+  });
+  if (command_index && known == commands().end()) return {};
+  const std::vector<Option> options = command_index ? options_of(*known) : common_options();
+  const Option* previous = before.empty() ? nullptr : option_named(options, before.back());
+  if (previous != nullptr && !previous->value.empty()) return values(*previous, typed);
   if (typed.rfind('-', 0) == 0) return names_of_options(options);
-  if (!at) return names_of_commands();
-  std::size_t n = 0;
+  if (!command_index) return names_of_commands();
+  std::size_t argument_count = 0;
   const Option* takes_more = nullptr;  // the last option, if it takes all words up to the next one
-  for (std::size_t i = *at + 1; i < before.size(); ++i) {
+  for (std::size_t i = *command_index + 1; i < before.size(); ++i) {
     const Option* option = option_named(options, before[i]);
     if (option != nullptr) takes_more = option->value.ends_with("...") ? option : nullptr;
     if (option != nullptr && !option->value.empty()) ++i;
-    n += option == nullptr && before[i].rfind('-', 0) != 0 ? 1 : 0;
+    if (option == nullptr && before[i].rfind('-', 0) != 0) ++argument_count;
   }
-  return takes_more != nullptr ? values(*takes_more, typed) : arguments(*known, n);
+  return takes_more != nullptr ? values(*takes_more, typed) : argument_candidates(*known, argument_count);
 }
 
 }  // namespace
@@ -145,7 +154,7 @@ Candidates candidates(std::string_view line) {
   std::vector<std::string> words = words_of(line);
   if (words.size() < 2) return {};  // only the program's name
   words.erase(words.begin());
-  Candidates found = all_at(words, words.back());
+  Candidates found = unfiltered_candidates(words, words.back());
   found.words.erase(std::remove_if(found.words.begin(), found.words.end(),
                                    [&](const Candidate& one) { return one.word.rfind(words.back(), 0) != 0; }),
                     found.words.end());

@@ -16,10 +16,10 @@ std::string description_of(const pipeline::Part& part) {
   return "a drawing (" + drawing.version + ") of " + std::to_string(drawing.paths.size()) + " paths";
 }
 
-/// Sizes outside of this range nearly always mean another unit.
-constexpr double k_smallest = 3.0, k_largest = 1000.0;  // mm
+/// Sizes of a part outside of this range nearly always mean another unit.
+constexpr double k_least_plausible = 3.0, k_most_plausible = 1000.0;  // mm
 
-std::string by_three(const Vec3& extent, bool is_flat, double factor) {
+std::string extent_text(const Vec3& extent, bool is_flat, double factor) {
   std::string text = rounded(factor * extent.x()) + " × " + rounded(factor * extent.y());
   if (!is_flat) text += " × " + rounded(factor * extent.z());
   return text + " mm";
@@ -28,9 +28,9 @@ std::string by_three(const Vec3& extent, bool is_flat, double factor) {
 std::string size_text(const pipeline::PartSize& size) {
   if (!size.extent) return "size: none, the part is empty";
   if (size.contours)
-    return "size " + by_three(*size.extent, true, 1) + ", " + std::to_string(*size.contours) + " closed " +
+    return "size " + extent_text(*size.extent, true, 1) + ", " + std::to_string(*size.contours) + " closed " +
            (*size.contours == 1 ? "contour" : "contours");
-  const std::string extent = "size " + by_three(*size.extent, false, 1);
+  const std::string extent = "size " + extent_text(*size.extent, false, 1);
   return extent +
          (size.volume ? ", volume " + rounded(*size.volume / 1000.0) + " cm³" : ", no volume: the mesh is not closed");
 }
@@ -40,15 +40,16 @@ void add_unit_warning(const std::string& file, const pipeline::PartSize& size, R
   if (!size.extent) return;
   const bool is_flat = size.contours.has_value();
   const double largest = size.extent->maxCoeff();
-  const auto would_be = [&](double factor) { return by_three(*size.extent, is_flat, factor); };
+  const auto size_scaled_by = [&](double factor) { return extent_text(*size.extent, is_flat, factor); };
   std::string guess;
-  if (largest > 0 && largest < k_smallest)
-    guess = "it looks like inches (× 25.4 = " + would_be(25.4) + ") or metres (× 1000 = " + would_be(1000) + ")";
-  if (largest > k_largest)
-    guess = "it looks like millimetres read as inches (÷ 25.4 = " + would_be(1 / 25.4) +
-            ") or as metres (÷ 1000 = " + would_be(0.001) + ")";
+  if (largest > 0 && largest < k_least_plausible)
+    guess = "it looks like inches (× 25.4 = " + size_scaled_by(25.4) + ") or metres (× 1000 = " + size_scaled_by(1000) +
+            ")";
+  if (largest > k_most_plausible)
+    guess = "it looks like millimetres read as inches (÷ 25.4 = " + size_scaled_by(1 / 25.4) +
+            ") or as metres (÷ 1000 = " + size_scaled_by(0.001) + ")";
   if (guess.empty()) return;
-  Diagnostic warning = about_file(Severity::warning, file, "in mm it measures " + would_be(1) + ": " + guess);
+  Diagnostic warning = about_file(Severity::warning, file, "in mm it measures " + size_scaled_by(1) + ": " + guess);
   warning.hint = "export it in millimetres, or scale it in the slicer or cutter";
   reply.diagnostics.push_back(warning);
 }

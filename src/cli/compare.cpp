@@ -79,7 +79,7 @@ Reply reply_of(const pipeline::CompareResult& result, const std::string& folder,
   }
   if (product.comparison.verdict == calibration::ComparisonVerdict::not_comparable) {
     reply.exit = Exit::bad_input;
-    reply.diagnostics.push_back(note(Severity::error, product.comparison.why));
+    reply.diagnostics.push_back(make_diagnostic(Severity::error, product.comparison.why));
     return reply;
   }
   reply.text = summary(product, verbose) + files_text(result, folder);

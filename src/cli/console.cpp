@@ -27,7 +27,7 @@ bool write_all(int descriptor, std::string_view text) {
 /// Writes to stderr; file names and bundle texts may contain terminal control codes.
 void show(std::string_view text) { write_all(STDERR_FILENO, cleaned(text)); }
 
-/// Colours the first "error:" red, "warning:" yellow and "hint:" cyan.
+/// Colours the first "error:" red, "warning:" yellow, "note:" blue and "hint:" cyan.
 std::string colored(std::string text, Severity severity) {
   const auto paint = [&text](std::string_view word, std::string_view code) {
     const std::size_t at = text.find(word);
@@ -81,9 +81,9 @@ std::optional<std::string> Console::ask(std::string_view question) {
   char c = 0;
   while (line.size() < k_longest_answer) {
     // one byte at a time: further input may belong to another program
-    const ssize_t got = ::read(STDIN_FILENO, &c, 1);
-    if (got < 0 && errno == EINTR && !is_interrupted()) continue;
-    if (got <= 0) {
+    const ssize_t count = ::read(STDIN_FILENO, &c, 1);
+    if (count < 0 && errno == EINTR && !is_interrupted()) continue;
+    if (count <= 0) {
       write_all(STDERR_FILENO, "\n");
       return line.empty() ? std::nullopt : std::optional(line);
     }
@@ -105,10 +105,10 @@ void Console::end_progress() {
 }
 
 std::string progress_bar(double share) {
-  constexpr std::size_t k_places = 20;
+  constexpr std::size_t k_width = 20;
   const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
-  const auto full = static_cast<std::size_t>(percent) * k_places / 100;
-  return "[" + std::string(full, '#') + std::string(k_places - full, '.') + "] " + std::to_string(percent) + " %";
+  const auto full = static_cast<std::size_t>(percent) * k_width / 100;
+  return "[" + std::string(full, '#') + std::string(k_width - full, '.') + "] " + std::to_string(percent) + " %";
 }
 
 bool write_result(std::string_view text) { return write_all(STDOUT_FILENO, cleaned(text)); }

@@ -40,8 +40,8 @@ class Console {
 
  private:
   ConsoleOptions options_;
-  bool terminal_;
-  bool color_;  ///< as terminal and environment allow
+  bool terminal_;  ///< stderr is one
+  bool color_;     ///< as terminal and environment allow
   bool progress_shown_ = false;
 };
 

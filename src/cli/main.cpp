@@ -11,9 +11,9 @@ namespace {
 /// Keeps freed memory, large blocks included, for later allocations and for as many threads as run at once. Touching a
 /// new page costs the system more time than filling it.
 void keep_freed_memory() {
-  constexpr int k_largest_kept = 32 << 20, k_most_kept = 128 << 20;
+  constexpr int k_largest_kept_block = 32 << 20, k_most_kept = 128 << 20;  // bytes
   ::mallopt(M_ARENA_MAX, std::max(2, static_cast<int>(fusee::ThreadPool::available_threads())));
-  ::mallopt(M_MMAP_THRESHOLD, k_largest_kept);
+  ::mallopt(M_MMAP_THRESHOLD, k_largest_kept_block);
   ::mallopt(M_TRIM_THRESHOLD, k_most_kept);
 }
 

@@ -31,7 +31,8 @@ std::vector<RoleValue> role_values(const Arguments& arguments, const std::string
       const std::string nearest = nearest_word(role, roles);
       std::string list;
       for (const std::string& known : roles) {
-        if (known.find("_turned") == std::string::npos) list += (list.empty() ? "" : ", ") + known;
+        const bool is_rare = known.find("_turned") != std::string::npos;  // a sensor's mounting angle
+        if (!is_rare) list += (list.empty() ? "" : ", ") + known;
       }
       throw UsageError(option + ": there is no role '" + role + "'",
                        nearest.empty() ? "roles: " + list : "did you mean '" + nearest + "'?");
@@ -41,6 +42,7 @@ std::vector<RoleValue> role_values(const Arguments& arguments, const std::string
   return found;
 }
 
+/// The number of counts in "alpha=4096".
 double counts(const std::string& option, const RoleValue& given, double most) {
   double value = 0;
   const char* const last = given.value.data() + given.value.size();

@@ -12,7 +12,7 @@ namespace fusee::cli {
 namespace {
 
 constexpr double k_smallest_limit_deg = 1e-6;
-constexpr double k_most_ticks = 1e8;
+constexpr double k_most_ticks_per_turn = 1e8, k_most_zero_ticks = 1e9;
 
 double whole_number(const Arguments& arguments, std::string_view option, double fallback, double most) {
   const double value = arguments.number(option, fallback, -most, most, "(a whole number)");
@@ -39,8 +39,9 @@ pipeline::ModelOptions model_options_from(const Arguments& arguments) {
   options.most_table_error = radians(arguments.number("--max-table-error-deg", degrees(options.most_table_error),
                                                       k_smallest_limit_deg, pipeline::k_largest_limit_deg, "deg"));
   if (arguments.has("--ticks-per-turn")) {
-    options.unit = {whole_number(arguments, "--ticks-per-turn", 0, k_most_ticks), true,
-                    whole_number(arguments, "--zero-ticks", 0, 1e9)};
+    options.unit.per_turn = whole_number(arguments, "--ticks-per-turn", 0, k_most_ticks_per_turn);
+    options.unit.ticks = true;
+    options.unit.zero = whole_number(arguments, "--zero-ticks", 0, k_most_zero_ticks);
     if (std::abs(options.unit.per_turn) < 2)
       throw UsageError("--ticks-per-turn must be 2 or more, or -2 or less if counts fall as alpha grows");
   } else if (arguments.has("--zero-ticks")) {
@@ -61,7 +62,7 @@ pipeline::ModelOptions model_options_from(const Arguments& arguments) {
   return options;
 }
 
-/// Angles below a millionth of a degree are rounding errors.
+/// Smaller angles than 0.000001 deg are rounding errors, and reported as that.
 std::string deg_text(double angle) {
   return angle < radians(1e-6) ? "0.000001 deg" : rounded(degrees(angle), 2) + " deg";
 }
@@ -72,7 +73,7 @@ void add_changes(const std::string& file, const std::vector<pipeline::ModelChang
   Json list = Json::array();
   for (const pipeline::ModelChange& change : changes) {
     const std::string words = "try " + change.words;
-    reply.diagnostics.push_back(change.key.empty() ? note(Severity::note, words)  // an option
+    reply.diagnostics.push_back(change.key.empty() ? make_diagnostic(Severity::note, words)  // an option
                                                    : about_file(Severity::note, file, words));
     Json entry = {{"text", change.words}};
     if (!change.key.empty()) {
@@ -121,21 +122,20 @@ std::string model_summary(const pipeline::ModelResult& made, const pipeline::Mod
   const formats::ModelProduct& product = made.product;
   const model::JointTable& table = product.table;
   std::string text = product.mechanism.name + ": the joint for other programs\n";
-  text += std::string("  table             ") +
-          (product.curves.sensed.source == model::CurveSource::law ? "of the target motion"
-           : product.curves.sensed.source == model::CurveSource::identified
-               ? "of the identified joint, in both directions"
-               : "of " + product.compensation + ", in both directions") +
-          "\n";
+  std::string source = "of " + product.compensation + ", in both directions";
+  if (product.curves.sensed.source == model::CurveSource::law) source = "of the target motion";
+  if (product.curves.sensed.source == model::CurveSource::identified)
+    source = "of the identified joint, in both directions";
+  text += "  table             " + source + "\n";
   text += "  largest error of theta\n";
   if (product.with_polynomial)
     text += "    joint.xml       " + deg_text(product.equality.error) + " (polynomial of degree 4)\n";
-  if (product.tendons)
-    text += "    joint_tendons.xml " + deg_text(product.tendons->error) + " (tendon " +
-            (product.tendons->constrained == transmission::Side::left ? "1" : "2") +
-            (product.tendons->tendons[product.tendons->constrained == transmission::Side::left ? 0 : 1].drum > 0
-                 ? " on the drum)\n"
-                 : " over its pin)\n");
+  if (product.tendons) {
+    const bool is_first = product.tendons->constrained == transmission::Side::left;
+    const bool is_on_drum = product.tendons->tendons[is_first ? 0 : 1].drum > 0;
+    text += "    joint_tendons.xml " + deg_text(product.tendons->error) + " (tendon " + (is_first ? "1" : "2") +
+            (is_on_drum ? " on the drum)\n" : " over its pin)\n");
+  }
   text += "    joint.urdf      " + deg_text(product.line.error) + " (a straight line; joint_ros2_control.urdf too)\n";
   text += "    joint_table.h   " + deg_text(std::max(table.errors.theta, table.errors.returned)) + " (" +
           std::to_string(table.pieces + 1) + " entries; joint_table.json too)\n";

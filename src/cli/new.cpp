@@ -70,11 +70,11 @@ Diagnostic motor_note(const pipeline::ChosenLayout& layout) {
       motor.sufficient_models.empty() ? "no motor of the catalogue does" : "suitable: " + motor.models_text();
   std::string words = fmt::format("under the load the motor has to hold {} Nmm", rounded(motor.torque.value, 3));
   if (strongest == nullptr || strongest->stall_torque >= motor.torque.value) {
-    return note(Severity::note, words + ": " + suitable);
+    return make_diagnostic(Severity::note, words + ": " + suitable);
   }
   words += fmt::format(", and {}, the strongest that fits in the catalogue, {} {} Nmm", strongest->name,
                        strongest->holds ? "holds" : "stalls at", rounded(strongest->stall_torque, 3));
-  return note(Severity::warning, words, "take a smaller load, or another motor; " + suitable);
+  return make_diagnostic(Severity::warning, words, "take a smaller load, or another motor; " + suitable);
 }
 
 /// The file of the answers, or why no layout fits them and which other answers would do.
@@ -87,19 +87,19 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
   Reply reply;
   if (!asked.search.chosen) {
     reply.exit = Exit::infeasible;
-    reply.diagnostics.push_back(note(Severity::error,
-                                     "no layout fits these answers: " + lengths_in(asked.units, asked.search.obstacle),
-                                     "no file was written"));
+    reply.diagnostics.push_back(make_diagnostic(
+        Severity::error, "no layout fits these answers: " + lengths_in(asked.units, asked.search.obstacle),
+        "no file was written"));
     reply.fields["other_answers"] = Json::array();
     for (const OtherAnswer& other : asked.others) {
       reply.diagnostics.push_back(
-          note(Severity::note, fmt::format("try {} in place of {} for question {} ({})", other.answer, other.given,
-                                           other.question, other.words)));
+          make_diagnostic(Severity::note, fmt::format("try {} in place of {} for question {} ({})", other.answer,
+                                                      other.given, other.question, other.words)));
       reply.fields["other_answers"].push_back(
           {{"question", other.question}, {"subject", other.words}, {"answer", other.answer}, {"given", other.given}});
     }
     if (asked.others.empty())
-      reply.diagnostics.push_back(note(Severity::note, "no change of a single answer was found that helps"));
+      reply.diagnostics.push_back(make_diagnostic(Severity::note, "no change of a single answer was found that helps"));
     return reply;
   }
   const pipeline::ChosenLayout& layout = *asked.search.chosen;
@@ -107,14 +107,15 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
   reply.text = asked.text;
   reply.diagnostics = product.file.warnings;
   for (const std::vector<std::string>* warnings : {&product.synthesis.warnings, &product.holding.warnings}) {
-    for (const std::string& warning : *warnings) reply.diagnostics.push_back(note(Severity::warning, warning));
+    for (const std::string& warning : *warnings)
+      reply.diagnostics.push_back(make_diagnostic(Severity::warning, warning));
   }
-  reply.diagnostics.push_back(
-      note(Severity::note, fmt::format("{}: built and checked ({} checks), {} {} wide, turns {} deg", layout.words,
-                                       product.checks.size(), rounded(from_mm(layout.diameter, asked.units), 3),
-                                       unit_word(asked.units), rounded(degrees(layout.travel), 3))));
+  reply.diagnostics.push_back(make_diagnostic(
+      Severity::note, fmt::format("{}: built and checked ({} checks), {} {} wide, turns {} deg", layout.words,
+                                  product.checks.size(), rounded(from_mm(layout.diameter, asked.units), 3),
+                                  unit_word(asked.units), rounded(degrees(layout.travel), 3))));
   if (!product.file.mechanism.motor.is_there()) reply.diagnostics.push_back(motor_note(layout));
-  reply.diagnostics.push_back(note(Severity::note, "save this file, then run 'fusee build' on it"));
+  reply.diagnostics.push_back(make_diagnostic(Severity::note, "save this file, then run 'fusee build' on it"));
   reply.fields["text"] = reply.text;
   reply.fields["layout"] = layout.words;
   reply.fields["pulley_diameter_mm"] = layout.diameter;
@@ -163,8 +164,8 @@ Reply open_print(const Arguments& arguments, FileAccess& files) {
   if (!table.name().empty()) {
     reply.fields["table"] = {{"file", table.name()}, {"text", *kept.table}};
     if (!arguments.has("--out"))
-      reply.diagnostics.push_back(note(Severity::warning, "its law needs the table " + table.name() + " beside it",
-                                       "-o FILE.toml writes both"));
+      reply.diagnostics.push_back(make_diagnostic(
+          Severity::warning, "its law needs the table " + table.name() + " beside it", "-o FILE.toml writes both"));
   }
   return reply;
 }

@@ -12,7 +12,7 @@ namespace {
 /// Names in the order of SearchMethod.
 constexpr std::string_view k_methods[] = {"certified", "ga", "pareto"};
 
-std::optional<pipeline::SearchMethod> asked_method(const Arguments& arguments) {
+std::optional<pipeline::SearchMethod> method_from(const Arguments& arguments) {
   const auto name = arguments.text("--method");
   if (!name) return std::nullopt;
   for (std::size_t i = 0; i < std::size(k_methods); ++i) {
@@ -21,7 +21,7 @@ std::optional<pipeline::SearchMethod> asked_method(const Arguments& arguments) {
   throw UsageError("--method must be ga, certified or pareto; '" + *name + "' is not");
 }
 
-std::optional<optimize::Objective> second_objective(const Arguments& arguments) {
+std::optional<optimize::Objective> second_objective_from(const Arguments& arguments) {
   const auto name = arguments.text("--then");
   if (!name) return std::nullopt;
   std::vector<std::string> names;
@@ -45,9 +45,10 @@ RunContext::Progress search_bar(Console& console) {
 
 pipeline::OptimizeOptions optimize_options_from(const Arguments& arguments) {
   pipeline::OptimizeOptions options;
-  options.method = asked_method(arguments);
-  options.then = second_objective(arguments);
+  options.method = method_from(arguments);
+  options.then = second_objective_from(arguments);
   options.genetic.seed = static_cast<unsigned>(arguments.number("--seed", 1, 0, 4e9, ""));
+  // GeneticOptions requires a multiple of 4.
   options.genetic.population =
       4 * static_cast<unsigned>(std::ceil(arguments.number("--population", 48, 8, 10000, "designs") / 4));
   options.genetic.generations = static_cast<unsigned>(arguments.number("--generations", 100, 1, 100000, "generations"));
@@ -60,7 +61,7 @@ pipeline::OptimizeOptions optimize_options_from(const Arguments& arguments) {
 }
 
 /// Throws UsageError if an option belongs to another method. Called before the search, which takes long.
-void demand_agreement(const MechanismFile& file, const pipeline::OptimizeOptions& options) {
+void refuse_options_of_other_methods(const MechanismFile& file, const pipeline::OptimizeOptions& options) {
   if (!options.then && options.front_folder.empty()) return;
   const pipeline::SearchMethod method = options.method ? *options.method : pipeline::strongest_method(file);
   if (options.then && method != pipeline::SearchMethod::certified)
@@ -72,7 +73,7 @@ void demand_agreement(const MechanismFile& file, const pipeline::OptimizeOptions
 Reply run_optimize(const Arguments& arguments, Console& console, const RunContext& context) {
   const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings(), *context.files);
   const pipeline::OptimizeOptions options = optimize_options_from(arguments);
-  demand_agreement(file, options);
+  refuse_options_of_other_methods(file, options);
   prevent_exit_by_signal();
   const pipeline::OptimizeResult result =
       pipeline::optimize(file, options, {search_bar(console), context.stop, context.files});

@@ -24,6 +24,7 @@ Json design_json(const optimize::Problem& problem, const optimize::Design& desig
   return json;
 }
 
+/// True if two values are equal but for rounding. `range`: width of the variable's bounds.
 bool is_near(double a, double b, double range) { return std::abs(a - b) <= 1e-6 * range; }
 
 std::string design_text(const optimize::Problem& problem, const optimize::Design& design) {
@@ -32,18 +33,19 @@ std::string design_text(const optimize::Problem& problem, const optimize::Design
     const optimize::MovingKey& moving = problem.moving[i];
     const Field& field = *moving.number.field;
     const double value = moving.value(design);
-    std::string where = i < design.size() ? "" : "tied";
+    // The variables come first, then the keys that relations tie to them.
+    std::string bound = i < design.size() ? "" : "tied";
     if (i < design.size()) {
       const optimize::Variable& variable = problem.variables[i];
       const double range = variable.upper - variable.lower;
       if (is_near(value, variable.lower, range))
-        where = "at its lower bound";
+        bound = "at its lower bound";
       else if (is_near(value, variable.upper, range))
-        where = "at its upper bound";
+        bound = "at its upper bound";
     }
     const LengthUnit units = is_length(moving.key) ? problem.base.units : LengthUnit::mm;
     rows.push_back({"  " + moving.key, rounded(from_mm(value, units), 7), std::string(unit_in_file(field, units)),
-                    "was " + rounded(from_mm(moving.number.get(problem.base), units), 7), where});
+                    "was " + rounded(from_mm(moving.number.get(problem.base), units), 7), bound});
   }
   return table({{"  key"}, {"value", Align::right}, {"unit"}, {"in the file"}, {""}}, rows);
 }
@@ -78,7 +80,7 @@ void add_value(const pipeline::OptimizeResult& result, Reply& reply) {
 
 // ---- the three methods ----------------------------------------------------------------------------------------------
 
-void report_none(const std::string& path, const pipeline::OptimizeResult& result, bool proven, Reply& reply) {
+void report_no_design(const std::string& path, const pipeline::OptimizeResult& result, bool proven, Reply& reply) {
   reply.exit = Exit::infeasible;
   Diagnostic error = about_file(
       Severity::error, path,
@@ -110,9 +112,10 @@ std::string progress_text(const pipeline::OptimizeOptions& options, const pipeli
   return std::to_string(certified.boxes) + " boxes";
 }
 
-void say_stopped(const pipeline::OptimizeOptions& options, const pipeline::OptimizeResult& result, Reply& reply) {
+void report_interruption(const pipeline::OptimizeOptions& options, const pipeline::OptimizeResult& result,
+                         Reply& reply) {
   reply.exit = Exit::interrupted;
-  reply.diagnostics.push_back(note(
+  reply.diagnostics.push_back(make_diagnostic(
       Severity::warning, "interrupted after " + progress_text(options, result) +
                              (result.found ? ": this is the best design so far" : ": no design was found so far")));
   reply.fields["stopped"] = true;
@@ -139,18 +142,17 @@ Json ties_json(const optimize::TieSet& ties) {
   return json;
 }
 
-void add_ties(const optimize::Problem& problem, const optimize::TieSet& ties, bool broken, Reply& reply) {
+void add_ties(const optimize::Problem& problem, const optimize::TieSet& ties, bool has_second_objective, Reply& reply) {
   reply.fields["ties"] = ties_json(ties);
-  if (!ties.wide || broken) return;
+  if (!ties.wide || has_second_objective) return;
   reply.text += titled("ties", "within 0.1 %: " + box_text(problem, ties));
   const optimize::Objective first = problem.objectives.front();
-  const optimize::Objective other = first != optimize::Objective::footprint && optimize::has_footprint(problem)
-                                        ? optimize::Objective::footprint
-                                    : first != optimize::Objective::max_tension ? optimize::Objective::max_tension
-                                                                                : optimize::Objective::max_error;
-  reply.diagnostics.push_back(
-      note(Severity::note, "many designs tie within 0.1 %: " + box_text(problem, ties),
-           "--then " + std::string(optimize::info(other).name) + " selects the best of them by a second objective"));
+  optimize::Objective other = optimize::Objective::footprint;
+  if (first == other || !optimize::has_footprint(problem)) other = optimize::Objective::max_tension;
+  if (first == other) other = optimize::Objective::max_error;
+  reply.diagnostics.push_back(make_diagnostic(
+      Severity::note, "many designs tie within 0.1 %: " + box_text(problem, ties),
+      "--then " + std::string(optimize::info(other).name) + " selects the best of them by a second objective"));
 }
 
 std::string then_line(optimize::Objective objective, const optimize::CertifiedResult& second) {
@@ -165,7 +167,7 @@ void add_then(optimize::Objective objective, const optimize::CertifiedResult& se
                           {"relative_gap", second.relative_gap}};
 }
 
-/// Adds the certified result. `then` is missing if the search stopped before it.
+/// Adds the certified result. `result.then` is empty if the search stopped before the second objective.
 void add_certified(const pipeline::OptimizeOptions& options, const pipeline::OptimizeResult& result,
                    const optimize::CertifiedResult& search, Reply& reply) {
   const optimize::Objective objective = result.problem.objectives.front();
@@ -191,13 +193,13 @@ void add_certified(const pipeline::OptimizeOptions& options, const pipeline::Opt
   add_ties(result.problem, search.ties, options.then.has_value(), reply);
   if (search.proven || options.then || result.stopped) return;
   // A relative gap of 0.1 % is below manufacturing accuracy; such a proof counts as finished, with its gap.
-  constexpr double k_enough = 1e-3;
-  const bool is_enough = search.relative_gap <= k_enough;
+  constexpr double k_sufficient_gap = 1e-3;
+  const bool is_enough = search.relative_gap <= k_sufficient_gap;
   if (!is_enough) reply.exit = Exit::check_failed;
   reply.diagnostics.push_back(
-      note(is_enough ? Severity::warning : Severity::error,
-           "the proof is not finished: relative gap " + rounded(search.relative_gap, 2) + ", required 1e-6",
-           "narrow the bounds, or use fewer variables"));
+      make_diagnostic(is_enough ? Severity::warning : Severity::error,
+                      "the proof is not finished: relative gap " + rounded(search.relative_gap, 2) + ", required 1e-6",
+                      "narrow the bounds, or use fewer variables"));
 }
 
 void add_genetic(const pipeline::OptimizeOptions& options, const pipeline::OptimizeResult& result,
@@ -251,12 +253,12 @@ void add_front(const optimize::GeneticOptions& options, const pipeline::Optimize
   reply.fields["design"] = design_json(problem, result.design);
 }
 
-void add_nothing(const std::string& path, const pipeline::OptimizeResult& result, Reply& reply) {
+void add_no_design(const std::string& path, const pipeline::OptimizeResult& result, Reply& reply) {
   const auto* certified = std::get_if<optimize::CertifiedResult>(&result.search);
   if (certified) reply.fields["boxes"] = certified->boxes;
   reply.fields["evaluations"] = std::visit([](const auto& search) { return search.evaluations; }, result.search);
   if (result.stopped) return;
-  report_none(path, result, certified && certified->proven, reply);
+  report_no_design(path, result, certified && certified->proven, reply);
 }
 
 }  // namespace
@@ -264,14 +266,14 @@ void add_nothing(const std::string& path, const pipeline::OptimizeResult& result
 void add_answer(const std::string& path, const pipeline::OptimizeOptions& options,
                 const pipeline::OptimizeResult& result, Reply& reply) {
   if (!result.found)
-    add_nothing(path, result, reply);
+    add_no_design(path, result, reply);
   else if (const auto* certified = std::get_if<optimize::CertifiedResult>(&result.search))
     add_certified(options, result, *certified, reply);
   else if (const auto* genetic = std::get_if<optimize::GeneticResult>(&result.search))
     add_genetic(options, result, *genetic, reply);
   else
     add_front(options.genetic, result, std::get<optimize::ParetoResult>(result.search), reply);
-  if (result.stopped) say_stopped(options, result, reply);
+  if (result.stopped) report_interruption(options, result, reply);
 }
 
 void add_files(const pipeline::OptimizeOptions& options, const pipeline::OptimizeResult& result, Reply& reply) {

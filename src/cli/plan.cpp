@@ -13,9 +13,9 @@ namespace fusee::cli {
 namespace {
 
 constexpr double k_most_minutes = 1e5;  // ten weeks
-constexpr double k_most_load = 1e6;
-constexpr double k_most_speed = 1e5;  // deg/s
-constexpr double k_most_angle = 1e5;  // deg
+constexpr double k_most_load = 1e6;     // N
+constexpr double k_most_speed = 1e5;    // deg/s
+constexpr double k_most_angle = 1e5;    // deg
 constexpr std::size_t k_most_levels = 12;
 
 // ---- options --------------------------------------------------------------------------------------------------------
@@ -25,9 +25,9 @@ std::vector<double> list_from(const Arguments& arguments, std::string_view optio
   const std::optional<std::string> text = arguments.text(option);
   std::vector<double> values;
   if (!text) return values;
-  const auto refuse = [&](const std::string& what) -> void {
+  const auto refuse = [&](const std::string& fault) -> void {
     throw UsageError(std::string(option) + " takes numbers from " + rounded(least) + " to " + rounded(most) +
-                         ", separated by commas; " + what,
+                         ", separated by commas; " + fault,
                      "for example: " + std::string(option) + " 5,10");
   };
   std::string_view rest = *text;
@@ -59,7 +59,7 @@ pipeline::PlanFilesOptions plan_options_from(const Arguments& arguments) {
       throw UsageError("--range-deg takes two motor angles, the smaller first", "for example: --range-deg -90,90");
     plan.range = {radians(range[0]), radians(range[1])};
   }
-  plan.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1, 0, 4294967295.0, "(a whole number)"));
+  plan.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1, 0, k_largest_seed, "(a whole number)"));
   options.folder = output_folder(arguments, "_plan");
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
@@ -92,6 +92,7 @@ std::string causes_text(const plan::Plan& plan) {
                rows);
 }
 
+/// A list under its title; "" without lines.
 std::string listed(const std::string& title, const std::vector<std::string>& lines) {
   if (lines.empty()) return "";
   std::string text = "\n" + title + "\n";
@@ -130,13 +131,13 @@ void refuse_short_time(const pipeline::PlanResult& result, const std::string& pa
         about_file(Severity::error, path, "no run is possible: the joint has no equilibrium in any of them"));
     return;
   }
-  Diagnostic error = note(
+  Diagnostic error = make_diagnostic(
       Severity::error,
       "nothing can be measured in " + given + ": the first run takes " + rounded(first.front().minutes, 3) + " minutes",
       "--minutes " + rounded(std::ceil(first.front().minutes)) + " or more, or a higher --speeds");
   reply.diagnostics.push_back(error);
   for (const std::string& words : formats::minute_words(first))
-    reply.diagnostics.push_back(note(Severity::note, words));
+    reply.diagnostics.push_back(make_diagnostic(Severity::note, words));
 }
 
 Reply run_plan(const Arguments& arguments, Console&, const RunContext& context) {

@@ -20,7 +20,7 @@
 namespace fusee::cli {
 namespace {
 
-// An endless input of nonsense ends.
+// So that an endless input without a usable answer ends.
 constexpr int k_most_tries = 50;
 
 constexpr std::string_view k_joint_picture = R"(
@@ -53,9 +53,9 @@ constexpr std::string_view k_load_picture = R"(
 /// The answers so far. A text that was read is a proposal when its question is asked again.
 struct Answers {
   std::string name;
-  double length = 0;
+  double length = 0;  ///< of the link, mm
   AngleRange range;
-  double room = 0;
+  double room = 0;  ///< largest diameter of the pulley, mm
   TypedLoad load;
   TypedMotor motor;
   TypedTendon tendon;
@@ -66,8 +66,8 @@ struct Answers {
 
 struct Question {
   std::string_view subject;
-  std::string picture;
-  std::string words;
+  std::string picture;  ///< or a list, above the question
+  std::string words;    ///< the question itself
   std::function<std::string(const Answers&)> proposal;
   /// Stores an answer and explains how it was understood, or returns a refusal.
   std::function<Answer<std::string>(Answers&, std::string_view)> take;
@@ -106,15 +106,15 @@ std::string list_of_tendons() {
   return list;
 }
 
-/// Stores what a reader found.
+/// Stores an answer in `target` and returns words(target), or returns the refusal.
 template <class Value>
-Answer<std::string> stored(Answer<Value> read, Value& place, const std::function<std::string(const Value&)>& words) {
+Answer<std::string> stored(Answer<Value> read, Value& target, const std::function<std::string(const Value&)>& words) {
   if (Refusal* refusal = std::get_if<Refusal>(&read)) return std::move(*refusal);
-  place = std::get<Value>(std::move(read));
-  return words(place);
+  target = std::get<Value>(std::move(read));
+  return words(target);
 }
 
-/// A shaft that was typed in the file's unit; an entry of the catalogue as it stands there.
+/// The motor for a person. A typed diameter is in the file's unit, an entry of the catalogue is not converted.
 std::string motor_words(const Answers& answers) {
   return answers.motor.bore > 0 ? lengths_in(answers.units, answers.motor.words) : answers.motor.words;
 }
@@ -131,9 +131,9 @@ const std::vector<Question>& questions() {
   static const std::vector<Question> all{
       {"name", "", "What is the joint called?", fixed_proposal("my joint"),
        [](Answers& answers, std::string_view text) -> Answer<std::string> {
-         constexpr std::size_t longest = 200;
+         constexpr std::size_t k_longest = 200;
          if (cleaned_line(text) != text) return Refusal{"a name is text of one line, without control characters"};
-         if (text.size() > longest) return Refusal{"a name has at most 200 bytes"};
+         if (text.size() > k_longest) return Refusal{"a name has at most 200 bytes"};
          return stored<std::string>(std::string(text), answers.name, [](const std::string& name) { return name; });
        }},
       {"length", std::string(k_joint_picture), "How far is C from O (45 mm, 1.8 in)?", fixed_proposal("60 mm"),
@@ -183,7 +183,8 @@ std::string answered_words(const std::vector<std::string>& understood) {
 }
 
 /// Asks one question until its answer can be used; nullopt at the end of the input.
-std::optional<std::string> put(Console& console, std::size_t number, Answers& answers, const std::string& proposal) {
+std::optional<std::string> ask_until_usable(Console& console, std::size_t number, Answers& answers,
+                                            const std::string& proposal) {
   const Question& question = questions().at(number);
   std::string picture = question.picture + (question.picture.empty() ? "" : "\n");
   for (int tries = 0; tries < k_most_tries; ++tries) {
@@ -255,8 +256,8 @@ std::string value_text(const Field& field, const DeclaredMechanism& mechanism) {
   return field.kind == FieldKind::boolean ? words : toml_string(words);
 }
 
-/// The keys of answers and layout; all others have their defaults.
-std::vector<std::string> keys_of(const DeclaredMechanism& mechanism) {
+/// The keys of answers and layout, which the file states; all others have their defaults.
+std::vector<std::string> keys_to_write(const DeclaredMechanism& mechanism) {
   std::string keys = mechanism.units == LengthUnit::inch ? "units " : "";
   keys +=
       "name joint.length_mm joint.range_deg guides.EB_mm guides.ED_mm guides.OE_mm guides.radius_mm pulley.EF_mm "
@@ -274,14 +275,18 @@ std::vector<std::string> keys_of(const DeclaredMechanism& mechanism) {
   return split(keys, ' ');
 }
 
+/// The mechanism file. `about`: a comment at its beginning.
 std::string file_of(const DeclaredMechanism& mechanism, const std::string& about) {
-  const std::vector<std::string> keys = keys_of(mechanism);
+  const std::vector<std::string> keys = keys_to_write(mechanism);
   std::string text = "# Made by 'fusee new --ask'. All other keys have their defaults: 'fusee explain' lists them.\n" +
                      (about.empty() ? "" : wrapped(about, "# ", "# ")) + "schema = 1\n";
   std::string_view table;
   for (const Field& field : fields()) {
     if (std::find(keys.begin(), keys.end(), field.name()) == keys.end()) continue;
-    if (field.table != table) text += fmt::format("\n[{}]\n", table = field.table);
+    if (field.table != table) {
+      table = field.table;
+      text += fmt::format("\n[{}]\n", table);
+    }
     text += wrapped(field.meaning, field.symbol.empty() ? "# " : fmt::format("# {}: ", field.symbol), "# ");
     text += fmt::format("{} = {}\n", field.key, value_text(field, mechanism));
   }
@@ -295,6 +300,7 @@ class Layouts {
  public:
   Layouts(const std::vector<Setting>& settings, const RunContext& context) : settings_(settings), context_(context) {}
 
+  /// `any`: the first layout that builds suffices.
   pipeline::LayoutSearch search(const Answers& answers, const RunContext& context, bool any = false) const {
     const auto file = [this](const DeclaredMechanism& mechanism) {
       MechanismFile read;
@@ -313,13 +319,14 @@ class Layouts {
       found.push_back({question, std::string(questions()[static_cast<std::size_t>(question - 1)].subject),
                        std::move(to), std::move(from)});
     };
+    constexpr int k_room_question = 4, k_motor_question = 6, k_tendon_question = 7;  // numbers in questions()
     if (const auto room = nearest(answers, &Answers::room, {1.1, 1.25, 1.5, 2, 3, 5, 8}))
-      add(4, rounded(*room) + " mm", rounded(answers.room) + " mm");
+      add(k_room_question, rounded(*room) + " mm", rounded(answers.room) + " mm");
     for (const double share : {0.75, 0.5, 0.3, 0.15}) {
       Answers other = answers;
       other.tendon.diameter = std::stod(rounded(share * answers.tendon.diameter, 2));
       if (!exists(other)) continue;
-      add(7, rounded(other.tendon.diameter) + " mm", rounded(answers.tendon.diameter) + " mm");
+      add(k_tendon_question, rounded(other.tendon.diameter) + " mm", rounded(answers.tendon.diameter) + " mm");
       break;
     }
     for (const char* motor : {"5 mm", "3 mm", "2 mm", "1 mm"}) {
@@ -327,7 +334,7 @@ class Layouts {
       other.motor = std::get<TypedMotor>(read_motor(motor));
       if (other.motor.bore >= answers.motor.bore && answers.motor.bore > 0) continue;
       if (!exists(other)) continue;
-      add(6, motor, answers.motor.words);
+      add(k_motor_question, motor, answers.motor.words);
       break;
     }
     return found;
@@ -335,34 +342,35 @@ class Layouts {
 
  private:
   bool exists(const Answers& answers) const {
-    return search(answers, context_.without_progress(), true).chosen.has_value();
+    return search(answers, context_.without_progress(), /*any=*/true).chosen.has_value();
   }
 
-  /// The first feasible value, then halved towards the infeasible one; in whole mm, or tenths below 10 mm.
+  /// Tries `factors` times the present value of `number` until a layout exists, then bisects towards the last value
+  /// without one. In whole mm, or tenths below 10 mm.
   std::optional<double> nearest(const Answers& answers, double Answers::*number,
                                 const std::vector<double>& factors) const {
-    const auto written = [](double value) {
+    const auto rounded_up = [](double value) {
       const double step = value < 10 ? 0.1 : 1.0;
       return std::stod(rounded(std::ceil(value / step - 1e-9) * step));
     };
-    const auto works = [&](double value) {
+    const auto has_layout = [&](double value) {
       Answers other = answers;
       other.*number = value;
       return exists(other);
     };
-    double bad = answers.*number;
+    double infeasible = answers.*number;
     for (const double factor : factors) {
-      double good = written(factor * answers.*number);
-      if (!works(good)) {
-        bad = good;
+      double feasible = rounded_up(factor * answers.*number);
+      if (!has_layout(feasible)) {
+        infeasible = feasible;
         continue;
       }
-      for (int halves = 0; halves < 3; ++halves) {
-        const double middle = written(0.5 * (bad + good));
-        if (!(middle < good)) break;
-        (works(middle) ? good : bad) = middle;
+      for (int halvings = 0; halvings < 3; ++halvings) {
+        const double middle = rounded_up(0.5 * (infeasible + feasible));
+        if (!(middle < feasible)) break;
+        (has_layout(middle) ? feasible : infeasible) = middle;
       }
-      return good;
+      return feasible;
     }
     return std::nullopt;
   }
@@ -402,7 +410,7 @@ AskedMechanism ask_for_mechanism(Console& console, const std::vector<Setting>& s
   answers.may_be_inches = settings.empty();  // numbers of --set are in the file's unit
   std::vector<std::string> understood;
   for (std::size_t i = 0; i < questions().size(); ++i) {
-    const auto answer = put(console, i, answers, questions()[i].proposal(answers));
+    const auto answer = ask_until_usable(console, i, answers, questions()[i].proposal(answers));
     if (!answer) {
       throw InputError(Diagnostic{Severity::error,
                                   {},
@@ -430,7 +438,7 @@ AskedMechanism ask_for_mechanism(Console& console, const std::vector<Setting>& s
         {Severity::error, {}, "no layout fits these answers: " + lengths_in(answers.units, asked.search.obstacle), {}});
     const OtherAnswer& other = asked.others.front();
     const auto number = static_cast<std::size_t>(other.question - 1);
-    if (!put(console, number, answers, other.answer)) return asked;
+    if (!ask_until_usable(console, number, answers, other.answer)) return asked;
   }
 }
 

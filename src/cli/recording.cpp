@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool stands_as_other(const fs::path& file) {
+/// True for an existing file that is not a bundle, or that cannot be read.
+bool is_other_file(const fs::path& file) {
   try {
     return entry_exists(file) && !is_bundle(read_file(file, k_largest_bundle));
   } catch (const InputError&) {
@@ -29,17 +30,19 @@ bool stands_as_other(const fs::path& file) {
 std::string take_bundle_option(std::vector<std::string>& words) {
   const auto end = std::find(words.begin(), words.end(), "--");
   for (auto word = words.begin(); word != end; ++word) {
-    const bool joined = word->rfind("--bundle=", 0) == 0;
-    if (!joined && (*word != "--bundle" || word + 1 == end || (word + 1)->rfind("--", 0) == 0)) continue;
-    const std::string file = joined ? word->substr(9) : *(word + 1);
+    constexpr std::string_view k_joined = "--bundle=";
+    const bool is_joined = word->starts_with(k_joined);
+    const bool has_value = word + 1 != end && !(word + 1)->starts_with("--");
+    if (!is_joined && (*word != "--bundle" || !has_value)) continue;
+    const std::string file = is_joined ? word->substr(k_joined.size()) : *(word + 1);
     if (file.empty()) continue;
-    words.erase(word, word + (joined ? 1 : 2));
+    words.erase(word, word + (is_joined ? 1 : 2));
     return file;
   }
   return "";
 }
 
-void sign(Bundle& bundle) {
+void add_build_info(Bundle& bundle) {
   bundle.version = FUSEE_VERSION;
 #ifdef __clang__
   bundle.built_with = "clang " __clang_version__;
@@ -51,32 +54,32 @@ void sign(Bundle& bundle) {
       std::string(::uname(&system) == 0 ? system.machine : "a machine") + ", glibc " + gnu_get_libc_version();
 }
 
-BundledOutcome outcome_of(CommandOutcome ending, std::vector<BundledOutput> outputs, const BundleNames& names) {
+BundledOutcome outcome_of(CommandOutcome run_outcome, std::vector<BundledOutput> outputs, const BundleNames& names) {
   BundledOutcome outcome;
-  outcome.exit = static_cast<int>(ending.reply.exit);
+  outcome.exit = static_cast<int>(run_outcome.reply.exit);
   outcome.outputs = std::move(outputs);
-  for (Diagnostic& message : ending.reply.diagnostics) {
+  for (Diagnostic& message : run_outcome.reply.diagnostics) {
     for (std::string* words : {&message.place.file, &message.message, &message.hint})
       *words = cleaned(names.text(*words));
   }
-  outcome.messages = ending.reply.diagnostics;
-  ending.reply.text = names.text(ending.reply.text);
-  ending.reply.fields = names.document(std::move(ending.reply.fields));
-  outcome.result = cleaned(ending.result());
+  outcome.messages = run_outcome.reply.diagnostics;
+  run_outcome.reply.text = names.text(run_outcome.reply.text);
+  run_outcome.reply.fields = names.document(std::move(run_outcome.reply.fields));
+  outcome.result = cleaned(run_outcome.result());
   return outcome;
 }
 
 BundledOutput output_of(const fs::path& path, const fs::path& bytes_at) {
   const std::string bytes = read_file(bytes_at, k_largest_output);
-  return {tame(path.filename().string()), bytes.size(), sha256(bytes)};
+  return {valid_inner_name(path.filename().string()), bytes.size(), sha256(bytes)};
 }
 
 Recording::Recording(fs::path file, const std::vector<std::string>& words, bool force)
     : file_(std::move(file)), force_(force), names_(working_folder()) {
-  if (!force_ && stands_as_other(file_))
+  if (!force_ && is_other_file(file_))
     throw OutputError(file_.string() + " exists and is not a bundle of fusee",
                       "choose another name, or overwrite it with --force");
-  sign(bundle_);
+  add_build_info(bundle_);
   bundle_.words = names_.inner_words(words);
 }
 
@@ -86,17 +89,17 @@ void Recording::read(const ReadRequest& request, const TakeBlock& take) {
                                  [&name](const BundledFile& file) { return file.path == name; });
   if (known) return FileAccess::read(request, take);  // a file that is read twice is packed once
   BundledFile& entry = bundle_.files.emplace_back(BundledFile{name, {}, {}});
-  bool taking = false;
+  bool is_in_take = false;  // an exception of take() is no fault of the file
   try {
     FileAccess::read(request, [&](std::string_view block) {
-      kept_ += block.size();
-      if (kept_ <= k_largest_bundle) entry.bytes += block;
-      taking = true;
+      packed_bytes_ += block.size();
+      if (packed_bytes_ <= k_largest_bundle) entry.bytes += block;
+      is_in_take = true;
       take(block);
-      taking = false;
+      is_in_take = false;
     });
   } catch (const InputError& error) {
-    if (!taking) entry.failure = error.diagnostics().front();
+    if (!is_in_take) entry.failure = error.diagnostics().front();
     if (entry.failure) entry.failure->place.file.clear();
     throw;
   }
@@ -113,8 +116,8 @@ void Recording::in_the_way(const fs::path& path) {
   if (is_inner_path(name)) bundle_.in_the_way.push_back(name + (fs::is_directory(path) ? "/" : ""));
 }
 
-Diagnostic Recording::pack(const CommandOutcome& ending) {
-  if (kept_ > k_largest_bundle || bundle_.files.size() > k_most_bundled_files)
+Diagnostic Recording::pack(const CommandOutcome& run_outcome) {
+  if (packed_bytes_ > k_largest_bundle || bundle_.files.size() > k_most_bundled_files)
     throw OutputError("no bundle was written: the input files are too large for one");
   const std::string own = names_.inner(file_);
   for (const BundledFile& file : bundle_.files) {
@@ -122,15 +125,16 @@ Diagnostic Recording::pack(const CommandOutcome& ending) {
       throw OutputError("no bundle was written: " + file_.string() + " is one of the input files",
                         "choose another name");
   }
-  bundle_.outcome = outcome_of(ending, bundle_.outcome.outputs, names_);
+  bundle_.outcome = outcome_of(run_outcome, bundle_.outcome.outputs, names_);
   // The constructor checked the existing file before the run.
-  write_file(file_, bundle_bytes(bundle_), /*force=*/!stands_as_other(file_) || force_);
+  write_file(file_, bundle_bytes(bundle_), /*force=*/!is_other_file(file_) || force_);
   std::string list;
   for (const BundledFile& file : bundle_.files)
     if (!file.failure) list += (list.empty() ? "" : ", ") + file.path;
-  return note(Severity::note,
-              file_.string() + " contains the options of this run, its output" + (list.empty() ? "" : ", and " + list),
-              "'fusee replay " + file_.string() + "' reruns it");
+  return make_diagnostic(
+      Severity::note,
+      file_.string() + " contains the options of this run, its output" + (list.empty() ? "" : ", and " + list),
+      "'fusee replay " + file_.string() + "' reruns it");
 }
 
 }  // namespace fusee::cli

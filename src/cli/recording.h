@@ -16,12 +16,13 @@ namespace fusee::cli {
 /// Removes --bundle from `words` and returns its value, "" without one. Also for command lines that cannot be parsed.
 std::string take_bundle_option(std::vector<std::string>& words);
 
-/// The run's report, with names of the bundle for files.
-BundledOutcome outcome_of(CommandOutcome ending, std::vector<BundledOutput> outputs, const BundleNames& names);
-/// The file is named without its folder; the command line has that, if given.
+/// The outcome of a run, with files named as in the bundle.
+BundledOutcome outcome_of(CommandOutcome run_outcome, std::vector<BundledOutput> outputs, const BundleNames& names);
+/// Name, size and hash of an output, whose bytes are in the file `bytes_at`. The name has no folder: if one was given,
+/// the command line states it.
 BundledOutput output_of(const std::filesystem::path& path, const std::filesystem::path& bytes_at);
 /// Adds version and build of this program.
-void sign(Bundle& bundle);
+void add_build_info(Bundle& bundle);
 
 /// Records the file access of a run. Once files are published, a signal has no effect.
 class Recording : public FileAccess {
@@ -35,14 +36,14 @@ class Recording : public FileAccess {
   bool is_bundled() const override { return true; }
 
   /// Writes the bundle and returns a message for the user. Throws OutputError.
-  Diagnostic pack(const CommandOutcome& ending);
+  Diagnostic pack(const CommandOutcome& run_outcome);
 
  private:
   std::filesystem::path file_;
   bool force_;
   BundleNames names_;
   Bundle bundle_;
-  std::uint64_t kept_ = 0;  ///< bytes of files
+  std::uint64_t packed_bytes_ = 0;  ///< of all files in the bundle
 };
 
 }  // namespace fusee::cli

@@ -46,7 +46,7 @@ class BundleAccess : public FileAccess, public FolderAccess {
     if (!file->bytes.empty()) take(file->bytes);
   }
   std::optional<std::vector<std::string>> files_in(const fs::path& path) const override {
-    const fs::path folder = tame(seen_from(here_, path).string());
+    const fs::path folder = valid_inner_name(path_from(here_, path).string());
     std::vector<std::string> names;
     for (const BundledFile& file : bundle_.files) {
       const fs::path packed = file.path;
@@ -56,28 +56,30 @@ class BundleAccess : public FileAccess, public FolderAccess {
     std::sort(names.begin(), names.end());
     return names;
   }
-  void will_write(const fs::path& place) override {
-    if (leads_out(seen_from(here_, place)))
-      throw OutputError(place.string() + " is outside of the folder in which the bundle is replayed");
+  void will_write(const fs::path& path) override {
+    if (is_outside(path_from(here_, path)))
+      throw OutputError(path.string() + " is outside of the folder in which the bundle is replayed");
   }
   void will_publish(const fs::path& name, const fs::path& bytes_at) override {
     outputs_.push_back(output_of(name, bytes_at));
   }
   bool is_bundled() const override { return true; }
-  BundledOutcome outcome(const CommandOutcome& ending) const { return outcome_of(ending, outputs_, names_); }
+  BundledOutcome outcome(const CommandOutcome& run_outcome) const { return outcome_of(run_outcome, outputs_, names_); }
 
  private:
-  /// Finds a file by its path, or by its name alone if a packed file refers to it relative to itself or by a path of
-  /// the original machine. Such a file was read before later files of the command line.
+  /// Finds a file by its path, else the first one of that name. The name alone is enough for a file that a packed file
+  /// refers to, relative to itself or by a path of the original machine: it was read before later files of the
+  /// command line.
   const BundledFile* find(const fs::path& path) const {
-    const fs::path seen = seen_from(here_, path);
-    const std::string near = seen == "." ? "." : tame(seen.string()), name = tame(path.filename().string());
-    const BundledFile* of_that_name = nullptr;
+    const fs::path relative = path_from(here_, path);
+    const std::string path_in_bundle = relative == "." ? "." : valid_inner_name(relative.string());
+    const std::string name = valid_inner_name(path.filename().string());
+    const BundledFile* same_name = nullptr;
     for (const BundledFile& file : bundle_.files) {
-      if (file.path == near) return &file;
-      if (of_that_name == nullptr && fs::path(file.path).filename() == name) of_that_name = &file;
+      if (file.path == path_in_bundle) return &file;
+      if (same_name == nullptr && fs::path(file.path).filename() == name) same_name = &file;
     }
-    return of_that_name;
+    return same_name;
   }
 
   const Bundle& bundle_;
@@ -92,23 +94,25 @@ BundledOutcome replayed_in(const fs::path& folder, const Bundle& bundle, const s
   ::setenv("TMPDIR", folder.c_str(), 1);
   Console console;
   BundleAccess access(bundle);
-  const CommandOutcome ending = run_command(bundle.words, console, {.stop = stop, .files = &access});
-  return access.outcome(ending);
+  const CommandOutcome run_outcome = run_command(bundle.words, console, {.stop = stop, .files = &access});
+  return access.outcome(run_outcome);
 }
 
 // ---- folders --------------------------------------------------------------------------------------------------------
 
 /// Recreates existing files that the recorded run refused to overwrite.
-void put_in_the_way(const Bundle& bundle, const fs::path& folder) {
+void recreate_obstacles(const Bundle& bundle, const fs::path& folder) {
   std::error_code ignored;
   for (const std::string& path : bundle.in_the_way) {
-    const fs::path place = folder / path;
-    fs::create_directories(path.ends_with('/') ? place : place.parent_path(), ignored);
-    if (!path.ends_with('/') && !entry_exists(place)) write_file(place, "", /*force=*/false);
+    const bool is_folder = path.ends_with('/');
+    const fs::path obstacle = folder / path;
+    fs::create_directories(is_folder ? obstacle : obstacle.parent_path(), ignored);
+    if (!is_folder && !entry_exists(obstacle)) write_file(obstacle, "", /*force=*/false);
   }
 }
 
-void demand_free(const fs::path& folder) {
+/// Throws OutputError unless the folder is empty or does not exist.
+void refuse_occupied(const fs::path& folder) {
   std::error_code error;
   if (!entry_exists(folder) || (fs::is_directory(fs::symlink_status(folder)) && fs::is_empty(folder, error))) return;
   throw OutputError(folder.string() + " exists and is not an empty folder", "choose another one with -o");
@@ -118,18 +122,18 @@ void demand_free(const fs::path& folder) {
 /// folder.
 BundledOutcome replayed_in_own_folder(const Bundle& bundle, const std::optional<fs::path>& kept,
                                       const std::stop_token& stop) {
-  const fs::path place = place_of(kept ? *kept : temporary_folder() / "fusee-replay");
-  remove_staged_leftovers(place);
-  const Staging staging(place, StagingSite::beside);
+  const fs::path target = place_of(kept ? *kept : temporary_folder() / "fusee-replay");
+  remove_staged_leftovers(target);
+  const Staging staging(target, StagingSite::beside);
   const std::stop_callback on_stop(stop, [&staging] { staging.remove(); });
   const fs::path& folder = staging.path();
   for (const BundledFile& file : bundle.files)
     if (kept && !file.failure) write_file(folder / file.path, file.bytes, /*force=*/false);
-  put_in_the_way(bundle, folder);
+  recreate_obstacles(bundle, folder);
   BundledOutcome outcome = replayed_in(folder, bundle, stop);
   if (!kept) return outcome;
-  demand_free(place);
-  if (::rename(folder.c_str(), place.c_str()) != 0) fail_output("cannot write", place, errno);
+  refuse_occupied(target);
+  if (::rename(folder.c_str(), target.c_str()) != 0) fail_output("cannot write", target, errno);
   return outcome;
 }
 
@@ -148,19 +152,20 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-Json difference(const std::string& of, const std::string& then, const std::string& now) {
-  return {{"of", of}, {"then", then}, {"now", now}};
+/// `subject`: "exit code", "message 2". `then`: in the recorded run.
+Json difference(const std::string& subject, const std::string& then, const std::string& now) {
+  return {{"of", subject}, {"then", then}, {"now", now}};
 }
 
 /// Compares texts in order, and reports those that only one list has.
-void compare(const std::string& of, const std::vector<std::string>& then, const std::vector<std::string>& now,
+void compare(const std::string& subject, const std::vector<std::string>& then, const std::vector<std::string>& now,
              Json& differences) {
   const std::string none = "(none)";
   for (std::size_t i = 0; i < std::max(then.size(), now.size()); ++i) {
     const std::string& before = i < then.size() ? then[i] : none;
     const std::string& after = i < now.size() ? now[i] : none;
     if (words_of(before) != words_of(after))
-      differences.push_back(difference(of + " " + std::to_string(i + 1), before, after));
+      differences.push_back(difference(subject + " " + std::to_string(i + 1), before, after));
   }
 }
 
@@ -196,8 +201,9 @@ std::string command_line(const Bundle& bundle) {
   for (const std::string& word : bundle.words) {
     std::string quoted;
     for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-    const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$`()[]{}*?;&|<>#!~") == std::string::npos;
-    line += plain ? " " + word : " '" + quoted + "'";
+    const bool needs_no_quotes =
+        !word.empty() && word.find_first_of(" \t\n'\"\\$`()[]{}*?;&|<>#!~") == std::string::npos;
+    line += needs_no_quotes ? " " + word : " '" + quoted + "'";
   }
   return cleaned_line(line);
 }
@@ -210,13 +216,13 @@ std::string files_text(const Bundle& bundle) {
   return text.empty() ? "no file" : cleaned_line(text);
 }
 
-void say_version(const Bundle& bundle, Reply& reply) {
+void report_versions(const Bundle& bundle, Reply& reply) {
   Bundle own;
-  sign(own);
-  const auto report = [&](Severity severity, const std::string& what, std::string Bundle::*of) {
-    if (bundle.*of == own.*of) return;
-    const std::string words = "the bundle was made by " + what + bundle.*of + ", but this is " + what + own.*of;
-    reply.diagnostics.push_back(note(severity, cleaned_line(words)));
+  add_build_info(own);
+  const auto report = [&](Severity severity, const std::string& noun, std::string Bundle::*member) {
+    if (bundle.*member == own.*member) return;
+    const std::string words = "the bundle was made by " + noun + bundle.*member + ", but this is " + noun + own.*member;
+    reply.diagnostics.push_back(make_diagnostic(severity, cleaned_line(words)));
   };
   report(Severity::warning, "fusee ", &Bundle::version);
   report(Severity::note, "a fusee built with ", &Bundle::built_with);
@@ -248,7 +254,8 @@ void add_findings(const Bundle& bundle, const Json& differences, Reply& reply) {
     hint = "files that existed in its output folder are not in a bundle";
   if (bundle.outcome.exit == static_cast<int>(Exit::interrupted)) hint = "that run was interrupted";
   const std::string first = differences.front()["of"];
-  reply.diagnostics.push_back(note(Severity::error, "the result differs from the recorded run: " + first, hint));
+  reply.diagnostics.push_back(
+      make_diagnostic(Severity::error, "the result differs from the recorded run: " + first, hint));
 }
 
 Reply run_replay(const Arguments& arguments, Console&, const RunContext& context) {
@@ -259,10 +266,10 @@ Reply run_replay(const Arguments& arguments, Console&, const RunContext& context
   // A bundle of a replay could contain itself.
   if (const auto at = find_command(bundle.words); at && bundle.words[*at] == "replay")
     throw InputError(file, "contains a run of 'fusee replay'", "replay the bundle inside this zip instead");
-  if (kept) demand_free(*kept);
+  if (kept) refuse_occupied(*kept);
   context.begin_step("running " + command_line(bundle));
   Reply reply;
-  say_version(bundle, reply);
+  report_versions(bundle, reply);
   const BundledOutcome now = replayed_in_own_folder(bundle, kept, context.stop);
   const Json differences = differences_of(bundle.outcome, now);
   add_findings(bundle, differences, reply);

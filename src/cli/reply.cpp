@@ -16,7 +16,8 @@ Json diagnostic_json(const Diagnostic& diagnostic) {
           {"hint", diagnostic.hint}};
 }
 
-Json of_severity(const std::vector<Diagnostic>& diagnostics, bool errors) {
+/// The errors, or all diagnostics that are no errors.
+Json diagnostics_json(const std::vector<Diagnostic>& diagnostics, bool errors) {
   Json list = Json::array();
   for (const Diagnostic& diagnostic : diagnostics) {
     if ((diagnostic.severity == Severity::error) == errors) list.push_back(diagnostic_json(diagnostic));
@@ -26,7 +27,7 @@ Json of_severity(const std::vector<Diagnostic>& diagnostics, bool errors) {
 
 }  // namespace
 
-void take_to_file_units(Reply& reply) {
+void convert_to_file_units(Reply& reply) {
   reply.text = lengths_in(reply.units, reply.text);
   for (Diagnostic& diagnostic : reply.diagnostics) {
     diagnostic.message = lengths_in(reply.units, diagnostic.message);
@@ -37,8 +38,8 @@ void take_to_file_units(Reply& reply) {
 std::string document(const Reply& reply, const std::string& command) {
   Json json = {
       {"schema", 1}, {"command", command}, {"ok", reply.exit == Exit::done}, {"exit", static_cast<int>(reply.exit)}};
-  json["errors"] = of_severity(reply.diagnostics, true);
-  json["warnings"] = of_severity(reply.diagnostics, false);
+  json["errors"] = diagnostics_json(reply.diagnostics, /*errors=*/true);
+  json["warnings"] = diagnostics_json(reply.diagnostics, /*errors=*/false);
   json.update(reply.fields);
   return json_text(json, 2);
 }
@@ -115,10 +116,10 @@ void add_layout_advice(const std::string& file, const std::optional<profile::Lay
 
 void add_advice_together(const std::string& file, const std::vector<profile::Change>& advice, Reply& reply) {
   if (advice.empty()) return;
-  std::string both;
+  std::string changes;
   for (const profile::Change& change : advice)
-    both += (both.empty() ? "" : " together with ") + profile::setting_words(change);
-  reply.diagnostics.push_back(about_file(Severity::note, file, "try " + both));
+    changes += (changes.empty() ? "" : " together with ") + profile::setting_words(change);
+  reply.diagnostics.push_back(about_file(Severity::note, file, "try " + changes));
 }
 
 void explain_without_law(const std::string& file, const profile::SynthesisResult& without_law, Reply& reply) {
@@ -127,7 +128,7 @@ void explain_without_law(const std::string& file, const profile::SynthesisResult
   add_advice(file, without_law.advice, reply);
 }
 
-Diagnostic note(Severity severity, std::string message, std::string hint) {
+Diagnostic make_diagnostic(Severity severity, std::string message, std::string hint) {
   Diagnostic diagnostic;
   diagnostic.severity = severity;
   diagnostic.message = std::move(message);
@@ -136,20 +137,21 @@ Diagnostic note(Severity severity, std::string message, std::string hint) {
 }
 
 Diagnostic about_file(Severity severity, std::string file, std::string message, std::string hint) {
-  Diagnostic diagnostic = note(severity, std::move(message), std::move(hint));
+  Diagnostic diagnostic = make_diagnostic(severity, std::move(message), std::move(hint));
   diagnostic.place.file = std::move(file);
   return diagnostic;
 }
 
 void add_log_notes(const std::vector<measurement::Run>& runs, const std::vector<std::string>& notes, Reply& reply) {
   for (const std::string& words : notes) {
-    std::size_t end = 0;  // of the name
+    std::size_t name_end = 0;
     for (const measurement::Run& run : runs) {
-      if (words.starts_with(run.name)) end = std::max(end, words.find(": ", run.name.size()));
+      if (words.starts_with(run.name)) name_end = std::max(name_end, words.find(": ", run.name.size()));
     }
-    reply.diagnostics.push_back(end == 0 || end == std::string::npos
-                                    ? note(Severity::note, words)
-                                    : about_file(Severity::note, words.substr(0, end), words.substr(end + 2)));
+    reply.diagnostics.push_back(
+        name_end == 0 || name_end == std::string::npos
+            ? make_diagnostic(Severity::note, words)
+            : about_file(Severity::note, words.substr(0, name_end), words.substr(name_end + 2)));
   }
 }
 

@@ -6,9 +6,9 @@
 namespace fusee::cli {
 namespace {
 
-std::string table_4_text(const paper::Reproduction& all) {
-  std::string text = "Table 4: paper and certified optimum, max T_b/F_c " + fixed(all.optimum, 4) + "\n";
-  for (const paper::OptimumRow& row : all.table_4) {
+std::string table_4_text(const paper::Reproduction& reproduction) {
+  std::string text = "Table 4: paper and certified optimum, max T_b/F_c " + fixed(reproduction.optimum, 4) + "\n";
+  for (const paper::OptimumRow& row : reproduction.table_4) {
     std::string symbol = row.symbol;
     symbol.resize(8, ' ');
     text += "  " + symbol + rounded(row.paper) + " mm, computed " + rounded(row.computed, 6) + " mm (bounds " +
@@ -17,7 +17,7 @@ std::string table_4_text(const paper::Reproduction& all) {
   return text;
 }
 
-// A heading with a text next to it.
+/// A heading with a text next to it.
 std::string beside(std::string_view heading, std::string_view words) {
   constexpr std::string_view k_indent = "             ";
   std::string first = "  " + std::string(heading);
@@ -31,9 +31,9 @@ std::string claim_text(const paper::Claim& claim) {
          beside("holds for", formats::claim_windows_text(claim));
 }
 
-std::string laws_text(const paper::Reproduction& all) {
+std::string laws_text(const paper::Reproduction& reproduction) {
   std::string text = "\nboth laws on the paper's optimum\n";
-  for (const paper::LawCost& law : all.laws) {
+  for (const paper::LawCost& law : reproduction.laws) {
     text +=
         beside(law.law, "theta within " + fixed(law.nonlinearity, 2) + " deg of a line, r2 up to " +
                             rounded(law.r2_most) + " mm, bend radius " + rounded(law.bend_radius, 3) + " mm, T_b/F_c " +
@@ -42,41 +42,45 @@ std::string laws_text(const paper::Reproduction& all) {
   return text;
 }
 
-std::string assumed_text(const paper::PaperAssumptions& a) {
-  return "assumed: unit " + rounded(a.unit) + " mm, r1 " + rounded(a.r1) + " mm, EF " + rounded(a.EF) + " mm, mu " +
-         rounded(a.mu) + ", F_c " + rounded(a.tip_force) + " N\n\n";
+std::string assumed_text(const paper::PaperAssumptions& assumptions) {
+  return "assumed: unit " + rounded(assumptions.unit) + " mm, r1 " + rounded(assumptions.r1) + " mm, EF " +
+         rounded(assumptions.EF) + " mm, mu " + rounded(assumptions.mu) + ", F_c " + rounded(assumptions.tip_force) +
+         " N\n\n";
 }
 
 Json windows_json(const std::vector<paper::ParameterWindows>& windows) {
   Json json = Json::object();
-  for (const paper::ParameterWindows& of : windows) {
-    json[of.parameter] = Json::array();
-    for (const paper::Window& window : of.windows) {
-      json[of.parameter].push_back(
+  for (const paper::ParameterWindows& entry : windows) {
+    json[entry.parameter] = Json::array();
+    for (const paper::Window& window : entry.windows) {
+      json[entry.parameter].push_back(
           {{"low", window.low}, {"high", window.high}, {"open_low", window.open_low}, {"open_high", window.open_high}});
     }
   }
   return json;
 }
 
-Json reproduction_json(const paper::Reproduction& all) {
-  const paper::PaperAssumptions& a = all.assumptions;
+Json reproduction_json(const paper::Reproduction& reproduction) {
+  const paper::PaperAssumptions& assumptions = reproduction.assumptions;
   Json json;
-  json["assumptions"] = {
-      {"unit_mm", a.unit}, {"r1_mm", a.r1}, {"EF_mm", a.EF}, {"mu", a.mu}, {"tip_force_N", a.tip_force}};
-  json["optimum"] = all.optimum;
-  json["relative_gap"] = all.relative_gap;
-  for (const paper::OptimumRow& row : all.table_4) {
+  json["assumptions"] = {{"unit_mm", assumptions.unit},
+                         {"r1_mm", assumptions.r1},
+                         {"EF_mm", assumptions.EF},
+                         {"mu", assumptions.mu},
+                         {"tip_force_N", assumptions.tip_force}};
+  json["optimum"] = reproduction.optimum;
+  json["relative_gap"] = reproduction.relative_gap;
+  for (const paper::OptimumRow& row : reproduction.table_4) {
     json["table_4"].push_back({{"symbol", row.symbol}, {"paper_mm", row.paper}, {"computed_mm", row.computed}});
   }
-  for (const paper::Claim& claim : all.claims) {
+  for (const paper::Claim& claim : reproduction.claims) {
     json["claims"].push_back({{"name", claim.name},
                               {"verdict", paper::verdict_text(claim.verdict)},
                               {"paper_says", claim.paper_says},
                               {"equations_give", claim.equations_give},
                               {"windows", windows_json(claim.windows)}});
   }
-  for (const paper::LawCost& law : all.laws) {
+  for (const paper::LawCost& law : reproduction.laws) {
     json["laws"].push_back({{"law", law.law},
                             {"nonlinearity_deg", law.nonlinearity},
                             {"r2_most_mm", law.r2_most},
@@ -84,10 +88,12 @@ Json reproduction_json(const paper::Reproduction& all) {
                             {"tension", law.tension},
                             {"torque_mm", law.torque}});
   }
-  for (const paper::MuWindow& window : all.mu_windows) {
-    json["mu_windows"].push_back({{"r1_mm", window.r1},
-                                  {"EF_mm", window.EF},
-                                  {"windows", windows_json({{"mu", "", 0, 0, window.windows}})["mu"]}});
+  for (const paper::MuWindow& window : reproduction.mu_windows) {
+    paper::ParameterWindows of_mu;
+    of_mu.parameter = "mu";
+    of_mu.windows = window.windows;
+    json["mu_windows"].push_back(
+        {{"r1_mm", window.r1}, {"EF_mm", window.EF}, {"windows", windows_json({of_mu})["mu"]}});
   }
   return json;
 }
@@ -100,14 +106,14 @@ std::vector<std::string> names_of(const std::vector<OutputFile>& files) {
 
 Reply run_reproduce(const Arguments& arguments, Console&, const RunContext& context) {
   const auto folder = arguments.text("--out");
-  const paper::Reproduction all = paper::reproduce_paper({}, context);
+  const paper::Reproduction reproduction = paper::reproduce_paper({}, context);
   Reply reply;
-  reply.text = assumed_text(all.assumptions) + table_4_text(all);
-  for (const paper::Claim& claim : all.claims) reply.text += claim_text(claim);
-  reply.text += laws_text(all);
-  reply.fields = reproduction_json(all);
+  reply.text = assumed_text(reproduction.assumptions) + table_4_text(reproduction);
+  for (const paper::Claim& claim : reproduction.claims) reply.text += claim_text(claim);
+  reply.text += laws_text(reproduction);
+  reply.fields = reproduction_json(reproduction);
   if (!folder || arguments.has("--dry-run")) return reply;
-  const std::vector<OutputFile> files = formats::paper_files(all);
+  const std::vector<OutputFile> files = formats::paper_files(reproduction);
   OutputFolder out(*folder, arguments.has("--force"), context);
   out.claim(names_of(files));
   for (const OutputFile& file : files) out.stage(file);

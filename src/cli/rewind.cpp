@@ -144,7 +144,8 @@ pipeline::RewoundPart rewind_file(const joint::IdentifiedJoint& joint, const std
 std::vector<Check> checks_of(const Mechanism& mechanism, const pipeline::RewoundPart& part,
                              const pipeline::AsBuiltLimits& limits) {
   std::vector<Check> checks = pipeline::as_built_checks(mechanism, part.as_built, limits);
-  if (part.alone) checks.erase(checks.begin() + 1, checks.end());
+  constexpr int k_theta_checks = 1;  // come first; the others are about the excess length
+  if (part.alone) checks.erase(checks.begin() + k_theta_checks, checks.end());
   return checks;
 }
 

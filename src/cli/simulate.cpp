@@ -18,7 +18,7 @@ pipeline::SimulateOptions simulate_options_from(const Arguments& arguments) {
   options.columns = columns_from(arguments);
   options.corrected = arguments.has("--corrected");
   options.noise = radians(arguments.number("--noise-deg", 0, 0, k_most_noise, "deg"));
-  options.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1, 0, 4294967295.0, "(a whole number)"));
+  options.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1, 0, k_largest_seed, "(a whole number)"));
   return options;
 }
 
@@ -44,18 +44,18 @@ void add_findings(const formats::Simulation& simulation, Reply& reply) {
   add_log_notes(simulation.log.runs, simulation.log.sources, reply);
   add_log_notes(simulation.log.runs, simulation.log.notes, reply);
   if (const std::size_t rows = count_of(simulation, joint::EquilibriumStatus::loose); rows > 0) {
-    reply.diagnostics.push_back(note(Severity::warning,
-                                     "the joint is loose in " + rows_words(rows) + ", first at " +
-                                         first_place(simulation, joint::EquilibriumStatus::loose) +
-                                         ": both tendons are slack",
-                                     "their status is loose, and loose_deg is the range of possible angles"));
+    reply.diagnostics.push_back(
+        make_diagnostic(Severity::warning,
+                        "the joint is loose in " + rows_words(rows) + ", first at " +
+                            first_place(simulation, joint::EquilibriumStatus::loose) + ": both tendons are slack",
+                        "their status is loose, and loose_deg is the range of possible angles"));
   }
   if (const std::size_t rows = count_of(simulation, joint::EquilibriumStatus::no_equilibrium); rows > 0) {
     reply.exit = Exit::check_failed;
-    reply.diagnostics.push_back(note(Severity::error,
-                                     "there is no equilibrium in " + rows_words(rows) + ", first at " +
-                                         first_place(simulation, joint::EquilibriumStatus::no_equilibrium),
-                                     "the motor exceeds the pulley's range, or the load is too large"));
+    reply.diagnostics.push_back(make_diagnostic(Severity::error,
+                                                "there is no equilibrium in " + rows_words(rows) + ", first at " +
+                                                    first_place(simulation, joint::EquilibriumStatus::no_equilibrium),
+                                                "the motor exceeds the pulley's range, or the load is too large"));
   }
 }
 

@@ -15,8 +15,9 @@ void apply_strict(const Arguments& arguments, Reply& reply) {
                     [](const Diagnostic& diagnostic) { return diagnostic.severity == Severity::warning; });
   if (warnings == 0) return;
   reply.exit = Exit::check_failed;
-  reply.diagnostics.push_back(note(Severity::error, "exit code 5 because of " + std::to_string(warnings) +
-                                                        (warnings == 1 ? " warning" : " warnings") + " (--strict)"));
+  reply.diagnostics.push_back(make_diagnostic(Severity::error, "exit code 5 because of " + std::to_string(warnings) +
+                                                                   (warnings == 1 ? " warning" : " warnings") +
+                                                                   " (--strict)"));
 }
 
 }  // namespace fusee::cli

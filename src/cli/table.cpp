@@ -9,8 +9,8 @@
 namespace fusee::cli {
 namespace {
 
-std::string padded(std::string_view text, std::size_t to, Align align) {
-  const std::string blanks(to - std::min(to, characters(text)), ' ');
+std::string padded(std::string_view text, std::size_t width, Align align) {
+  const std::string blanks(width - std::min(width, characters(text)), ' ');
   return align == Align::left ? std::string(text) + blanks : blanks + std::string(text);
 }
 
@@ -24,7 +24,7 @@ std::vector<std::string> lines_of(std::string_view cell, std::size_t most) {
 
 /// Narrows the widest columns of a table that is wider than a terminal of 80 columns.
 void fit_terminal(std::vector<std::size_t>& widths) {
-  constexpr std::size_t k_terminal = 80, k_least = 16;
+  constexpr std::size_t k_terminal = 80, k_least = 16;  // characters; narrower cells are unreadable
   while (std::accumulate(widths.begin(), widths.end(), 2 * (widths.size() - 1)) > k_terminal) {
     std::size_t& widest = *std::max_element(widths.begin(), widths.end());
     if (widest <= k_least) return;
@@ -57,8 +57,8 @@ std::string table(const std::vector<Column>& columns, const std::vector<std::vec
       cells.push_back(lines_of(row[i], widths[i]));
       lines = std::max(lines, cells.back().size());
     }
-    for (std::size_t l = 0; l < lines; ++l)
-      add_line([&](std::size_t i) { return l < cells[i].size() ? cells[i][l] : std::string(); });
+    for (std::size_t k = 0; k < lines; ++k)
+      add_line([&](std::size_t i) { return k < cells[i].size() ? cells[i][k] : std::string(); });
   }
   return text;
 }

@@ -13,8 +13,8 @@ std::string range_text(const analysis::AlphaRange& range) {
   return "alpha = " + fixed(degrees(range.from), 1) + " to " + fixed(degrees(range.to), 1) + " deg";
 }
 
-/// "250.6 of 180 deg (margin 0.718)".
-std::string of_limit(double needed, double limit, const std::string& unit) {
+/// "250.6 of 180 deg (margin 0.718)"; "250.6 deg" without a limit, which is 0.
+std::string compared_with_limit(double needed, double limit, const std::string& unit) {
   const std::string text = rounded(needed, 4) + (limit > 0 ? " of " + rounded(limit, 4) : "") + " " + unit;
   return limit > 0 && needed > 0 ? text + " (margin " + rounded(limit / needed, 3) + ")" : text;
 }
@@ -53,10 +53,10 @@ std::string under_load_lines(const analysis::UnderLoad& load, const std::string&
   const std::size_t space = load_words.find(' ');
   const bool is_loaded = load_words.starts_with("under ");
   const std::string title = is_loaded ? "under load" : "no load";
-  const std::string what = is_loaded ? load_words.substr(space + 1) + ": " : "";
-  if (load.lost_at) return titled(title, what + "no equilibrium at " + alpha_text(*load.lost_at), column);
+  const std::string load_prefix = is_loaded ? load_words.substr(space + 1) + ": " : "";
+  if (load.lost_at) return titled(title, load_prefix + "no equilibrium at " + alpha_text(*load.lost_at), column);
   std::string text = titled(title,
-                            what + "theta up to " + rounded(degrees(load.theta_error.value), 3) + " deg off, " +
+                            load_prefix + "theta up to " + rounded(degrees(load.theta_error.value), 3) + " deg off, " +
                                 alpha_text(load.theta_error.alpha),
                             column);
   for (const bool first : {true, false}) {
@@ -78,10 +78,12 @@ std::string motor_lines(const analysis::UnderLoad& load, std::size_t column) {
   const analysis::MotorCheck& motor = *load.motor;
   const std::string name = motor.model.empty() ? "" : motor.model + ": ";
   std::string text =
-      titled("motor", name + "travel " + of_limit(degrees(motor.travel), degrees(motor.travel_limit), "deg"), column);
-  text += titled(
-      "", "torque " + of_limit(motor.torque.value, motor.torque_limit, "Nmm") + ", " + alpha_text(motor.torque.alpha),
-      column);
+      titled("motor", name + "travel " + compared_with_limit(degrees(motor.travel), degrees(motor.travel_limit), "deg"),
+             column);
+  text += titled("",
+                 "torque " + compared_with_limit(motor.torque.value, motor.torque_limit, "Nmm") + ", " +
+                     alpha_text(motor.torque.alpha),
+                 column);
   if (motor.speed_limit > 0) text += titled("", speed_text(motor), column);
   const std::string models = motor.models_text();
   return text + titled("", models.empty() ? "no motor of the catalogue is suitable" : "suitable: " + models, column);

@@ -18,10 +18,10 @@ void CarriedAccess::read(const ReadRequest& request, const TakeBlock& take) {
   }
   std::string bytes;
   FileAccess::read(request, [&](std::string_view block) {
-    if (seen_ != nullptr) bytes += block;
+    if (read_from_disk_ != nullptr) bytes += block;
     take(block);
   });
-  if (seen_ != nullptr) seen_->insert_or_assign(name, std::move(bytes));
+  if (read_from_disk_ != nullptr) read_from_disk_->insert_or_assign(name, std::move(bytes));
 }
 
 CarriedMechanism CarriedMechanism::with(const std::vector<Setting>& more) const {
@@ -35,12 +35,12 @@ CarriedMechanism CarriedMechanism::with(const std::vector<Setting>& more) const 
 
 CarriedMechanism read_carried(const std::filesystem::path& path, std::vector<Setting> settings, CarriedFiles files) {
   CarriedMechanism carried;
-  CarriedFiles seen;
-  CarriedAccess access(files, &seen);
+  CarriedFiles read_from_disk;
+  CarriedAccess access(files, &read_from_disk);
   carried.file = read_mechanism(path, settings, access);
   carried.settings = std::move(settings);
   carried.files = std::move(files);
-  carried.files.merge(seen);
+  carried.files.merge(read_from_disk);
   return carried;
 }
 

@@ -18,13 +18,14 @@ using CarriedFiles = std::map<std::string, std::string>;
 /// Reads these files instead of those on the disk.
 class CarriedAccess : public FileAccess {
  public:
-  /// Files that are still read from the disk are added to `seen`, if given.
-  explicit CarriedAccess(const CarriedFiles& files, CarriedFiles* seen = nullptr) : files_(files), seen_(seen) {}
+  /// Files that are still read from the disk are added to `read_from_disk`, if given.
+  explicit CarriedAccess(const CarriedFiles& files, CarriedFiles* read_from_disk = nullptr)
+      : files_(files), read_from_disk_(read_from_disk) {}
   void read(const ReadRequest& request, const TakeBlock& take) override;
 
  private:
   const CarriedFiles& files_;
-  CarriedFiles* seen_;
+  CarriedFiles* read_from_disk_;
 };
 
 /// A mechanism as it was read, and everything that reading it again requires.

@@ -20,7 +20,7 @@ namespace {
 
 // ---- interruption ---------------------------------------------------------------------------------------------------
 
-/// Set by the thread that waits for a verb.
+/// A request to stop a verb, made by the thread that waits for it.
 class Stop {
  public:
   void set() { source_.request_stop(); }
@@ -30,18 +30,20 @@ class Stop {
   std::stop_source source_;
 };
 
-/// The result of `make`, computed without the interpreter's lock. `make` receives a context with the mechanism's files.
-template <typename Make>
-auto made_unlocked(const CarriedFiles& files, const Stop& stop, Make make) {
-  using Made = decltype(make(RunContext()));
+/// The result of `compute`, without the interpreter's lock. `compute` receives a context with the mechanism's files.
+/// `stop` is an unused Stop() for verbs that take too little time to be stopped.
+template <typename Compute>
+auto computed_unlocked(const CarriedFiles& files, const Stop& stop, Compute compute) {
+  using Result = decltype(compute(RunContext()));
   const py::gil_scoped_release released;
   CarriedAccess access(files);
-  return std::make_shared<const Made>(make(RunContext{.stop = stop.token(), .files = &access}));
+  return std::make_shared<const Result>(compute(RunContext{.stop = stop.token(), .files = &access}));
 }
 
-void demand_tendons(const MechanismFile& file, const std::string& what) {
+/// Throws InputError for a joint without tendons. `verb`: what would be done with them, such as "wind".
+void demand_tendons(const MechanismFile& file, const std::string& verb) {
   if (!file.mechanism.transmission) return;
-  throw InputError(file.path, "a joint with [transmission] has no tendons to " + what,
+  throw InputError(file.path, "a joint with [transmission] has no tendons to " + verb,
                    "[transmission] is for calibrate()");
 }
 
@@ -66,19 +68,20 @@ py::object number(const Field& field, const DeclaredMechanism& mechanism, int en
   return py::float_(value);
 }
 
-/// True for a key that is not written and has no default, and for those of an optional table that is missing.
-bool lacks_value(const Field& field, const DeclaredMechanism& mechanism) {
-  return field.is_set != nullptr && !field.is_set(mechanism) &&
-         (field.fallback.empty() || std::any_of(fields().begin(), fields().end(), [&field](const Field& other) {
-            return other.table == field.table && other.needed_in_table;
-          }));
+/// True for a key that is not written and has no default, or whose optional table is missing.
+bool is_undefined(const Field& field, const DeclaredMechanism& mechanism) {
+  if (field.is_set == nullptr || field.is_set(mechanism)) return false;
+  const auto makes_table_optional = [&field](const Field& other) {
+    return other.table == field.table && other.needed_in_table;
+  };
+  return field.fallback.empty() || std::any_of(fields().begin(), fields().end(), makes_table_optional);
 }
 
 /// The value of a key, by its row of the field table.
 py::object value_of(const CarriedMechanism& carried, const Field& field) {
   // Access to lists needs a mutable mechanism, so a copy is read.
   DeclaredMechanism mechanism = carried.file.mechanism;
-  if (lacks_value(field, mechanism)) return py::none();
+  if (is_undefined(field, mechanism)) return py::none();
   switch (field.kind) {
     case FieldKind::number:
       return number(field, mechanism, 0);
@@ -87,7 +90,7 @@ py::object value_of(const CarriedMechanism& carried, const Field& field) {
       return py::make_tuple(number(field, mechanism, 0), number(field, mechanism, 1));
     case FieldKind::choice:
     case FieldKind::text:
-      return words(field.get_text(mechanism));
+      return to_str(field.get_text(mechanism));
     case FieldKind::boolean:
       return py::bool_(field.get_text(mechanism) == "true");
     case FieldKind::numbers:
@@ -124,12 +127,12 @@ py::dict files_of(const CarriedMechanism& carried) {
   return dict;
 }
 
-bool same(const CarriedMechanism& a, const CarriedMechanism& b) { return a.file.mechanism == b.file.mechanism; }
+bool is_same(const CarriedMechanism& a, const CarriedMechanism& b) { return a.file.mechanism == b.file.mechanism; }
 
 // ---- verbs ----------------------------------------------------------------------------------------------------------
 
 py::dict synthesise_joint(const CarriedMechanism& carried, double tolerance, bool advice, int steps) {
-  return to_python(made_unlocked(carried.files, Stop(), [&](const RunContext&) {
+  return to_python(computed_unlocked(carried.files, Stop(), [&](const RunContext&) {
     demand_tendons(carried.file, "synthesise for");
     profile::SynthesisOptions options;
     options.chord_error_mm = tolerance;
@@ -141,9 +144,9 @@ py::dict synthesise_joint(const CarriedMechanism& carried, double tolerance, boo
 
 pipeline::AsBuiltLimits limits_of(double max_theta_error, double max_excess) { return {max_theta_error, max_excess}; }
 
-/// Rewinds a part; faults are reported with its file name.
-pipeline::RewoundPart rewound(const joint::IdentifiedJoint& joint, const std::string& path, bool as_is,
-                              FileAccess& files) {
+/// Rewinds a part. Errors name its file.
+pipeline::RewoundPart rewound_part(const joint::IdentifiedJoint& joint, const std::string& path, bool as_is,
+                                   FileAccess& files) {
   const pipeline::Part part = pipeline::read_part(path, files);
   try {
     return as_is ? pipeline::RewoundPart{pipeline::rewind_part(joint, part), pipeline::PartPlace::as_made, {}}
@@ -160,17 +163,18 @@ py::dict with_checks(const CarriedMechanism& carried, const std::shared_ptr<cons
   py::dict dict = to_python(part);
   std::vector<Check> checks =
       pipeline::as_built_checks(joint::identified_joint(carried.file.mechanism).mechanism, part->as_built, limits);
-  // With only one tendon the excess length is unknown.
-  if (part->alone) checks.erase(checks.begin() + 1, checks.end());
+  // The first check is that of θ. With only one tendon the excess length, of the others, is unknown.
+  constexpr int k_theta_checks = 1;
+  if (part->alone) checks.erase(checks.begin() + k_theta_checks, checks.end());
   dict["checks"] = to_python(checks);
   return dict;
 }
 
 py::dict rewind_file(const CarriedMechanism& carried, const std::string& path, bool as_is, double max_theta_error,
                      double max_excess) {
-  const auto part = made_unlocked(carried.files, Stop(), [&](const RunContext& context) {
+  const auto part = computed_unlocked(carried.files, Stop(), [&](const RunContext& context) {
     demand_tendons(carried.file, "wind");
-    return rewound(joint::identified_joint(carried.file.mechanism), path, as_is, *context.files);
+    return rewound_part(joint::identified_joint(carried.file.mechanism), path, as_is, *context.files);
   });
   return with_checks(carried, part, limits_of(max_theta_error, max_excess));
 }
@@ -187,7 +191,7 @@ Polygon polygon_of(const Floor& floor) {
 py::dict rewind_floors(const CarriedMechanism& carried, const Floor& floor1, const Floor& floor2,
                        double max_theta_error, double max_excess) {
   const Polygon p1 = polygon_of(floor1), p2 = polygon_of(floor2);
-  const auto part = made_unlocked(carried.files, Stop(), [&](const RunContext&) {
+  const auto part = computed_unlocked(carried.files, Stop(), [&](const RunContext&) {
     demand_tendons(carried.file, "wind");
     return pipeline::RewoundPart{profile::rewind(joint::identified_joint(carried.file.mechanism).mechanism, p1, p2),
                                  pipeline::PartPlace::as_made,
@@ -197,7 +201,7 @@ py::dict rewind_floors(const CarriedMechanism& carried, const Floor& floor1, con
 }
 
 py::dict check_file(const std::string& path) {
-  const auto checks = made_unlocked({}, Stop(), [&](const RunContext& context) {
+  const auto checks = computed_unlocked({}, Stop(), [&](const RunContext& context) {
     return pipeline::check_part(pipeline::read_part(path, *context.files));
   });
   py::dict dict;
@@ -213,7 +217,7 @@ struct Target {
 };
 
 template <typename Options>
-void aim(Options& options, const Target& target) {
+void set_target(Options& options, const Target& target) {
   options.folder = target.folder;
   options.force = target.force;
   options.dry_run = target.dry_run;
@@ -225,10 +229,10 @@ formats::DxfVersion dxf_version(const std::string& name) {
 
 py::dict build_pulley(const CarriedMechanism& carried, const Target& target, double tolerance, const std::string& dxf,
                       bool step, double max_theta_error, double max_excess, const Stop& stop) {
-  return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
+  return to_python(computed_unlocked(carried.files, stop, [&](const RunContext& context) {
     demand_tendons(carried.file, "build a pulley for");
     pipeline::BuildOptions options;
-    aim(options, target);
+    set_target(options, target);
     options.chord_error_mm = tolerance;
     options.limits = limits_of(max_theta_error, max_excess);
     options.dxf = dxf_version(dxf);
@@ -239,7 +243,7 @@ py::dict build_pulley(const CarriedMechanism& carried, const Target& target, dou
 
 py::dict analyze_joint(const CarriedMechanism& carried, int steps, double tolerance, int samples, std::uint64_t seed,
                        const Stop& stop) {
-  return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
+  return to_python(computed_unlocked(carried.files, stop, [&](const RunContext& context) {
     analysis::AnalysisOptions options;
     options.steps = steps;
     options.dimension_tolerance = tolerance;
@@ -255,8 +259,8 @@ py::tuple objective_names() {
   return to_python(names);
 }
 
-/// A second objective requires a search that reports ties.
-void demand_agreement(const MechanismFile& file, const pipeline::OptimizeOptions& options) {
+/// A second objective requires a search that reports ties: throws InputError for another method.
+void require_certified_for_then(const MechanismFile& file, const pipeline::OptimizeOptions& options) {
   if (!options.then || options.method.value_or(pipeline::strongest_method(file)) == pipeline::SearchMethod::certified)
     return;
   throw InputError("then", "requires method \"certified\"");
@@ -271,7 +275,7 @@ std::optional<pipeline::SearchMethod> search_method(const std::string& name) {
 
 py::dict optimize_joint(const CarriedMechanism& carried, const std::string& method, const std::string& then,
                         unsigned population, unsigned generations, unsigned seed, unsigned threads, const Stop& stop) {
-  return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
+  return to_python(computed_unlocked(carried.files, stop, [&](const RunContext& context) {
     pipeline::OptimizeOptions options;
     options.method = search_method(method);
     if (!then.empty()) options.then = optimize::find_objective(then);
@@ -284,7 +288,7 @@ py::dict optimize_joint(const CarriedMechanism& carried, const std::string& meth
                  [](const Setting& setting) { return find_number_key(setting.key).has_value(); });
     options.new_file = carried.file.path;  // not written: only the text is used
     options.dry_run = true;
-    demand_agreement(carried.file, options);
+    require_certified_for_then(carried.file, options);
     pipeline::OptimizeResult result = pipeline::optimize(carried.file, options, context);
     context.throw_if_stopped();
     return result;
@@ -310,9 +314,9 @@ py::dict calibrate_joint(const CarriedMechanism& carried, const std::vector<std:
                          const ReadingOptions& reading, const Target& target, bool audit, const Stop& stop) {
   CarriedFiles files = carried.files;
   files.insert(logs.begin(), logs.end());
-  return to_python(made_unlocked(files, stop, [&](const RunContext& context) {
+  return to_python(computed_unlocked(files, stop, [&](const RunContext& context) {
     pipeline::CalibrateOptions options;
-    aim(options, target);
+    set_target(options, target);
     options.columns = measurement_options(reading);
     options.hold_out = paths_of(hold_out);
     options.audit = audit;
@@ -325,9 +329,9 @@ py::dict compare_joint(const CarriedMechanism& carried, const std::vector<std::s
                        const Target& target, const Stop& stop) {
   CarriedFiles files = carried.files;
   files.insert(logs.begin(), logs.end());
-  return to_python(made_unlocked(files, stop, [&](const RunContext& context) {
+  return to_python(computed_unlocked(files, stop, [&](const RunContext& context) {
     pipeline::CompareOptions options;
-    aim(options, target);
+    set_target(options, target);
     options.columns = measurement_options(reading);
     return pipeline::compare(carried.file, paths_of(before), paths_of(after), options, context);
   }));
@@ -336,9 +340,9 @@ py::dict compare_joint(const CarriedMechanism& carried, const std::vector<std::s
 py::dict plan_bench(const CarriedMechanism& carried, const Target& target, double noise, double minutes,
                     const std::vector<double>& loads, const std::vector<double>& speeds,
                     const std::optional<std::pair<double, double>>& range, std::uint64_t seed, const Stop& stop) {
-  return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
+  return to_python(computed_unlocked(carried.files, stop, [&](const RunContext& context) {
     pipeline::PlanFilesOptions options;
-    aim(options, target);
+    set_target(options, target);
     options.plan.noise = noise;
     options.plan.minutes = minutes;
     options.plan.loads = loads;
@@ -353,7 +357,7 @@ py::dict simulate_joint(const CarriedMechanism& carried, const std::string& log,
                         const ReadingOptions& reading, bool corrected, double noise, std::uint64_t seed) {
   CarriedFiles files = carried.files;
   files.insert(logs.begin(), logs.end());
-  return to_python(made_unlocked(files, Stop(), [&](const RunContext& context) {
+  return to_python(computed_unlocked(files, Stop(), [&](const RunContext& context) {
     pipeline::SimulateOptions options;
     options.columns = measurement_options(reading);
     options.corrected = corrected;
@@ -365,10 +369,10 @@ py::dict simulate_joint(const CarriedMechanism& carried, const std::string& log,
 
 py::dict kit_parts(const CarriedMechanism& carried, const Target& target, double tolerance, const std::string& dxf,
                    const Stop& stop) {
-  return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
+  return to_python(computed_unlocked(carried.files, stop, [&](const RunContext& context) {
     demand_tendons(carried.file, "make a kit for");
     pipeline::KitOptions options;
-    aim(options, target);
+    set_target(options, target);
     options.chord_error_mm = tolerance;
     options.dxf = dxf_version(dxf);
     return pipeline::kit(carried.file, options, context);
@@ -389,24 +393,24 @@ void raise_in_python(std::exception_ptr thrown) {
     const py::object from = py::module_::import("fusee._errors").attr("diagnostics_from");
     raise("InputError", py::make_tuple(from(to_python(error.diagnostics()))));
   } catch (const OutputError& error) {
-    raise("OutputError", py::make_tuple(words(error.what()), words(error.hint())));
+    raise("OutputError", py::make_tuple(to_str(error.what()), to_str(error.hint())));
   } catch (const Bug& error) {
-    raise("Bug", py::make_tuple(words(error.what())));
+    raise("Bug", py::make_tuple(to_str(error.what())));
   } catch (const Stopped&) {
     PyErr_SetNone(PyExc_KeyboardInterrupt);
   }
 }
 
 template <typename Class>
-Class& with_mechanism(Class& type) {
+Class& add_mechanism_methods(Class& type) {
   return type.def("get", value_at)
       .def("settings", settings_of)
       .def("files", files_of)
-      .def("same", same)
-      .def("path", [](const CarriedMechanism& carried) { return path_words(carried.file.path); })
+      .def("same", is_same)
+      .def("path", [](const CarriedMechanism& carried) { return path_to_str(carried.file.path); })
       .def("path_bytes", [](const CarriedMechanism& carried) { return py::bytes(carried.file.path); })
-      .def("text", [](const CarriedMechanism& carried) { return words(carried.files.at(carried.file.path)); })
-      .def("every_key", [](const CarriedMechanism& carried) { return words(write_mechanism(carried.file.mechanism)); })
+      .def("text", [](const CarriedMechanism& carried) { return to_str(carried.files.at(carried.file.path)); })
+      .def("every_key", [](const CarriedMechanism& carried) { return to_str(write_mechanism(carried.file.mechanism)); })
       .def("warnings", [](const CarriedMechanism& carried) { return to_python(carried.file.warnings); })
       .def("with_", [](const CarriedMechanism& carried, const std::vector<std::pair<std::string, std::string>>& more) {
         const py::gil_scoped_release released;
@@ -423,17 +427,17 @@ PYBIND11_MODULE(_core, module) {
     return Target{std::move(folder), force, dry_run};
   }));
   py::class_<CarriedMechanism> mechanism(module, "CarriedMechanism");
-  with_mechanism(mechanism);
+  add_mechanism_methods(mechanism);
   module.attr("version") = FUSEE_VERSION;
   module.def("read", read);
   module.def("keys", keys);
-  module.def("new", [](const std::string& name) { return words(find_template(name)); });
+  module.def("new", [](const std::string& name) { return to_str(find_template(name)); });
   module.def("templates", [] {
     std::vector<std::string> names;
     for (const Template& known : templates()) names.emplace_back(known.name);
     return to_python(names);
   });
-  module.def("explain", [](const std::string& key) { return words(explain_json(key)); });
+  module.def("explain", [](const std::string& key) { return to_str(explain_json(key)); });
   module.def("objectives", objective_names);
   module.def("synthesise", synthesise_joint);
   module.def("rewind_file", rewind_file);

@@ -12,53 +12,56 @@ namespace {
 
 // ---- arrays ---------------------------------------------------------------------------------------------------------
 
-/// Keeps the value alive while arrays show its numbers.
-py::capsule keep(std::shared_ptr<const void> value) {
+/// An owner for arrays that are views of the value: it lives as long as the last of them.
+py::capsule owner_of(std::shared_ptr<const void> value) {
   return {new std::shared_ptr<const void>(std::move(value)),
           [](void* held) { delete static_cast<std::shared_ptr<const void>*>(held); }};
 }
 
-py::array view(const py::capsule& kept, const py::dtype& type, std::vector<py::ssize_t> shape,
+py::array view(const py::capsule& owner, const py::dtype& type, std::vector<py::ssize_t> shape,
                std::vector<py::ssize_t> strides, const void* first) {
-  static const double nothing = 0;  // the address of empty arrays, since a null pointer means new memory
-  py::array array(type, std::move(shape), std::move(strides), first != nullptr ? first : &nothing, kept);
+  static const double no_number = 0;  // address of empty arrays: with a null pointer pybind11 allocates memory
+  py::array array(type, std::move(shape), std::move(strides), first != nullptr ? first : &no_number, owner);
+  // pybind11 has no public function that makes an array read-only.
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
 
-/// Rows in a value that is kept alive, `stride` bytes apart.
+/// Rows in a value that `owner` keeps alive, `stride` bytes apart.
 template <typename Row>
 struct Rows {
-  const py::capsule& kept;
+  const py::capsule& owner;
   const Row* first = nullptr;
   std::size_t count = 0;
   py::ssize_t stride = sizeof(Row);
 
+  /// One member of each row, which has members itself.
   template <typename Part>
   Rows<Part> part(Part Row::*member) const {
-    return {kept, first == nullptr ? nullptr : &(first->*member), count, stride};
+    return {owner, first == nullptr ? nullptr : &(first->*member), count, stride};
   }
+  /// One number of each row, as an array.
   py::array operator()(double Row::*member) const {
     const double* start = first == nullptr ? nullptr : &(first->*member);
-    return view(kept, py::dtype::of<double>(), {static_cast<py::ssize_t>(count)}, {stride}, start);
+    return view(owner, py::dtype::of<double>(), {static_cast<py::ssize_t>(count)}, {stride}, start);
   }
 };
 
 template <typename Row>
-Rows<Row> rows_of(const py::capsule& kept, const std::vector<Row>& rows) {
-  return {kept, rows.empty() ? nullptr : rows.data(), rows.size(), sizeof(Row)};
+Rows<Row> rows_of(const py::capsule& owner, const std::vector<Row>& rows) {
+  return {owner, rows.empty() ? nullptr : rows.data(), rows.size(), sizeof(Row)};
 }
 
-py::array numbers(const py::capsule& kept, const std::vector<double>& values) {
-  return view(kept, py::dtype::of<double>(), {static_cast<py::ssize_t>(values.size())}, {sizeof(double)},
+py::array numbers(const py::capsule& owner, const std::vector<double>& values) {
+  return view(owner, py::dtype::of<double>(), {static_cast<py::ssize_t>(values.size())}, {sizeof(double)},
               values.empty() ? nullptr : values.data());
 }
 
-/// Points in the plane or in space, one row each.
+/// Points in the plane or in space, one row each. get(row) is the point, whose coordinates follow each other in memory.
 template <typename Row, typename Get>
-py::array points_of(const py::capsule& kept, const std::vector<Row>& rows, py::ssize_t dimensions, Get get) {
+py::array points_of(const py::capsule& owner, const std::vector<Row>& rows, py::ssize_t dimensions, Get get) {
   const double* first = rows.empty() ? nullptr : get(rows.front()).data();
-  return view(kept, py::dtype::of<double>(), {static_cast<py::ssize_t>(rows.size()), dimensions},
+  return view(owner, py::dtype::of<double>(), {static_cast<py::ssize_t>(rows.size()), dimensions},
               {static_cast<py::ssize_t>(sizeof(Row)), static_cast<py::ssize_t>(sizeof(double))}, first);
 }
 
@@ -71,62 +74,64 @@ py::tuple tuple_of(const std::vector<Item>& items, Convert convert) {
   return tuple;
 }
 
-py::object maybe(const std::optional<double>& value) { return value ? py::object(py::float_(*value)) : py::none(); }
+py::object number_or_none(const std::optional<double>& value) {
+  return value ? py::object(py::float_(*value)) : py::none();
+}
 
 std::string_view side_word(transmission::Side side) { return side == transmission::Side::left ? "left" : "right"; }
 
-/// The number, or the word if it is one.
-py::object changed(double number, const std::string& word, bool is_word) {
-  return is_word ? py::object(words(word)) : py::float_(number);
+/// The number, or the word if the value is one.
+py::object number_or_word(double number, const std::string& word, bool is_word) {
+  return is_word ? py::object(to_str(word)) : py::float_(number);
 }
 
 py::dict to_dict(const profile::Change& change) {
   const bool is_word = !change.to_word.empty();
   py::dict dict;
-  dict["key"] = words(change.key);
-  dict["value"] = changed(change.to, change.to_word, is_word);
-  dict["was"] = changed(change.from, change.from_word, is_word);
-  dict["unit"] = words(change.unit);
-  dict["text"] = words(change.text);
+  dict["key"] = to_str(change.key);
+  dict["value"] = number_or_word(change.to, change.to_word, is_word);
+  dict["was"] = number_or_word(change.from, change.from_word, is_word);
+  dict["unit"] = to_str(change.unit);
+  dict["text"] = to_str(change.text);
   return dict;
 }
 
 py::dict to_dict(const profile::Condition& condition) {
   py::dict dict;
-  dict["name"] = words(condition.name);
+  dict["name"] = to_str(condition.name);
   dict["ok"] = condition.ok;
   dict["alpha_rad"] = condition.alpha;
   dict["value"] = condition.value;
   dict["limit"] = condition.limit;
-  dict["unit"] = words(condition.unit);
-  dict["message"] = words(condition.message);
+  dict["unit"] = to_str(condition.unit);
+  dict["message"] = to_str(condition.message);
   return dict;
 }
 
 py::dict to_dict(const Check& check) {
   py::dict dict;
-  dict["name"] = words(check.name);
+  dict["name"] = to_str(check.name);
   dict["value"] = check.value;
   dict["limit"] = check.limit;
-  dict["unit"] = words(check.unit);
+  dict["unit"] = to_str(check.unit);
   dict["ok"] = check.ok;
-  dict["where"] = words(check.where);
+  dict["where"] = to_str(check.where);
   return dict;
 }
 
 std::string_view severity_word(Severity severity) {
-  constexpr std::array<std::string_view, 3> k_words = {"error", "warning", "note"};
+  constexpr std::array<std::string_view, 3> k_words = {"error", "warning", "note"};  // in the order of Severity
   return k_words.at(static_cast<std::size_t>(severity));
 }
 
 py::dict to_dict(const Diagnostic& diagnostic) {
   py::dict dict;
-  dict["severity"] = words(severity_word(diagnostic.severity));
-  dict["file"] = path_words(diagnostic.place.file);
+  dict["severity"] = to_str(severity_word(diagnostic.severity));
+  dict["file"] = path_to_str(diagnostic.place.file);
   dict["line"] = diagnostic.place.line;
   dict["column"] = diagnostic.place.column;
-  dict["message"] = words(diagnostic.message);
-  dict["hint"] = words(diagnostic.hint);
+  dict["message"] = to_str(diagnostic.message);
+  dict["hint"] = to_str(diagnostic.hint);
   return dict;
 }
 
@@ -179,14 +184,14 @@ py::dict to_dict(const Rows<joint::EquilibriumPoint>& rows) {
   return dict;
 }
 
-py::dict to_dict(const py::capsule& kept, const profile::Outline& outline) {
-  const Rows<profile::OutlinePoint> rows = rows_of(kept, outline.points);
+py::dict to_dict(const py::capsule& owner, const profile::Outline& outline) {
+  const Rows<profile::OutlinePoint> rows = rows_of(owner, outline.points);
   py::dict dict;
-  dict["side"] = words(side_word(outline.side));
+  dict["side"] = to_str(side_word(outline.side));
   dict["psi_rad"] = rows(&profile::OutlinePoint::psi);
-  dict["position_mm"] = points_of(kept, outline.points, 2,
+  dict["position_mm"] = points_of(owner, outline.points, 2,
                                   [](const profile::OutlinePoint& point) -> const Vec2& { return point.position; });
-  dict["normal"] = points_of(kept, outline.points, 2,
+  dict["normal"] = points_of(owner, outline.points, 2,
                              [](const profile::OutlinePoint& point) -> const Vec2& { return point.normal; });
   dict["curvature_radius_mm"] = rows(&profile::OutlinePoint::curvature_radius);
   dict["active_first"] = outline.active_first;
@@ -194,21 +199,21 @@ py::dict to_dict(const py::capsule& kept, const profile::Outline& outline) {
   return dict;
 }
 
-py::dict to_dict(const py::capsule& kept, const profile::SynthesisResult& result) {
+py::dict to_dict(const py::capsule& owner, const profile::SynthesisResult& result) {
   py::dict dict;
   dict["made"] = result.made();
-  dict["p1"] = to_dict(kept, result.p1);
-  dict["p2"] = to_dict(kept, result.p2);
-  dict["stroke"] = to_dict(rows_of(kept, result.stroke));
+  dict["p1"] = to_dict(owner, result.p1);
+  dict["p2"] = to_dict(owner, result.p2);
+  dict["stroke"] = to_dict(rows_of(owner, result.stroke));
   dict["conditions"] = to_python(result.conditions);
   dict["advice"] = to_python(result.advice);
   dict["warnings"] = to_python(result.warnings);
-  dict["brief"] = words(result.brief());
+  dict["brief"] = to_str(result.brief());
   return dict;
 }
 
-py::dict to_dict(const py::capsule& kept, const profile::RewindResult& result) {
-  const Rows<profile::RewindPoint> rows = rows_of(kept, result.points);
+py::dict to_dict(const py::capsule& owner, const profile::RewindResult& result) {
+  const Rows<profile::RewindPoint> rows = rows_of(owner, result.points);
   py::dict dict;
   dict["alpha_rad"] = rows(&profile::RewindPoint::alpha);
   dict["theta_declared_rad"] = rows(&profile::RewindPoint::theta_declared);
@@ -221,11 +226,11 @@ py::dict to_dict(const py::capsule& kept, const profile::RewindResult& result) {
   return dict;
 }
 
-py::dict to_dict(const py::capsule& kept, const solid::TriangleMesh& mesh) {
+py::dict to_dict(const py::capsule& owner, const solid::TriangleMesh& mesh) {
   py::dict dict;
-  dict["vertices_mm"] = points_of(kept, mesh.vertices, 3, [](const Vec3& vertex) -> const Vec3& { return vertex; });
+  dict["vertices_mm"] = points_of(owner, mesh.vertices, 3, [](const Vec3& vertex) -> const Vec3& { return vertex; });
   const std::size_t row = sizeof(std::array<std::uint32_t, 3>);
-  dict["triangles"] = view(kept, py::dtype::of<std::uint32_t>(), {static_cast<py::ssize_t>(mesh.triangles.size()), 3},
+  dict["triangles"] = view(owner, py::dtype::of<std::uint32_t>(), {static_cast<py::ssize_t>(mesh.triangles.size()), 3},
                            {static_cast<py::ssize_t>(row), static_cast<py::ssize_t>(sizeof(std::uint32_t))},
                            mesh.triangles.empty() ? nullptr : mesh.triangles.data());
   return dict;
@@ -254,8 +259,8 @@ py::tuple to_tuple(const std::vector<analysis::AlphaRange>& ranges) {
 
 py::dict to_dict(const analysis::ErrorSource& source) {
   py::dict dict;
-  dict["name"] = words(source.name);
-  dict["meaning"] = words(source.meaning);
+  dict["name"] = to_str(source.name);
+  dict["meaning"] = to_str(source.meaning);
   dict["least_rad"] = source.least;
   dict["most_rad"] = source.most;
   dict["worst_at_rad"] = source.worst_at;
@@ -264,7 +269,7 @@ py::dict to_dict(const analysis::ErrorSource& source) {
 
 py::dict to_dict(const analysis::ToleranceEffect& effect) {
   py::dict dict;
-  dict["key"] = words(effect.key);
+  dict["key"] = to_str(effect.key);
   dict["theta_by_derivative_rad"] = effect.theta_by_derivative;
   dict["theta_by_monte_carlo_rad"] = effect.theta_by_monte_carlo;
   dict["theta_at_rad"] = effect.theta_at;
@@ -279,27 +284,27 @@ py::object to_object(const std::optional<analysis::Strength>& strength) {
   py::dict dict;
   dict["tension_N"] = strength->tension;
   dict["at_knot_N"] = strength->at_knot;
-  dict["source"] = words(strength->source);
+  dict["source"] = to_str(strength->source);
   return dict;
 }
 
 py::object to_object(const std::optional<analysis::MotorCheck>& motor) {
   if (!motor) return py::none();
-  const auto known = [](double limit) { return limit > 0 ? py::object(py::float_(limit)) : py::none(); };
+  const auto positive_or_none = [](double limit) { return limit > 0 ? py::object(py::float_(limit)) : py::none(); };
   py::dict dict;
-  dict["model"] = words(motor->model);
+  dict["model"] = to_str(motor->model);
   dict["enforced"] = motor->enforced;
   dict["ok"] = motor->ok();
   dict["travel_rad"] = motor->travel;
-  dict["travel_limit_rad"] = known(motor->travel_limit);
+  dict["travel_limit_rad"] = positive_or_none(motor->travel_limit);
   dict["torque_Nmm"] = motor->torque.value;
   dict["torque_at_rad"] = motor->torque.alpha;
-  dict["torque_limit_Nmm"] = known(motor->torque_limit);
-  dict["speed_limit_rad_per_s"] = known(motor->speed_limit);
+  dict["torque_limit_Nmm"] = positive_or_none(motor->torque_limit);
+  dict["speed_limit_rad_per_s"] = positive_or_none(motor->speed_limit);
   dict["joint_speed_rad_per_s"] =
       motor->speed_limit > 0 ? py::object(py::float_(motor->joint_speed)) : py::object(py::none());
-  dict["joint_speed_needed_rad_per_s"] = known(motor->joint_speed_needed);
-  dict["sufficient_models"] = tuple_of(motor->sufficient_models, [](const std::string& name) { return words(name); });
+  dict["joint_speed_needed_rad_per_s"] = positive_or_none(motor->joint_speed_needed);
+  dict["sufficient_models"] = tuple_of(motor->sufficient_models, [](const std::string& name) { return to_str(name); });
   dict["advice"] = to_python(motor->advice.alone);
   return dict;
 }
@@ -309,9 +314,9 @@ py::dict to_dict(const analysis::UnderLoad& load) {
   dict["theta_error_rad"] = to_dict(load.theta_error);
   dict["slack1_rad"] = to_tuple(load.slack1);
   dict["slack2_rad"] = to_tuple(load.slack2);
-  dict["taut_pretension_N"] = maybe(load.taut_pretension);
-  dict["lost_at_rad"] = maybe(load.lost_at);
-  dict["safety_factor"] = maybe(load.safety_factor());
+  dict["taut_pretension_N"] = number_or_none(load.taut_pretension);
+  dict["lost_at_rad"] = number_or_none(load.lost_at);
+  dict["safety_factor"] = number_or_none(load.safety_factor());
   dict["motor"] = to_object(load.motor);
   return dict;
 }
@@ -319,12 +324,12 @@ py::dict to_dict(const analysis::UnderLoad& load) {
 py::tuple knots_of(const solid::Holding& holding) {
   return tuple_of(holding.knots, [&holding](const solid::KnotHold& knot) {
     py::dict dict;
-    dict["side"] = words(side_word(knot.side));
+    dict["side"] = to_str(side_word(knot.side));
     dict["alpha_rad"] = knot.alpha;
     dict["wrap_left_rad"] = knot.wrap_left;
     dict["tension_N"] = knot.tension;
     dict["at_knot_N"] = knot.at_knot;
-    dict["share"] = maybe(holding.share(knot));
+    dict["share"] = number_or_none(holding.share(knot));
     return dict;
   });
 }
@@ -341,6 +346,7 @@ py::tuple placements_of(const pipeline::RewoundPart& part) {
 }
 
 std::string_view place_word(pipeline::PartPlace place) {
+  // In the order of PartPlace.
   constexpr std::array<std::string_view, 3> k_words = {"as_made", "found", "not_recognised"};
   return k_words.at(static_cast<std::size_t>(place));
 }
@@ -350,7 +356,7 @@ std::string_view place_word(pipeline::PartPlace place) {
 /// The keys that a design changes, ties included: key → value.
 py::dict numbers_of(const optimize::Problem& problem, const optimize::Design& design) {
   py::dict dict;
-  for (const optimize::MovingKey& moving : problem.moving) dict[words(moving.key)] = moving.value(design);
+  for (const optimize::MovingKey& moving : problem.moving) dict[to_str(moving.key)] = moving.value(design);
   return dict;
 }
 
@@ -374,19 +380,19 @@ void add_proof(const pipeline::OptimizeResult& result, py::dict& dict) {
 
 // ---- runs -----------------------------------------------------------------------------------------------------------
 
-py::tuple residuals_of(const py::capsule& kept, const formats::CalibrationProduct& product) {
+py::tuple residuals_of(const py::capsule& owner, const formats::CalibrationProduct& product) {
   const std::vector<measurement::Run>& runs = product.measurement.runs;
   py::list list;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const calibration::Calibration& calibration = product.calibration;
     if (i >= calibration.residuals_before.size() || i >= calibration.residuals_after.size()) break;
-    const Rows<measurement::Sample> rows = rows_of(kept, runs[i].samples);
+    const Rows<measurement::Sample> rows = rows_of(owner, runs[i].samples);
     py::dict dict;
-    dict["name"] = path_words(runs[i].name);
+    dict["name"] = path_to_str(runs[i].name);
     dict["alpha_rad"] = rows(&measurement::Sample::alpha);
     dict["theta_rad"] = rows(&measurement::Sample::theta);
-    dict["before_rad"] = numbers(kept, calibration.residuals_before[i]);
-    dict["after_rad"] = numbers(kept, calibration.residuals_after[i]);
+    dict["before_rad"] = numbers(owner, calibration.residuals_before[i]);
+    dict["after_rad"] = numbers(owner, calibration.residuals_after[i]);
     list.append(dict);
   }
   return py::tuple(list);
@@ -402,29 +408,29 @@ py::tuple without_law_advice(const std::optional<profile::SynthesisResult>& with
 
 py::dict step_of(const plan::PlanStep& step, const std::string& file) {
   py::dict dict;
-  dict["words"] = words(step.words);
+  dict["words"] = to_str(step.words);
   dict["minutes"] = step.minutes;
   dict["by_minutes"] = step.end_minute;
   dict["sees"] = to_python(step.sees);
   dict["tells"] = to_python(step.tells);
-  dict["file"] = words(file);
+  dict["file"] = to_str(file);
   return dict;
 }
 
 }  // namespace
 
-py::str words(std::string_view text) {
+py::str to_str(std::string_view text) {
   return py::reinterpret_steal<py::str>(
       PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "replace"));
 }
 
-py::str path_words(const std::string& path) {
+py::str path_to_str(const std::string& path) {
   return py::reinterpret_steal<py::str>(
       PyUnicode_DecodeFSDefaultAndSize(path.data(), static_cast<py::ssize_t>(path.size())));
 }
 
 py::tuple to_python(const std::vector<std::string>& texts) {
-  return tuple_of(texts, [](const std::string& text) { return words(text); });
+  return tuple_of(texts, [](const std::string& text) { return to_str(text); });
 }
 py::tuple to_python(const std::vector<Diagnostic>& diagnostics) {
   return tuple_of(diagnostics, [](const Diagnostic& diagnostic) { return to_dict(diagnostic); });
@@ -440,16 +446,18 @@ py::tuple to_python(const std::vector<profile::Change>& changes) {
 }
 py::dict to_python(const std::vector<OutputFile>& files) {
   py::dict dict;
-  for (const OutputFile& file : files) dict[words(file.name)] = py::bytes(file.bytes);
+  for (const OutputFile& file : files) dict[to_str(file.name)] = py::bytes(file.bytes);
   return dict;
 }
 
-py::dict to_python(std::shared_ptr<const profile::SynthesisResult> result) { return to_dict(keep(result), *result); }
+py::dict to_python(std::shared_ptr<const profile::SynthesisResult> result) {
+  return to_dict(owner_of(result), *result);
+}
 
 py::dict to_python(std::shared_ptr<const pipeline::RewoundPart> result) {
-  py::dict dict = to_dict(keep(result), result->as_built);
-  dict["place"] = words(place_word(result->place));
-  dict["alone"] = result->alone ? py::object(words(side_word(*result->alone))) : py::none();
+  py::dict dict = to_dict(owner_of(result), result->as_built);
+  dict["place"] = to_str(place_word(result->place));
+  dict["alone"] = result->alone ? py::object(to_str(side_word(*result->alone))) : py::none();
   dict["placements"] = placements_of(*result);
   return dict;
 }
@@ -457,12 +465,12 @@ py::dict to_python(std::shared_ptr<const pipeline::RewoundPart> result) {
 py::dict to_python(std::shared_ptr<const pipeline::BuildResult> result) {
   constexpr std::array<std::string_view, 3> k_status = {"done", "infeasible", "check_failed"};
   const formats::Product& product = result->product;
-  const py::capsule kept = keep(result);
+  const py::capsule owner = owner_of(result);
   py::dict dict;
-  dict["status"] = words(k_status.at(static_cast<std::size_t>(result->status)));
-  dict["synthesis"] = to_dict(kept, product.synthesis);
-  dict["mesh"] = to_dict(kept, product.pulley.mesh);
-  dict["as_built"] = to_dict(kept, product.as_built);
+  dict["status"] = to_str(k_status.at(static_cast<std::size_t>(result->status)));
+  dict["synthesis"] = to_dict(owner, product.synthesis);
+  dict["mesh"] = to_dict(owner, product.pulley.mesh);
+  dict["as_built"] = to_dict(owner, product.as_built);
   dict["under_load"] =
       product.under_load.rows.empty() ? py::object(py::none()) : py::object(to_dict(product.under_load));
   dict["checks"] = to_python(product.checks);
@@ -479,8 +487,8 @@ py::dict to_python(std::shared_ptr<const pipeline::BuildResult> result) {
 }
 
 py::dict to_python(std::shared_ptr<const analysis::AnalysisResult> result) {
-  const py::capsule kept = keep(result);
-  const Rows<analysis::AnalysisRow> rows = rows_of(kept, result->rows);
+  const py::capsule owner = owner_of(result);
+  const Rows<analysis::AnalysisRow> rows = rows_of(owner, result->rows);
   py::dict dict;
   dict["exists"] = result->exists;
   dict["declared"] = to_dict(rows.part(&analysis::AnalysisRow::declared));
@@ -498,11 +506,11 @@ py::dict to_python(std::shared_ptr<const analysis::AnalysisResult> result) {
   dict["slack1_rad"] = to_tuple(result->slack1);
   dict["slack2_rad"] = to_tuple(result->slack2);
   dict["untensioned_rad"] = to_tuple(result->untensioned);
-  dict["taut_pretension_N"] = maybe(result->taut_pretension);
-  dict["lost_at_rad"] = maybe(result->lost_at);
+  dict["taut_pretension_N"] = number_or_none(result->taut_pretension);
+  dict["lost_at_rad"] = number_or_none(result->lost_at);
   dict["strength"] = to_object(result->strength);
-  dict["breaks_at_rad"] = maybe(result->breaks_at);
-  dict["safety_factor"] = maybe(result->safety_factor());
+  dict["breaks_at_rad"] = number_or_none(result->breaks_at);
+  dict["safety_factor"] = number_or_none(result->safety_factor());
   dict["motor"] = to_object(result->motor);
   dict["sources"] = tuple_of(result->sources, [](const analysis::ErrorSource& source) { return to_dict(source); });
   dict["tolerances"] =
@@ -515,19 +523,19 @@ py::dict to_python(std::shared_ptr<const pipeline::OptimizeResult> result) {
   constexpr std::array<std::string_view, 3> k_methods = {"certified", "genetic", "pareto"};
   py::list objectives;
   for (const optimize::Objective objective : result->problem.objectives)
-    objectives.append(py::make_tuple(words(optimize::info(objective).name), words(optimize::info(objective).unit)));
+    objectives.append(py::make_tuple(to_str(optimize::info(objective).name), to_str(optimize::info(objective).unit)));
   py::dict dict;
-  dict["method"] = words(k_methods.at(static_cast<std::size_t>(result->method())));
+  dict["method"] = to_str(k_methods.at(static_cast<std::size_t>(result->method())));
   dict["objectives"] = py::tuple(objectives);
   dict["found"] = result->found;
   dict["stopped"] = result->stopped;
-  dict["reason"] = words(result->reason);
+  dict["reason"] = to_str(result->reason);
   dict["numbers"] = result->found ? numbers_of(result->problem, result->design) : py::dict();
   dict["value"] = result->found ? py::object(py::float_(result->value)) : py::none();
   dict["before"] = result->before.possible ? py::object(py::float_(result->before.value)) : py::none();
   add_proof(*result, dict);
   dict["front"] = front_of(*result);
-  dict["text"] = words(result->new_text);
+  dict["text"] = to_str(result->new_text);
   dict["warnings"] = to_python(result->warnings);
   return dict;
 }
@@ -540,11 +548,11 @@ py::tuple notes_of(const measurement::Measurement& measurement) {
 
 py::dict to_python(std::shared_ptr<const pipeline::CalibrateResult> result) {
   py::dict dict;
-  dict["document"] = words(formats::calibration_json(result->product));
-  dict["residuals"] = residuals_of(keep(result), result->product);
+  dict["document"] = to_str(formats::calibration_json(result->product));
+  dict["residuals"] = residuals_of(owner_of(result), result->product);
   dict["notes"] = notes_of(result->product.measurement);
   dict["warnings"] = to_python(result->product.file.warnings);
-  dict["summary"] = words(result->product.calibration.summary);
+  dict["summary"] = to_str(result->product.calibration.summary);
   dict["files"] = to_python(result->outputs);
   dict["published"] = result->published;
   return dict;
@@ -552,7 +560,7 @@ py::dict to_python(std::shared_ptr<const pipeline::CalibrateResult> result) {
 
 py::dict to_python(std::shared_ptr<const pipeline::CompareResult> result) {
   py::dict dict;
-  dict["document"] = words(formats::comparison_json(result->product));
+  dict["document"] = to_str(formats::comparison_json(result->product));
   dict["notes"] = notes_of(result->product.measurement);
   dict["warnings"] = to_python(result->product.file.warnings);
   dict["files"] = to_python(result->outputs);
@@ -573,7 +581,7 @@ py::dict to_python(std::shared_ptr<const pipeline::PlanResult> result) {
   dict["beyond"] = tuple_of(plan.beyond, [](const plan::PlanStep& step) { return step_of(step, ""); });
   dict["minutes"] = plan.minutes;
   dict["groups"] = tuple_of(plan.groups, [](const std::vector<std::string>& group) { return to_python(group); });
-  dict["document"] = words(result->without_law ? "" : formats::plan_json(result->product));
+  dict["document"] = to_str(result->without_law ? "" : formats::plan_json(result->product));
   dict["warnings"] = to_python(result->product.file.warnings);
   dict["files"] = to_python(result->outputs);
   dict["published"] = result->published;
@@ -587,9 +595,9 @@ py::dict to_python(std::shared_ptr<const pipeline::SimulateResult> result) {
   if (!result->without_law) {
     const auto table =
         std::make_shared<const std::vector<formats::SimulationColumn>>(formats::simulation_columns(simulation));
-    const py::capsule kept = keep(table);
-    for (const formats::SimulationColumn& column : *table) columns[words(column.name)] = numbers(kept, column.values);
-    for (const joint::JointState& state : simulation.states) status.append(words(formats::word(state.status)));
+    const py::capsule owner = owner_of(table);
+    for (const formats::SimulationColumn& column : *table) columns[to_str(column.name)] = numbers(owner, column.values);
+    for (const joint::JointState& state : simulation.states) status.append(to_str(formats::word(state.status)));
   }
   py::dict dict;
   dict["exists"] = !result->without_law;
@@ -599,19 +607,19 @@ py::dict to_python(std::shared_ptr<const pipeline::SimulateResult> result) {
   dict["status"] = py::tuple(status);
   dict["notes"] = notes_of(simulation.log);
   dict["warnings"] = to_python(simulation.file.warnings);
-  dict["csv"] = words(result->without_law ? "" : formats::simulation_csv(simulation));
+  dict["csv"] = to_str(result->without_law ? "" : formats::simulation_csv(simulation));
   return dict;
 }
 
 py::dict to_python(std::shared_ptr<const pipeline::KitResult> result) {
   constexpr std::array<std::string_view, 4> k_status = {"done", "no_pulley", "no_kit", "check_failed"};
   const formats::Product& pulley = result->product.pulley;
-  const std::vector<profile::Condition>& of_pulley =
+  const std::vector<profile::Condition>& pulley_conditions =
       pulley.synthesis.made() ? pulley.pulley.conditions : pulley.synthesis.conditions;
   py::dict dict;
-  dict["status"] = words(k_status.at(static_cast<std::size_t>(result->ending)));
+  dict["status"] = to_str(k_status.at(static_cast<std::size_t>(result->ending)));
   dict["conditions"] =
-      to_python(result->ending == pipeline::KitEnding::no_pulley ? of_pulley : result->product.plan.conditions);
+      to_python(result->ending == pipeline::KitEnding::no_pulley ? pulley_conditions : result->product.plan.conditions);
   dict["advice"] = to_python(result->advice.alone);
   dict["advice_together"] = to_python(result->advice.together);
   dict["checks"] = to_python(result->product.checks);

@@ -17,9 +17,9 @@ namespace fusee::python {
 namespace py = pybind11;
 
 /// Text as str; invalid UTF-8 is replaced.
-py::str words(std::string_view text);
+py::str to_str(std::string_view text);
 /// A path as str, as by os.fsdecode().
-py::str path_words(const std::string& path);
+py::str path_to_str(const std::string& path);
 
 py::tuple to_python(const std::vector<std::string>& texts);
 py::tuple to_python(const std::vector<Diagnostic>& diagnostics);

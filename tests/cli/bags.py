@@ -5,6 +5,9 @@ import struct
 import zlib
 
 JOINT_STATE = "sensor_msgs/msg/JointState"
+MCAP_MAGIC = b"\x89MCAP0\r\n"
+# Types of MCAP records.
+HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END = 1, 2, 3, 4, 5, 6, 15
 
 
 class Cdr:
@@ -59,7 +62,7 @@ def float64(value):
 
 
 def zstd(raw):
-    """A frame of raw blocks (RFC 8878)."""
+    """A frame of raw blocks (RFC 8878): magic number, descriptor (4-byte content size, one segment), size, blocks."""
     blocks = [raw[at : at + 65536] for at in range(0, len(raw), 65536)] or [b""]
     frame = b"\x28\xb5\x2f\xfd" + bytes([0xA0]) + struct.pack("<I", len(raw))
     for i, block in enumerate(blocks):
@@ -76,36 +79,40 @@ def _string(text):
 
 
 def mcap(messages, chunk=None, pack=None, end=True, crc=True):
-    """`chunk`: messages a chunk, none without; `pack`: name and function of a compression."""
-    out = b"\x89MCAP0\r\n" + _record(1, _string("ros2") + _string("test"))
-    topics, types, held = {}, {}, []
+    """`chunk`: messages per chunk, or no chunks; `pack`: name and function of a compression; `end`: False for a recording
+    that was cut off."""
+    out = MCAP_MAGIC + _record(HEADER, _string("ros2") + _string("test"))
+    topics, types, records = {}, {}, []  # numbers by name, and the records of the open chunk
 
     def close():
-        raw = b"".join(held)
+        raw = b"".join(records)
         name, packed = (pack[0], pack[1](raw)) if pack else ("", raw)
-        return _record(6, struct.pack("<QQQI", 0, 0, len(raw), zlib.crc32(raw) if crc else 0) + _string(name) + struct.pack("<Q", len(packed)) + packed)
+        return _record(CHUNK, struct.pack("<QQQI", 0, 0, len(raw), zlib.crc32(raw) if crc else 0) + _string(name) + struct.pack("<Q", len(packed)) + packed)
 
     for number, (topic, kind, time, data) in enumerate(messages):
-        fresh = b""
+        declarations = b""
         if kind not in types:
             types[kind] = len(types) + 1
-            fresh += _record(3, struct.pack("<H", types[kind]) + _string(kind) + _string("ros2msg") + _string(""))
+            declarations += _record(SCHEMA, struct.pack("<H", types[kind]) + _string(kind) + _string("ros2msg") + _string(""))
         if topic not in topics:
             topics[topic] = len(topics)
-            fresh += _record(4, struct.pack("<HH", topics[topic], types[kind]) + _string(topic) + _string("cdr") + struct.pack("<I", 0))
-        record = fresh + _record(5, struct.pack("<HIQQ", topics[topic], number, time, time) + data)
+            declarations += _record(CHANNEL, struct.pack("<HH", topics[topic], types[kind]) + _string(topic) + _string("cdr") + struct.pack("<I", 0))
+        record = declarations + _record(MESSAGE, struct.pack("<HIQQ", topics[topic], number, time, time) + data)
         if not chunk:
             out += record
             continue
-        held.append(record)
-        if len(held) == chunk:
-            out, held = out + close(), []
-    out += close() if held else b""
-    return out + (_record(15, struct.pack("<I", 0)) + _record(2, struct.pack("<QQI", 0, 0, 0)) + b"\x89MCAP0\r\n" if end else b"")
+        records.append(record)
+        if len(records) == chunk:
+            out, records = out + close(), []
+    out += close() if records else b""
+    if not end:
+        return out
+    return out + _record(DATA_END, struct.pack("<I", 0)) + _record(FOOTER, struct.pack("<QQI", 0, 0, 0)) + MCAP_MAGIC
 
 
 def db3(path, messages, pack=None, page=4096, wal=False):
-    """Returns the open connection of a database with a write-ahead log, which is empty on the disk until it is closed."""
+    """Writes a database. With a write-ahead log (`wal`) its file stays empty until the connection, which is returned, is
+    closed."""
     base = sqlite3.connect(path, isolation_level=None)
     base.execute(f"PRAGMA page_size={page}")
     if wal:

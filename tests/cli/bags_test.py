@@ -8,18 +8,18 @@ import bags
 import harness
 
 RATIO = 'schema = 1\nname = "joint"\n[transmission]\nkind = "ratio"\nratio = 4.0\n'
-START, STEP = 1_750_000_000 * 10**9, 20_000_000
+START, STEP = 1_750_000_000 * 10**9, 20_000_000  # ns
 METADATA = "rosbag2_bagfile_information:\n  version: 5\n  relative_file_paths:\n{files}  message_count: 2\n"
 
 
 def rows(seed=1, strokes=8, steps=60, lash=math.radians(4)):
-    """Motor and joint, rad: a joint with play and a little repeatable noise."""
+    """Motor and joint, rad: a joint with play of `lash` at the motor, and a little repeatable noise."""
     pulley, state = -0.7, seed
     for i in range(strokes * steps + 1):
         share = i % (2 * steps) / steps
         alpha = -0.7 + 1.4 * (share if share <= 1 else 2 - share)
         pulley = min(max(pulley, alpha - lash / 2), alpha + lash / 2)
-        state = (1103515245 * state + 12345) % 2**31
+        state = (1103515245 * state + 12345) % 2**31  # the generator of ANSI C
         yield alpha, pulley / 4 + 0.0003 * (state / 2**31 - 0.5)
 
 
@@ -106,7 +106,7 @@ class Bags(harness.Scratch):
         before = {path.name: path.read_bytes() for path in copied.iterdir()}
         self.assertLess(len(before["run.db3"]), 10_000)  # all messages are in the write-ahead log
         self.expect("simulate arm.toml copied/run.db3 -o simulated.csv", 0)
-        self.assertEqual(len((self.folder / "simulated.csv").read_text().splitlines()), 482)
+        self.assertEqual(len((self.folder / "simulated.csv").read_text().splitlines()), 482)  # a header, and 8 strokes of 60 steps
         self.assertEqual({path.name: path.read_bytes() for path in copied.iterdir()}, before)
         copied.chmod(0o555)
         self.expect("simulate arm.toml copied/run.db3 -o again.csv", 0)
@@ -122,7 +122,7 @@ class Bags(harness.Scratch):
         self.expect("simulate arm.toml run.db3 -o simulated.csv", 0, err="the recording is unfinished: its file is cut off")
         self.assertGreater(len((self.folder / "simulated.csv").read_text().splitlines()), 200)
 
-    def test_folder_without_metadata_and_with_a_missing_part(self):
+    def test_folder_with_missing_parts_is_read(self):
         self.put("bag/x_0.mcap")
         self.expect("simulate arm.toml bag/ -o a.csv", 0, err="bag: note: alpha is /motor/states/hinge/position in rad")
         (self.folder / "bag/metadata.yaml").write_text(METADATA.format(files="    - bag/x_0.mcap\n    - x_1.mcap\n"))
@@ -131,7 +131,7 @@ class Bags(harness.Scratch):
         (self.folder / "empty").mkdir()
         self.expect("simulate arm.toml empty -o c.csv", 3, err="is a directory")
 
-    def test_choice_of_topics(self):
+    def test_options_choose_topics(self):
         messages = [
             (topic, kind, i * STEP, data)
             for i, (alpha, theta) in enumerate(rows())

@@ -206,7 +206,7 @@ class Bundles(Packed):
                 self.pack(words, 0)
                 begin = time.monotonic()
                 self.assertIn("the same", self.replay().stdout.decode())
-                self.assertLess(time.monotonic() - begin, 40)  # regression: it waited 60 s for its own lock
+                self.assertLess(time.monotonic() - begin, 40)  # waiting for its own lock would take 60 s
 
     def test_works_without_working_folder(self):
         secret = self.folder / "of-anna"
@@ -259,7 +259,7 @@ class Bundles(Packed):
             done = harness.fusee(["replay", "bug.zip"], self.folder, stdin=read, timeout=20)
             os.close(read)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            self.assertNotIn("1/6", done.stderr.decode())
+            self.assertNotRegex(done.stderr.decode(), r"1/\d")  # no question was asked
 
     @unittest.skipUnless(shutil.which("strace"), "strace is not installed")
     def test_packs_every_opened_file(self):

@@ -40,7 +40,7 @@ def run_csv(lash=0.0, strokes=8, rows=60, seed=1):
         share = i % (2 * rows) / rows
         alpha = -40 + 80 * (share if share <= 1 else 2 - share)
         pulley = min(max(pulley, alpha - lash / 2), alpha + lash / 2)
-        state = (1103515245 * state + 12345) % 2**31
+        state = (1103515245 * state + 12345) % 2**31  # the generator of ANSI C
         lines.append(f"{alpha:.4f},{pulley / 4 + 0.02 * (state / 2**31 - 0.5):.5f}")
     return "\n".join(lines) + "\n"
 
@@ -56,10 +56,10 @@ class Calibrate(harness.Scratch):
         document = self.expect_json("calibrate joint.toml run_1.csv run_2.csv run_3.csv -o out", 0)
         files = self.files("out")
         self.assertEqual(set(files), {"calibration.json", "corrected.toml", "compensation.csv", "report.html", "manifest.json"})
-        left = json.loads(files["calibration.json"])
-        for key, value in left.items():
+        written = json.loads(files["calibration.json"])
+        for key, value in written.items():
             self.assertEqual(document[key], value, key)
-        self.assertIn("backlash", [name for effect in left["effects"] for name in effect["group"]])
+        self.assertIn("backlash", [name for effect in written["effects"] for name in effect["group"]])
         self.assertIn(b"# mine", files["corrected.toml"])
         self.assertNotIn(b"http://", files["report.html"].replace(b"http://www.w3.org", b""))
         rows = list(csv.DictReader(files["compensation.csv"].decode().splitlines()))
@@ -67,7 +67,7 @@ class Calibrate(harness.Scratch):
         for row in rows:
             self.assertTrue(all(math.isfinite(float(value)) for value in row.values()))
         middle = rows[len(rows) // 2]
-        self.assertAlmostEqual(float(middle["alpha_up_deg"]) - float(middle["alpha_down_deg"]), 4.0, delta=0.3)
+        self.assertAlmostEqual(float(middle["alpha_up_deg"]) - float(middle["alpha_down_deg"]), 4.0, delta=0.3)  # the play
 
     def assert_numbers(self, value, where):
         """Rejects null, text, switches and infinite numbers."""
@@ -223,7 +223,7 @@ class Calibrate(harness.Scratch):
         self.assertRegex(self.files("out")["corrected.toml"], rb"ratio = 4\.02")
         self.expect("calibrate out/corrected.toml run_1.csv --dry-run", 0)
 
-    def test_hold_out_and_columns(self):
+    def test_options_choose_runs_and_columns(self):
         document = self.expect_json("calibrate joint.toml run_1.csv run_2.csv --hold-out run_3.csv --dry-run", 0)
         self.assertEqual(document["held_out"]["runs"], ["run_3.csv"])
         (self.folder / "other.csv").write_text(run_csv().replace("alpha_deg", "left"))

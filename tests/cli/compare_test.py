@@ -13,7 +13,7 @@ class Compare(harness.Scratch):
     def setUp(self):
         super().setUp()
         (self.folder / "joint.toml").write_text(RATIO)
-        for folder, lash in (("monday", 2.0), ("tuesday", 2.0), ("friday", 4.0)):
+        for folder, lash in (("monday", 2.0), ("tuesday", 2.0), ("friday", 4.0)):  # play, deg of alpha
             (self.folder / folder).mkdir()
             for i in (1, 2):
                 (self.folder / folder / f"run_{i}.csv").write_text(run_csv(lash=lash, seed=7 * i + len(folder)))

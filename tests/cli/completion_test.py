@@ -82,7 +82,7 @@ class Shells(harness.Scratch):
         return self.run_in("bash", f"source <(fusee completion bash); compopt() {{ :; }}; COMP_WORDS=({quoted}) COMP_CWORD={len(broken) - 1} COMP_LINE='{line}' COMP_POINT={len(line)};"
                            '_fusee fusee; printf "%s\\n" "${COMPREPLY[@]}"')
 
-    def test_bash(self):
+    def test_bash_completes_words(self):
         self.assertEqual(self.in_bash("fusee", "bu"), ["build"])
         self.assertEqual(self.in_bash("fusee", "build", "a"), ["arm.toml"])
         self.assertEqual(self.in_bash("fusee", "build", "n"), [""])
@@ -90,7 +90,7 @@ class Shells(harness.Scratch):
         self.assertEqual(self.in_bash("fusee", "build", "--set", "pulley.r1"), ["pulley.r1_mm="])
 
     @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
-    def test_fish(self):
+    def test_fish_completes_words(self):
         def offered(line):
             return [word.split("\t")[0] for word in self.run_in("fish", f"fusee completion fish | source; complete -C '{line}'")]
         self.assertEqual(offered("fusee bu"), ["build"])
@@ -98,7 +98,7 @@ class Shells(harness.Scratch):
         self.assertEqual(offered("fusee build --set pulley.law=co"), ["pulley.law=compensate"])
 
     @unittest.skipUnless(shutil.which("zsh"), "zsh is not installed")
-    def test_zsh(self):
+    def test_zsh_completes_words(self):
         # zsh's widgets exist only in a terminal, so functions of the same names record their arguments.
         def offered(*words):
             quoted = " ".join(f"'{word}'" for word in words)

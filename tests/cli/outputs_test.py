@@ -136,12 +136,13 @@ class Build(harness.Scratch):
             self.assertAlmostEqual(axis / 25.4, size, 5)
 
     def move(self, source, target, turn=0.0, by=(0.0, 0.0, 0.0), scale=1.0, mirror=1, keep=lambda z: True):
-        """Moves a binary STL as a slicer does."""
+        """Moves a binary STL as a slicer does: mirrored in x (mirror=-1), turned about z (deg), scaled, then shifted (mm).
+        Keeps only facets whose corners all have a z that `keep` accepts."""
         cosine, sine = math.cos(math.radians(turn)), math.sin(math.radians(turn))
         data = (self.folder / source).read_bytes()
         facets = []
-        for at in range(84, len(data), 50):
-            numbers = struct.unpack("<12fH", data[at:at + 50])
+        for at in range(84, len(data), 50):  # after header and count; a facet has 50 bytes
+            numbers = struct.unpack("<12fH", data[at:at + 50])  # normal, three corners, attribute
             if not all(keep(z) for z in numbers[5:12:3]):
                 continue
             corners = []
@@ -155,13 +156,13 @@ class Build(harness.Scratch):
     def test_rewind_finds_moved_part(self):
         self.build("a/long/path/p")
         stl = "a/long/path/p/pulley.stl"
-        right = self.expect_json(f"rewind arm.toml {stl}", 0)
-        self.assertEqual(right["placements"], [])
+        unmoved = self.expect_json(f"rewind arm.toml {stl}", 0)
+        self.assertEqual(unmoved["placements"], [])
         self.move(stl, "moved.stl", turn=90, by=(125, 105, -3))
         done = self.expect("rewind arm.toml moved.stl", 0, r"^moved.stl: theta within .*\n  found from its grooves: its axis at\s+\(125, 105\)\s+mm,\s+turned\s+by\s+90°\s+about\s+it;\s+grooves\s+P1\s+at\s+z\s+= ", "note: the part was moved after the build.*--as-is")
         moved = self.expect_json("rewind arm.toml moved.stl", 0)
         self.assertAlmostEqual(moved["placements"][0]["turned_deg"], 90, 4)
-        self.assertAlmostEqual(moved["as_built"]["max_theta_error_deg"], right["as_built"]["max_theta_error_deg"], 4)
+        self.assertAlmostEqual(moved["as_built"]["max_theta_error_deg"], unmoved["as_built"]["max_theta_error_deg"], 4)
         self.assertNotEqual(self.fusee("rewind arm.toml moved.stl --as-is").returncode, 0)
         below, above = (groove["z_mm"] for groove in harness.json.loads((self.folder / stl).with_name("manifest.json").read_bytes())["grooves"])
         self.move(stl, "upper.stl", turn=30, keep=lambda z: z > (below + above) / 2)
@@ -289,7 +290,7 @@ class LargestFile(harness.Scratch):
 
 
 class DotNames(harness.Scratch):
-    def test_mechanism_file(self):
+    def test_dotted_mechanism_has_own_folder(self):
         for name, folder in {"..toml": "..toml", "...toml": "...toml", "....toml": "...", "arm..toml": "arm.", ".toml": ".toml"}.items():
             (self.folder / name).write_bytes((self.folder / "arm.toml").read_bytes())
             self.expect(["build", name, "-q"], 0)
@@ -297,7 +298,7 @@ class DotNames(harness.Scratch):
         self.assertFalse((self.folder / "manifest.json").exists())
         self.assertFalse((self.folder / "out/manifest.json").exists())
 
-    def test_output_folder(self):
+    def test_dotted_folder_is_written(self):
         for name in ("...", "..x", "x..", ".hidden"):
             self.assertEqual(set(self.build(name)), OUTPUTS | PARTS)
         for name in (".", "..", "x/.."):
@@ -322,22 +323,22 @@ class Streams(harness.Scratch):
         return subprocess.run(["bash", "-c", line], cwd=self.folder, env=harness.ENVIRONMENT, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, timeout=120)
 
-    def test_full(self):
+    def test_full_stdout_is_reported(self):
         done = self.shell("fusee explain > /dev/full")
         self.assertEqual(done.returncode, 6)
         self.assertRegex(done.stderr.decode(), "could not be written to stdout: No space left")
 
-    def test_broken(self):
+    def test_broken_pipe_has_defined_exit(self):
         done = self.shell("fusee explain | true; exit ${PIPESTATUS[0]}")
         self.assertIn(done.returncode, (0, 6))
 
-    def test_closed(self):
+    def test_closed_streams_have_defined_exits(self):
         self.assertEqual(self.shell("fusee explain >&-").returncode, 6)
         self.assertEqual(self.shell("fusee explain 2>&-").returncode, 0)
         self.assertEqual(self.shell("fusee bild 2>&-").returncode, 2)
         self.assertEqual(self.shell("fusee explain <&-").returncode, 0)
 
-    def test_closed_while_building(self):
+    def test_closed_streams_leave_files_intact(self):
         good = self.build("good")
         self.assertEqual(self.shell("fusee build arm.toml -o bad -v <&- >&- 2>&-").returncode, 6)
         self.assertEqual(self.files("bad"), good)
@@ -480,29 +481,30 @@ class Machine(harness.Scratch):
 class Kill(harness.Scratch):
     """When killed at any moment, the earlier files are complete, and the next run cleans up."""
 
-    DELAYS = [0.005, 0.02, 0.05, 0.08, 0.11, 0.15, 0.2, 0.3]
+    DELAYS = [0.005, 0.02, 0.05, 0.08, 0.11, 0.15, 0.2, 0.3]  # s
 
     def start(self, arguments="-o out/arm"):
         line = [harness.PROGRAM, "build", "arm.toml", "--set", "pulley.r1_mm=15", *arguments.split()]
         return subprocess.Popen(line, cwd=self.folder, env=harness.ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
-    def test_killed(self):
+    def test_killed_build_keeps_complete_files(self):
         """FUSEE_KILLS=200 kills more often; tests/base/kill_test.cpp kills before every call that changes a file."""
         later = self.build(arguments="--set pulley.r1_mm=15")
         earlier = self.build()
         started = time.monotonic()
         self.build()
-        whole = time.monotonic() - started
-        drawn = random.Random(4)
-        delays = self.DELAYS + [drawn.uniform(0.5, 1.1) * whole for _ in range(int(os.environ.get("FUSEE_KILLS", "4")))]
+        duration = time.monotonic() - started
+        generator = random.Random(4)
+        # Most changes of files are near the end of a build.
+        delays = self.DELAYS + [generator.uniform(0.5, 1.1) * duration for _ in range(int(os.environ.get("FUSEE_KILLS", "4")))]
         for delay in delays:
             process = self.start()
             time.sleep(delay)
             process.kill()
             process.communicate()
-            left = self.files("out/arm")
-            self.assertIn(left, (earlier, later), delay)
-            if left == later:
+            present = self.files("out/arm")
+            self.assertIn(present, (earlier, later), delay)
+            if present == later:
                 self.build()
         self.assertEqual(self.build(), earlier)
         self.assertEqual([path.name for path in (self.folder / "out").iterdir()], ["arm"])
@@ -523,10 +525,10 @@ class Kill(harness.Scratch):
             if process.returncode == 0:
                 self.build()
 
-    def test_interrupted(self):
+    def test_interrupt_keeps_complete_files(self):
         self.interrupt(signal.SIGINT)
 
-    def test_terminated(self):
+    def test_termination_keeps_complete_files(self):
         self.interrupt(signal.SIGTERM)
 
     def test_late_interrupt_is_ignored(self):
@@ -553,14 +555,14 @@ class Kill(harness.Scratch):
         self.assertIn(b"could not be written to stdout", err)
         self.assertEqual(self.files("out/arm"), later)
 
-    def test_two_at_once(self):
+    def test_two_equal_builds_agree(self):
         runs = [self.start("-o both"), self.start("-o both")]
         for run in runs:
             out, err = run.communicate(timeout=120)
             self.assertEqual(run.returncode, 0, err)
         self.assertEqual(self.files("both"), self.build("alone", "--set pulley.r1_mm=15"))
 
-    def test_two_different_at_once(self):
+    def test_two_different_builds_never_mix(self):
         sets = [self.build(f"r1_{r1}", f"--set pulley.r1_mm={r1}") for r1 in (16, 15)]
         for _ in range(3):
             runs = [subprocess.Popen([harness.PROGRAM, "build", "arm.toml", "-o", "both", "--set", f"pulley.r1_mm={r1}"],

@@ -21,19 +21,19 @@ class Plan(harness.Scratch):
     def test_writes_page_document_and_runs(self):
         document = self.expect_json("plan arm.toml -o bench", 0)
         files = self.files("bench")
-        left = json.loads(files["plan.json"])
-        for key, value in left.items():
+        written = json.loads(files["plan.json"])
+        for key, value in written.items():
             self.assertEqual(document[key], value, key)
-        runs = [step["file"] for step in left["steps"] if step["kind"] == "run"]
+        runs = [step["file"] for step in written["steps"] if step["kind"] == "run"]
         self.assertEqual(set(files), {"plan.json", "plan.html", "manifest.json", *runs})
         self.assertTrue(runs)
-        for step in left["steps"]:
-            self.assertLessEqual(step["by_minute"], 15 + 1e-9)
+        for step in written["steps"]:
+            self.assertLessEqual(step["by_minute"], 15 + 1e-9)  # the default of --minutes
         for name in runs:
             rows = rows_of(files[name].decode())
             self.assertTrue(all(row["theta_deg"] == "" and row["alpha_deg"] for row in rows))
         self.assertNotRegex(files["plan.html"].decode(), r'(src|href)=|http://(?!www\.w3\.org)|https://')
-        self.assertEqual(files["plan.html"].decode().count('class="box"'), len(left["steps"]))
+        self.assertEqual(files["plan.html"].decode().count('class="box"'), len(written["steps"]))
 
     def test_is_reproducible(self):
         self.expect("plan arm.toml -o one", 0)
@@ -102,7 +102,7 @@ class Simulate(harness.Scratch):
         done = self.expect(f"simulate arm.toml {self.sweep()}", 0, "", "^$")
         rows = rows_of(done.stdout.decode())
         self.assertEqual(list(rows[0]), COLUMNS)
-        self.assertEqual(len(rows), 361)
+        self.assertEqual(len(rows), 361)  # 6 strokes of 60 steps
         self.assertTrue(all(row["status"] == "held" and float(row["tension2_N"]) > 0 for row in rows))
         columns = self.expect_json("simulate arm.toml log.csv", 0)["columns"]
         self.assertEqual(list(columns), COLUMNS)
@@ -121,11 +121,11 @@ class Simulate(harness.Scratch):
         self.sweep(load="0")
         def theta(words):
             return self.expect_json(f"simulate arm.toml log.csv {words}", 0)["columns"]["theta_deg"]
-        declared, off = theta(""), theta("--set identified.pulley_scale_percent=-2")
+        declared, faulty = theta(""), theta("--set identified.pulley_scale_percent=-2")
         corrected = theta("--set identified.pulley_scale_percent=-2 --corrected")
         apart = lambda one, other: max(abs(a - b) for a, b in zip(one, other))
-        self.assertGreater(apart(declared, off), 0.1)
-        self.assertLess(apart(declared, corrected), 0.02 * apart(declared, off))
+        self.assertGreater(apart(declared, faulty), 0.1)
+        self.assertLess(apart(declared, corrected), 0.02 * apart(declared, faulty))
 
     def test_marks_loose_rows(self):
         self.sweep(load="0")

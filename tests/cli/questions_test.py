@@ -79,19 +79,19 @@ class Questions(harness.Scratch):
         alpha = self.builds(text, 60)["alpha_deg"]
         self.assertLessEqual(alpha[1] - alpha[0], 180)
 
-    def test_lengths(self):
+    def test_lengths_are_understood(self):
         for typed, length in (("45 mm", "45 mm"), ("4.5 cm", "45 mm"), ("4,5 cm", "45 mm"), ("1.8 in", "1.8 in"), ('1.8"', "1.8 in"),
                               ('1 3/4"', "1.75 in"), ("0.5 m", "500 mm"), ("2 ft 3 in", "27 in")):
             self.assertIn(f"length: {length}", self.understood("a", typed)[0], typed)
 
-    def test_ranges(self):
+    def test_ranges_are_understood(self):
         for typed in ("±30", "+-30", "+/-30", "-30..30", "-30 to 30", "[-30, 30]", "−30° … 30°", "-30 30 deg"):
             self.assertIn("range: -30 to 30 deg", self.understood("a", "45", typed)[0], typed)
         for typed in ("0..80", "0 80", "0-80", "0 to 80", "0,80"):
             self.assertIn("range: 0 to 80 deg", self.understood("a", "45", typed)[0], typed)
         self.assertIn("range: -15.5 to 30.5 deg", self.understood("a", "45", "-15,5 30,5")[0])
 
-    def test_loads(self):
+    def test_loads_are_understood(self):
         for typed, load in (("10 N", "10 N at C"), ("0,5 kg", "4.903 N at C"), ("500 g", "4.903 N at C"), ("2 lbf", "8.896 N at C"),
                             ("0.8 Nm", "800 Nmm about O"), ("5 kg cm", "490.3 Nmm about O"), ("8 lb-in", "903.9 Nmm about O"),
                             ("1 lb ft", "1356 Nmm about O")):
@@ -215,7 +215,7 @@ class Questions(harness.Scratch):
         self.assertIn("min_wall_mm = 1.5", text)
         self.builds(text)
 
-    def test_document(self):
+    def test_document_has_file_and_diameter(self):
         done = self.fusee("new --ask --json", input=answers().encode())
         document = harness.json.loads(done.stdout)
         self.assertEqual((done.returncode, document["ok"]), (0, True))

@@ -15,10 +15,10 @@ from setting import harness
 import fusee
 
 ARM = (harness.SOURCE / "tests/cli/arm.toml").read_text()
-#: Promised: 0.2 s. Beyond that, what a busy machine may take to wake a thread.
+#: Seconds: 0.2 are promised, and a busy machine may take 0.3 more to wake a thread.
 LONGEST = 0.2 + 0.3
 
-#: Works until it is interrupted; says how long after the signal that was. And how long after it the work itself had ended.
+#: Works until it is interrupted. Prints the seconds from the signal to KeyboardInterrupt, and to the end of the work.
 PROGRAM = """
 import os, signal, sys, threading, time
 import fusee
@@ -80,7 +80,7 @@ class Interrupt(unittest.TestCase):
             with self.subTest(name):
                 output = self.run_program(work, 0.3, self.folder / "out")
                 self.assertLess(output["heard"], LONGEST)
-                # The work may continue in the background, but it uses a processor.
+                # The work may continue in the background, but not for long: it uses a processor.
                 self.assertLess(output["ended"], 5)
 
     def test_leaves_complete_folder_or_none(self):
@@ -93,7 +93,7 @@ class Interrupt(unittest.TestCase):
         left = {path.name for path in self.folder.iterdir() if not path.name.startswith("out_")}
         self.assertEqual(left, set())
 
-    def test_ends_script(self):
+    def test_ctrl_c_ends_script(self):
         text = f"import fusee, os, signal, threading\narm = fusee.read({ARM!r})\n" \
                "threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()\nwhile True: fusee.analyze(arm, samples=20000)"
         done = subprocess.run([sys.executable, "-c", text], env=setting.ENVIRONMENT, capture_output=True, text=True, timeout=60)
@@ -126,7 +126,7 @@ class Lock(unittest.TestCase):
                 self.assertLess(min(shares), 0.5)
 
     def longest_pause(self, verb):
-        """Share of the verb's duration in which a parallel thread runs."""
+        """The longest time in which a parallel thread does not run, as a share of the verb's duration."""
         ticks = []
         stop = threading.Event()
 
@@ -144,7 +144,7 @@ class Lock(unittest.TestCase):
         within = [tick for tick in ticks if start < tick < end]
         return max(b - a for a, b in zip([start, *within], [*within, end])) / (end - start)
 
-    def test_detects_kept_lock(self):
+    def test_kept_lock_is_detected(self):
         before = sys.getswitchinterval()
         sys.setswitchinterval(100)  # like a verb that keeps the lock
         try:

@@ -83,20 +83,20 @@ class Sweep(unittest.TestCase):
     def same(self, figures):
         self.assertEqual(repr(figures), repr(self.here))
 
-    def test_in_process(self):
+    def test_sweep_runs_in_process(self):
         self.assertGreater(sum(figure[0] is None for figure in self.here), 200)
         self.assertGreater(len({figure[0] for figure in self.here}), 1)
 
-    def test_on_processes(self):
+    def test_processes_give_same_figures(self):
         self.same(self.sweep.on_futures(self.base, self.designs, 2))
 
-    def test_as_a_script(self):
+    def test_script_reports_designs(self):
         done = subprocess.run([sys.executable, SWEEP, "50", "2"], env=setting.ENVIRONMENT, capture_output=True, text=True, timeout=120)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"^50 designs in .* on 2 workers, \d+ can be made\n")
 
     @unittest.skipUnless(importlib.util.find_spec("distributed"), "Dask is not installed")
-    def test_on_dask(self):
+    def test_dask_gives_same_figures(self):
         environment = {**setting.ENVIRONMENT, "PYTHONPATH": f"{setting.PACKAGE}:{SWEEP.parent}"}
         text = "import fusee, python_sweep as s\nif __name__ == '__main__':\n    print(repr(s.on_dask(fusee.read(fusee.new('forearm')), s.designs(300), 2)))\n"
         with tempfile.TemporaryDirectory() as folder:

@@ -154,7 +154,7 @@ class Values(unittest.TestCase):
             self.assertTrue(repr(value).startswith(type(value).__name__ + "("))
             self.assertNotIn("array(", repr(value))
 
-    def test_pickle(self):
+    def test_pickled_values_are_equal(self):
         for value in self.each():
             for protocol in range(2, 6):
                 back = pickle.loads(pickle.dumps(value, protocol))
@@ -162,7 +162,7 @@ class Values(unittest.TestCase):
                 self.assertEqual(repr(back), repr(value))
                 self.assertTrue(all(not array.flags.writeable for array in arrays_in(back)))
 
-    def test_pickle_arrays_separately(self):
+    def test_arrays_pickle_out_of_band(self):
         buffers = []
         packed = pickle.dumps(self.values["built"], protocol=5, buffer_callback=buffers.append)
         self.assertGreater(len(buffers), 10)
@@ -255,7 +255,7 @@ class Anywhere(unittest.TestCase):
         with ThreadPoolExecutor(3) as pool:
             self.assertTrue(list(pool.map(written, self.arms)) == self.alone)
 
-    def test_processes(self):
+    def test_two_processes_at_once(self):
         with ProcessPoolExecutor(2) as pool:
             self.assertTrue(list(pool.map(written, self.arms)) == self.alone)
 

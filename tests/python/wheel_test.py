@@ -61,7 +61,7 @@ class Installed(unittest.TestCase):
         self.environment["PYTHONPATH"] = str(package)
         self.assertEqual(self.run_all([sys.executable, "-c", USE], cwd=self.folder)[1:], [fusee.__version__, "done"])
 
-    def test_debian_package_path(self):
+    def test_package_uses_debian_path(self):
         self.environment["DESTDIR"] = str(self.folder)
         self.run_all(["cmake", "--install", harness.PROGRAM.parent, "--component", "python", "--prefix", "/usr"])
         self.assertTrue((self.folder / "usr/lib/python3/dist-packages/fusee/__init__.py").exists())

@@ -77,8 +77,8 @@ class Mechanism(abc.Mapping[str, Held]):
         >>> arm.with_({"joint.range_deg[1]": 25})["joint.range_deg"]
         (-30.0, 25.0)
         """
-        every: Dict[str, Any] = {**(changes or {}), **more}
-        pairs = [_setting(self, key, value, every) for key, value in every.items()]
+        all_changes: Dict[str, Any] = {**(changes or {}), **more}
+        pairs = [_setting(self, key, value, all_changes) for key, value in all_changes.items()]
         return _made(self._core.with_(pairs))
 
     def number(self, key: str) -> float:
@@ -110,7 +110,7 @@ class Mechanism(abc.Mapping[str, Held]):
 
     def __hash__(self) -> int:
         if self._hash is None:
-            # Numbers by value: 0 and -0 are equal.
+            # By the values of the keys, as __eq__ compares: 0 and −0 are equal.
             object.__setattr__(self, "_hash", hash(tuple(self.values())))
         assert self._hash is not None
         return self._hash
@@ -139,37 +139,44 @@ def _restored(path: bytes, settings: List[Tuple[bytes, bytes]], files: Dict[byte
     return _made(_core.read(path, settings, files))
 
 
-def _setting(mechanism: Mechanism, key: object, value: object, every: abc.Mapping[str, Any]) -> Tuple[bytes, bytes]:
+def _setting(mechanism: Mechanism, key: object, value: object, all_changes: abc.Mapping[str, Any]) -> Tuple[bytes, bytes]:
+    """A change as a key and its TOML. `all_changes`: those made together, for both ends of a range."""
     if not isinstance(key, str):
         raise input_error("with_", f"a key is a text, not {type(key).__name__}")
     if key.endswith(("[0]", "[1]")) and key[:-3] in mechanism:
-        return _end_of_range(mechanism, key, value, every)
-    return text_bytes(key, key), text_bytes(key, _toml(key, _with_units(mechanism, key, value, every)))
+        return _end_of_range(mechanism, key, value, all_changes)
+    return text_bytes(key, key), text_bytes(key, _toml(key, _with_units(mechanism, key, value, all_changes)))
 
 
-def _with_units(mechanism: Mechanism, key: str, value: object, every: abc.Mapping[str, Any]) -> object:
+def _with_units(mechanism: Mechanism, key: str, value: object, all_changes: abc.Mapping[str, Any]) -> object:
     """Numbers are mm, whatever the file's unit: in a file in inches, lengths get their unit."""
     if mechanism["units"] == "mm":
         return value
     if not isinstance(value, (list, tuple, np.ndarray)):
         return _length(key, value)
-    # Bounds of [optimize] are in the units of its variables.
-    names: Any = every.get("optimize.variables", mechanism["optimize.variables"]) if key.startswith("optimize.") else [key] * len(value)
-    return [_length(str(name), item) for name, item in zip(names, value)] if len(names) == len(value) else value
+    names: Any = [key] * len(value)
+    if key.startswith("optimize."):  # its bounds are in the units of its variables
+        names = all_changes.get("optimize.variables", mechanism["optimize.variables"])
+    if len(names) != len(value):
+        return value  # the reader reports it
+    return [_length(str(name), item) for name, item in zip(names, value)]
 
 
 def _length(key: str, value: object) -> object:
+    """A number with "mm" for a key of a length; any other value unchanged."""
     is_number = isinstance(value, (Real, np.number)) and not isinstance(value, bool)
-    return f"{float(value)!r} mm" if is_number and key.endswith("_mm") and not key.endswith("_per_mm") else value  # type: ignore[arg-type]
+    is_length = key.endswith("_mm") and not key.endswith("_per_mm")
+    return f"{float(value)!r} mm" if is_number and is_length else value  # type: ignore[arg-type]
 
 
-def _end_of_range(mechanism: Mechanism, key: str, value: object, every: abc.Mapping[str, Any]) -> Tuple[bytes, bytes]:
+def _end_of_range(mechanism: Mechanism, key: str, value: object, all_changes: abc.Mapping[str, Any]) -> Tuple[bytes, bytes]:
+    """The whole range of a change such as "joint.range_deg[0]"."""
     name = key[:-3]
     ends = mechanism[name]
     if not isinstance(ends, tuple) or len(ends) != 2:
         raise input_error(key, f"{name} is not a range")
-    both = [every.get(f"{name}[{end}]", ends[end]) for end in (0, 1)]
-    return text_bytes(name, name), text_bytes(key, _toml(key, _with_units(mechanism, name, both, every)))
+    both = [all_changes.get(f"{name}[{end}]", ends[end]) for end in (0, 1)]
+    return text_bytes(name, name), text_bytes(key, _toml(key, _with_units(mechanism, name, both, all_changes)))
 
 
 def _toml(key: str, value: object) -> str:

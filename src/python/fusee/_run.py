@@ -15,24 +15,24 @@ from ._errors import input_error
 T = TypeVar("T")
 PathLike = Union[str, "os.PathLike[str]"]
 
-# Time to wait for a verb that was asked to stop, s. Most have cleaned up by then; the others continue in the
+# Seconds to wait for a verb that was asked to stop. Most have cleaned up by then; the others continue in the
 # background.
-_PATIENCE = 0.1
+_STOP_WAIT_S = 0.1
 
 
 def interruptible(work: abc.Callable[[_core.Stop], T]) -> T:
-    """Runs `work` on a thread, so that Ctrl-C takes effect at once. Only the main thread receives signals; others just
-    run it."""
+    """Runs `work` on a thread, so that Ctrl-C takes effect at once. Only the main thread receives signals: any other
+    thread runs `work` itself."""
     stop = _core.Stop()
     if threading.current_thread() is not threading.main_thread():
         return work(stop)
     done = threading.Event()
-    made: List[T] = []
+    results: List[T] = []
     thrown: List[BaseException] = []
 
     def run() -> None:
         try:
-            made.append(work(stop))
+            results.append(work(stop))
         except BaseException as error:
             thrown.append(error)
         finally:
@@ -44,14 +44,14 @@ def interruptible(work: abc.Callable[[_core.Stop], T]) -> T:
         done.wait()
     except BaseException:
         stop.set()
-        done.wait(_PATIENCE)
+        done.wait(_STOP_WAIT_S)
         raise
     if thrown:
         try:
             raise thrown[0]
         finally:
             thrown.clear()
-    return made[0]
+    return results[0]
 
 
 def number(name: str, value: Any, least: float, most: float, unit: str = "") -> float:

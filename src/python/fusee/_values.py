@@ -27,27 +27,35 @@ def _frozen(array: NDArray[Any]) -> NDArray[Any]:
 
 
 def _same(a: object, b: object) -> bool:
+    """Equality of content: of arrays as one truth value, and of NaN with itself."""
     if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
         if not isinstance(a, np.ndarray) or not isinstance(b, np.ndarray) or a.shape != b.shape:
             return False
         return bool(np.array_equal(a, b, equal_nan=a.dtype.kind == "f"))
-    # NaN marks unknown values and equals itself here.
-    return bool(a == b) or (isinstance(a, float) and isinstance(b, float) and a != a and b != b)
+    both_nan = isinstance(a, float) and isinstance(b, float) and a != a and b != b  # NaN marks unknown values
+    return bool(a == b) or both_nan
 
 
 def _hashed(value: object) -> int:
+    """A hash that is equal for values that are equal by _same()."""
     if isinstance(value, np.ndarray):
+        # + 0 turns −0 into 0, which is equal to it but has other bytes.
         return hash((value.shape, (np.nan_to_num(value) + 0).tobytes()))
     return 0 if isinstance(value, float) and value != value else hash(value)
 
 
 def _shown(value: object) -> str:
+    """The text of a part in repr(): the content, or only its size if it is long."""
     if isinstance(value, np.ndarray):
         return f"<array {'×'.join(str(size) for size in value.shape)}>"
-    if isinstance(value, bytes) or (isinstance(value, str) and len(value) > 60):
-        return f"<{len(value)} {'bytes' if isinstance(value, bytes) else 'characters'}>"
-    if isinstance(value, (tuple, Table)) and len(value) > 3:
-        return f"<{len(value)} of {type(next(iter(value))).__name__}>" if isinstance(value, tuple) else f"<{len(value)} names>"
+    if isinstance(value, bytes):
+        return f"<{len(value)} bytes>"
+    if isinstance(value, str) and len(value) > 60:
+        return f"<{len(value)} characters>"
+    if isinstance(value, tuple) and len(value) > 3:
+        return f"<{len(value)} of {type(value[0]).__name__}>"
+    if isinstance(value, Table) and len(value) > 3:
+        return f"<{len(value)} names>"
     if isinstance(value, Value) and any(isinstance(part, (np.ndarray, Value)) for part in value.__dict__.values()):
         return f"<{type(value).__name__}>"
     return repr(value)
@@ -246,10 +254,10 @@ class Synthesis(Value):
 class Placement(Value):
     """Position of a part that was moved."""
 
-    axis_mm: Tuple[float, float]
-    turned_rad: float
-    turned_over: bool
-    deviation_mm: float
+    axis_mm: Tuple[float, float]  #: x and y of the part's axis in the file
+    turned_rad: float  #: about that axis, counter-clockwise from +z; 0 for a round part
+    turned_over: bool  #: about x, before it was turned
+    deviation_mm: float  #: of the groove floors from the declared ones
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -292,11 +300,11 @@ class Mesh(Value):
 class Knot(Value):
     """The knot of one tendon on its pulley, at its largest tension."""
 
-    side: str
+    side: str  #: "left": tendon 1; "right": tendon 2
     alpha_rad: float
-    wrap_left_rad: float
-    tension_N: float
-    at_knot_N: float
+    wrap_left_rad: float  #: wrap between take-off and tie-off at that α
+    tension_N: float  #: between pulley and pin
+    at_knot_N: float  #: what friction on the pulley leaves of it
     share: Optional[float]  #: of its strength; None if the tendon's strength is unknown
 
 
@@ -399,10 +407,12 @@ class Forces(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LargestTension(Value):
+    """The largest tension of both tendons over the range, and its place."""
+
     tension_N: float
     alpha_rad: float
     tendon: int  #: 1 or 2
-    below_pin: bool
+    below_pin: bool  #: between pulley and pin, else between pin and joint
     rising: bool  #: α growing
 
 
@@ -432,9 +442,11 @@ class ToleranceEffect(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Strength(Value):
-    tension_N: float
+    """Breaking strength of the tendon."""
+
+    tension_N: float  #: of the straight tendon
     at_knot_N: float
-    source: str
+    source: str  #: "tendon.strength_N", or the tendon of the catalogue
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -21,7 +21,7 @@ from ._errors import diagnostics_from, input_error
 from ._mechanism import Mechanism, _made
 from ._run import PathLike, choice, flag, interruptible, number, path_bytes, text_bytes, whole
 
-__all__ = ["Log", "analyze", "build", "calibrate", "check", "kit", "optimize", "plan", "rewind", "simulate", "synthesise"]
+__all__ = ["Log", "analyze", "build", "calibrate", "check", "compare", "kit", "optimize", "plan", "rewind", "simulate", "synthesise"]
 
 #: A log: a CSV file, a recording of ROS 2 (MCAP, SQLite, or a bag's folder), or its columns by name
 #: (``{"alpha_deg": …, "theta_deg": …}``), all of one length.
@@ -97,8 +97,8 @@ def synthesise(mechanism: Mechanism, *, tolerance_mm: float = 0.01, advice: bool
     """
     joint = _core_of(mechanism)
     tolerance = number("tolerance_mm", tolerance_mm, 0.0005, _MOST_TOLERANCE_MM, "mm")
-    places = whole("steps", steps, 2, 100000)
-    return _synthesis(interruptible(lambda stop: _core.synthesise(joint, tolerance, bool(advice), places)))
+    step_count = whole("steps", steps, 2, 100000)
+    return _synthesis(interruptible(lambda stop: _core.synthesise(joint, tolerance, bool(advice), step_count)))
 
 
 def rewind(
@@ -250,15 +250,15 @@ def optimize(
     True
     """
     joint = _core_of(mechanism)
-    way = choice("method", method, ["strongest", "certified", "genetic", "pareto"])
+    search = choice("method", method, ["strongest", "certified", "genetic", "pareto"])
     second = choice("then", then, ["", *_core.objectives()])
     numbers = (
-        4 * math.ceil(whole("population", population, 8, 10000) / 4),
+        4 * math.ceil(whole("population", population, 8, 10000) / 4),  # a multiple of 4 is required
         whole("generations", generations, 1, 100000),
         whole("seed", seed, 0, 4 * 10**9),
         whole("threads", threads, 0, 1024),
     )
-    made = interruptible(lambda stop: _core.optimize(joint, way, second, *numbers, stop))
+    made = interruptible(lambda stop: _core.optimize(joint, search, second, *numbers, stop))
     text = made.pop("text")
     better = _better(mechanism, text, made["numbers"]) if text else None
     made["front"] = tuple(_values.FrontPoint(_values.Table(point["numbers"]), point["values"]) for point in made["front"])
@@ -300,17 +300,17 @@ def _csv(name: str, columns: abc.Mapping[str, ArrayLike]) -> bytes:
 
 
 def _logs(argument: str, logs: abc.Sequence[Log], prefix: str) -> Tuple[List[bytes], Dict[bytes, bytes]]:
-    """File names, and the content of logs that are columns."""
+    """File names of all logs, and the CSV files of those that are columns: name → content."""
     names: List[bytes] = []
-    held: Dict[bytes, bytes] = {}
-    for at, log in enumerate(logs, 1):
+    column_files: Dict[bytes, bytes] = {}
+    for i, log in enumerate(logs, 1):
         if isinstance(log, abc.Mapping):
-            name = f"{prefix}_{at}.csv"
-            held[name.encode()] = _csv(name, log)
+            name = f"{prefix}_{i}.csv"
+            column_files[name.encode()] = _csv(name, log)
             names.append(name.encode())
         else:
             names.append(path_bytes(argument, log))
-    return names, held
+    return names, column_files
 
 
 _ANGLES = ["alpha", "theta"]
@@ -365,49 +365,50 @@ def calibrate(
     'not_testable'
     """
     joint = _core_of(mechanism)
-    fitted, held = _logs("runs", _list("runs", runs), "columns")
-    kept, more = _logs("hold_out", _list("hold_out", hold_out), "held_out")
+    fitted, fitted_files = _logs("runs", _list("runs", runs), "columns")
+    held_out, held_out_files = _logs("hold_out", _list("hold_out", hold_out), "held_out")
     if not fitted:
         raise input_error("runs", "there is no run")
-    if {os.path.normpath(name) for name in fitted} <= {os.path.normpath(name) for name in kept}:
+    if {os.path.normpath(name) for name in fitted} <= {os.path.normpath(name) for name in held_out}:
         raise input_error("hold_out", "every run is held out: no run remains for the fit")
     target = _target(folder, force)
     reading = _reading(columns, units, ticks_per_turn, zero_ticks)
-    made = interruptible(lambda stop: _core.calibrate(joint, fitted, kept, {**held, **more}, reading, target, bool(audit), stop))
+    logs = {**fitted_files, **held_out_files}
+    made = interruptible(lambda stop: _core.calibrate(joint, fitted, held_out, logs, reading, target, bool(audit), stop))
     document = made.pop("document")
     found = json.loads(document)
     made["effects"] = tuple(_effect(effect) for effect in found.get("effects", ()))
     made["verdict"] = found["verdict"]
-    made["noise_floor_deg"] = _known(found.get("noise_floor_deg"))
+    made["noise_floor_deg"] = _or_nan(found.get("noise_floor_deg"))
     made["before"], made["after"] = (_figures(found.get(name) or {}) for name in ("before", "after"))
-    made["unexplained_rms_deg"] = _known(found.get("unexplained_rms_deg"))
+    made["unexplained_rms_deg"] = _or_nan(found.get("unexplained_rms_deg"))
     made["next"] = tuple(_next(measurement) for measurement in found.get("next", ()))
     file = made["files"].get("corrected.toml")
     corrected = None if file is None else _reread(mechanism, file.decode())
     return _values.Calibration(json=document, corrected=corrected, **_with_values(made))
 
 
-def _known(value: Optional[float]) -> float:
+def _or_nan(value: Optional[float]) -> float:
     return math.nan if value is None else float(value)
 
 
 def _figures(found: Row) -> _values.ErrorFigures:
-    return _values.ErrorFigures(*(_known(found.get(name)) for name in ("rms_deg", "max_deg", "held_out_rms_deg")))
+    return _values.ErrorFigures(*(_or_nan(found.get(name)) for name in ("rms_deg", "max_deg", "held_out_rms_deg")))
 
 
 def _interval(ends: abc.Sequence[Optional[float]]) -> Tuple[float, float]:
-    return _known(ends[0]), _known(ends[1])
+    return _or_nan(ends[0]), _or_nan(ends[1])
 
 
 def _next(found: Row) -> _values.NextMeasurement:
     keys = found.get("keys") or ([found["key"]] if "key" in found else [])
-    return _values.NextMeasurement(found["kind"], found["text"], tuple(found["separates"]), _known(found["minutes"]), found.get("file", ""), tuple(keys))
+    return _values.NextMeasurement(found["kind"], found["text"], tuple(found["separates"]), _or_nan(found["minutes"]), found.get("file", ""), tuple(keys))
 
 
 def _effect(found: Row) -> _values.Effect:
-    parameters = {name: _values.Parameter(_known(value["value"]), _interval(value["ci95"]))
+    parameters = {name: _values.Parameter(_or_nan(value["value"]), _interval(value["ci95"]))
                   for name, value in found["parameters"].items()}  # fmt: skip
-    return _values.Effect(found["name"], tuple(found["group"]), found["place"], _values.Table(parameters), _known(found["rms_drop_deg"]))
+    return _values.Effect(found["name"], tuple(found["group"]), found["place"], _values.Table(parameters), _or_nan(found["rms_drop_deg"]))
 
 
 def compare(
@@ -433,27 +434,28 @@ def compare(
     'not_testable'
     """
     joint = _core_of(mechanism)
-    earlier, held = _logs("before", _list("before", before), "before")
-    later, more = _logs("after", _list("after", after), "after")
+    earlier, earlier_files = _logs("before", _list("before", before), "before")
+    later, later_files = _logs("after", _list("after", after), "after")
     for name, runs in (("before", earlier), ("after", later)):
         if not runs:
             raise input_error(name, "there is no run")
     target = _target(folder, force)
     reading = _reading(columns, units, ticks_per_turn, zero_ticks)
-    made = interruptible(lambda stop: _core.compare(joint, earlier, later, {**held, **more}, reading, target, stop))
+    logs = {**earlier_files, **later_files}
+    made = interruptible(lambda stop: _core.compare(joint, earlier, later, logs, reading, target, stop))
     document = made.pop("document")
     found = json.loads(document)
     made["verdict"], made["summary"] = found["verdict"], found["summary"]
     made["changes"] = tuple(_state_change(change) for change in found["changes"])
-    made["difference_rms_deg"], made["unexplained_rms_deg"] = (_known(found["difference"][name]) for name in ("before_rms_deg", "after_rms_deg"))
-    made["noise_floor_deg"] = _known(found["noise_floor_deg"])
+    made["difference_rms_deg"], made["unexplained_rms_deg"] = (_or_nan(found["difference"][name]) for name in ("before_rms_deg", "after_rms_deg"))
+    made["noise_floor_deg"] = _or_nan(found["noise_floor_deg"])
     return _values.Comparison(json=document, **_with_values(made))
 
 
 def _state_change(found: Row) -> _values.StateChange:
-    parameters = {name: _values.ChangedParameter(_known(of["before"]), _known(of["after"]), _known(of["change"]), _interval(of["ci95"]))
-                  for name, of in found["parameters"].items()}  # fmt: skip
-    return _values.StateChange(found["name"], tuple(found["group"]), found["place"], _values.Table(parameters), _known(found["rms_drop_deg"]))
+    parameters = {name: _values.ChangedParameter(_or_nan(row["before"]), _or_nan(row["after"]), _or_nan(row["change"]), _interval(row["ci95"]))
+                  for name, row in found["parameters"].items()}  # fmt: skip
+    return _values.StateChange(found["name"], tuple(found["group"]), found["place"], _values.Table(parameters), _or_nan(found["rms_drop_deg"]))
 
 
 def plan(
@@ -483,9 +485,9 @@ def plan(
     time = number("minutes", minutes, 0, 1e5, "min")
     loads = [number("loads_N", load, -1e6, 1e6, "N") for load in _levels("loads_N", loads_N)]
     speeds = [math.radians(number("speeds_deg_per_s", speed, 1e-3, 1e5)) for speed in _levels("speeds_deg_per_s", speeds_deg_per_s)]
-    span = None if range_deg is None else _span(range_deg)
-    start = whole("seed", seed, 0, _MOST_SEED)
-    made = interruptible(lambda stop: _core.plan(joint, target, noise, time, loads, speeds, span, start, stop))
+    motor_range = None if range_deg is None else _span(range_deg)
+    seed_number = whole("seed", seed, 0, _MOST_SEED)
+    made = interruptible(lambda stop: _core.plan(joint, target, noise, time, loads, speeds, motor_range, seed_number, stop))
     return _values.Plan(json=made.pop("document"), **_with_values(made))
 
 
@@ -526,11 +528,11 @@ def simulate(
     (True, 61, 'held')
     """
     joint = _core_of(mechanism)
-    names, held = _logs("log", [log], "columns")
+    names, column_files = _logs("log", [log], "columns")
     noise = math.radians(number("noise_deg", noise_deg, 0, 45, "deg"))
-    start = whole("seed", seed, 0, _MOST_SEED)
+    seed_number = whole("seed", seed, 0, _MOST_SEED)
     reading = _reading(columns, units, ticks_per_turn, zero_ticks)
-    made = interruptible(lambda stop: _core.simulate(joint, names[0], held, reading, bool(corrected), noise, start))
+    made = interruptible(lambda stop: _core.simulate(joint, names[0], column_files, reading, bool(corrected), noise, seed_number))
     made["columns"] = _values.Table(made["columns"])
     return _values.Simulation(**_with_values(made))
 

@@ -25,21 +25,22 @@ def version():
     return re.search(r"^project\(fusee VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.M)[1]
 
 
-def about(key):
+def project_field(key):
+    """A text of pyproject.toml."""
     return re.search(rf'^{key} = "(.*)"$', (ROOT / "pyproject.toml").read_text(), re.M)[1]
 
 
 def configure(build):
-    """Configures for the Python that runs this; the one of an earlier build may be gone."""
+    """Configures for the Python that runs this: the one of an earlier build may no longer exist."""
     generator = ["-G", "Ninja"] if shutil.which("ninja") and not (build / "CMakeCache.txt").exists() else []
     options = ["-DCMAKE_BUILD_TYPE=Release", "-DFUSEE_TESTS=OFF", "-DFUSEE_PYTHON=REQUIRED", f"-DPython_EXECUTABLE={sys.executable}"]
     subprocess.run(["cmake", "-S", ROOT, "-B", build, *generator, *options], check=True)
 
 
-def compiled(given, targets=("fusee_python",)):
-    """The package's folder in the given build, or in a new one; compiled on return."""
-    build = ROOT / (given or "build/wheel")
-    if not given:
+def compiled_package(build_dir, targets=("fusee_python",)):
+    """Compiles the targets in the build folder, or in a new one. Returns the folder of the package in it."""
+    build = ROOT / (build_dir or "build/wheel")
+    if not build_dir:
         configure(build)
     subprocess.run(["cmake", "--build", build, "--target", *targets], check=True)
     return build / "python/fusee"
@@ -71,19 +72,20 @@ def is_portable(settings):
 
 
 def tag(portable=False):
-    number = f"cp{sys.version_info[0]}{sys.version_info[1]}"
+    """Interpreter, ABI and platform (PEP 425), such as cp311-cp311-linux_x86_64."""
+    python = f"cp{sys.version_info[0]}{sys.version_info[1]}"
     system = sysconfig.get_platform()
     if portable:
         system = system.replace("linux", "manylinux-" + platform.libc_ver()[1])  # PEP 600
-    return f"{number}-{number}-" + re.sub("[-.]", "_", system)
+    return f"{python}-{python}-" + re.sub("[-.]", "_", system)
 
 
 def metadata():
-    return (f"Metadata-Version: 2.1\nName: fusee\nVersion: {version()}\nSummary: {about('description')}\n"
-            f"Requires-Python: {about('requires-python')}\nRequires-Dist: numpy\n")
+    return (f"Metadata-Version: 2.1\nName: fusee\nVersion: {version()}\nSummary: {project_field('description')}\n"
+            f"Requires-Python: {project_field('requires-python')}\nRequires-Dist: numpy\n")
 
 
-def about_wheel(portable):
+def metadata_files(portable):
     """The metadata files of the wheel: name → bytes."""
     info = f"fusee-{version()}.dist-info"
     wheel = f"Wheel-Version: 1.0\nGenerator: fusee_wheel\nRoot-Is-Purelib: false\nTag: {tag(portable)}\n"
@@ -96,26 +98,27 @@ def contents(package, portable):
     if not (package / library).exists():
         raise SystemExit(f"fusee: {package} was compiled for another Python: {library} is missing")
     files = [path for path in sorted(package.iterdir()) if path.suffix in (".py", ".pyi", ".typed")]
-    held = {f"fusee/{path.name}": path.read_bytes() for path in files}
+    members = {f"fusee/{path.name}": path.read_bytes() for path in files}
     if not portable:
-        return {**held, f"fusee/{library}": (package / library).read_bytes(), **step_module(package), **about_wheel(portable)}
+        return {**members, f"fusee/{library}": (package / library).read_bytes(), **step_module(package), **metadata_files(portable)}
     with tempfile.TemporaryDirectory() as folder:
         top = Path(folder) / "fusee"
         portable_tree(package, top)
         tree = {str(path.relative_to(folder)): path.read_bytes() for path in sorted(top.rglob("*")) if path.is_file()}
-    return {**held, **tree, **about_wheel(portable)}
+    return {**members, **tree, **metadata_files(portable)}
 
 
-def record(held, name):
+def record(members, name):
+    """The list of hashes and sizes that every wheel has. `name`: its own, which has neither."""
     def row(path, data):
         return f"{path},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},{len(data)}\n"
 
-    return "".join(row(path, data) for path, data in held.items()) + f"{name},,\n"
+    return "".join(row(path, data) for path, data in members.items()) + f"{name},,\n"
 
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
     """Called before anything is compiled."""
-    for name, data in about_wheel(is_portable(config_settings)).items():
+    for name, data in metadata_files(is_portable(config_settings)).items():
         path = Path(metadata_directory) / name
         path.parent.mkdir(exist_ok=True)
         path.write_bytes(data)
@@ -125,12 +128,12 @@ def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     portable = is_portable(config_settings)
     targets = ("fusee_python", "fusee_cli", "fusee_step", "fusee_evolution_module") if portable else ("fusee_python",)
-    held = contents(compiled((config_settings or {}).get("build-dir"), targets), portable)
+    members = contents(compiled_package((config_settings or {}).get("build-dir"), targets), portable)
     name = f"fusee-{version()}.dist-info/RECORD"
-    held[name] = record(held, name).encode()
+    members[name] = record(members, name).encode()
     wheel = f"fusee-{version()}-{tag(portable)}.whl"
     with zipfile.ZipFile(Path(wheel_directory) / wheel, "w", zipfile.ZIP_DEFLATED) as packed:
-        for path, data in held.items():
+        for path, data in members.items():
             entry = zipfile.ZipInfo(path)  # dated 1980, so that equal input gives equal bytes
             entry.external_attr = (0o755 if path.endswith("bin/fusee") or ".so" in path else 0o644) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED

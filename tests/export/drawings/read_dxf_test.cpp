@@ -216,8 +216,8 @@ TEST(ReadDxf, WrittenPointsComeBack) {
   DxfDocument document;
   document.layers = {{"CUT_OUTER", 1, true}};
   const Polygon outline = {{0.123456789123, -1e-12}, {1e5 + 1.0 / 3, 2}, {7, 1000.0 / 7}};
-  document.closed("CUT_OUTER", outline);
-  document.open("CUT_OUTER", {{-3, -4}, {-5, -6.5}});
+  document.add_closed("CUT_OUTER", outline);
+  document.add_open("CUT_OUTER", {{-3, -4}, {-5, -6.5}});
   for (const DxfVersion version : {DxfVersion::ac1015, DxfVersion::r12}) {
     const Drawing drawing = read(dxf_text(document, version));
     EXPECT_EQ(drawing.version, version == DxfVersion::r12 ? "AC1009" : "AC1015");
