@@ -307,13 +307,14 @@ std::string residuals_section(const CalibrationProduct& product) {
                       map + residual_levels_html(product) + residual_runs_html(product) + run_table(product));
 }
 
-std::string covered_html(const CalibrationProduct& product) {
+std::string empirical_curve_html(const CalibrationProduct& product) {
   const std::string words = curve_words(product);
   if (words.empty()) return "";
   return "<h3>The part that the table corrects</h3><p>" + safe_text(first_upper(words)) + ".</p>" + curve_html(product);
 }
 
-std::string described_html(const std::string& heading, const std::vector<calibration::DiscrepancyComponent>& parts) {
+std::string discrepancy_list_html(const std::string& heading,
+                                  const std::vector<calibration::DiscrepancyComponent>& parts) {
   std::string html = parts.empty() ? "" : "<h3>" + heading + "</h3>";
   for (const calibration::DiscrepancyComponent& part : parts)
     html += "<p>" + safe_text(first_upper(discrepancy_words(part))) + ".</p>" + discrepancy_html(part);
@@ -331,8 +332,8 @@ std::string remainder_section(const CalibrationProduct& product) {
   const std::string correlation = " The correlation of neighbouring rows is " +
                                   readable(calibration.residual_autocorrelation, 2) +
                                   "; that of noise is near 0. Dashed: the noise floor of a single row.";
-  const std::string parts =
-      described_html("Unmodelled, by what it depends on", calibration.discrepancy) + covered_html(product);
+  const std::string parts = discrepancy_list_html("Unmodelled, by what it depends on", calibration.discrepancy) +
+                            empirical_curve_html(product);
   return html_section("unexplained", "Unexplained residual",
                       "<p class=\"lead\">" + safe_text(words + correlation) + "</p>" + plot + parts);
 }
