@@ -200,14 +200,14 @@ std::string shade_path(int shade, const std::string& data) {
          svg_number(std::abs(shade) / static_cast<double>(k_shades)) + "\" d=\"" + data + "\"/>";
 }
 
-/// −k_shades … k_shades; 0: too small to be shown.
-int shade_of(double value, double most) {
-  return std::isfinite(value) && most > 0 ? static_cast<int>(std::lround(value / most * k_shades)) : 0;
+/// −k_shades … k_shades; 0: too small to be shown. `colour_limit`: the residual that has the last shade, deg.
+int shade_of(double value, double colour_limit) {
+  return std::isfinite(value) && colour_limit > 0 ? static_cast<int>(std::lround(value / colour_limit * k_shades)) : 0;
 }
 
 /// Keeps the end of a long name, where names of runs differ.
-std::string short_name(const std::string& name, std::size_t most) {
-  return name.size() <= most || most < 4 ? name : "…" + name.substr(name.size() - most + 1);
+std::string short_name(const std::string& name, std::size_t max_length) {
+  return name.size() <= max_length || max_length < 4 ? name : "…" + name.substr(name.size() - max_length + 1);
 }
 
 std::string map_label(const measurement::Run& run, const std::string& load_unit) {
@@ -217,15 +217,15 @@ std::string map_label(const measurement::Run& run, const std::string& load_unit)
 }
 
 /// The shades from cold to warm, and three numbers under them.
-std::string map_scale(double left, double top, double width, double most) {
+std::string map_scale(double left, double top, double width, double colour_limit) {
   std::string svg;
   const double cell = width / (2 * k_shades + 1);
   for (int shade = -k_shades; shade <= k_shades; ++shade) {
     svg += shade_path(shade, shade == 0 ? "" : rectangle(left + cell * (shade + k_shades), top, cell, 8));
   }
-  svg += svg_words("soft tiny", {left, top + 22}, readable_rounded(-most, 2) + "°") +
+  svg += svg_words("soft tiny", {left, top + 22}, readable_rounded(-colour_limit, 2) + "°") +
          svg_words("soft tiny middle", {left + 0.5 * width, top + 22}, "0");
-  return svg + svg_words("soft tiny end", {left + width, top + 22}, "+" + readable_rounded(most, 2) + "°");
+  return svg + svg_words("soft tiny end", {left + width, top + 22}, "+" + readable_rounded(colour_limit, 2) + "°");
 }
 
 /// Labels stand to the left of their rows, or above them in a narrow column.
@@ -235,8 +235,8 @@ struct MapLayout {
   double above = 0;  ///< height of a label above its rows
 };
 
-Figure draw_map(const CalibrationProduct& product, const ResidualMap& map, const std::string& title, double most,
-                const Extent& alpha, const MapLayout& layout) {
+Figure draw_map(const CalibrationProduct& product, const ResidualMap& map, const std::string& title,
+                double colour_limit, const Extent& alpha, const MapLayout& layout) {
   constexpr double top = 30;
   const auto [width, left, above] = layout;
   const double cell = (width - left - k_right_margin) / k_bins;
@@ -256,7 +256,7 @@ Figure draw_map(const CalibrationProduct& product, const ResidualMap& map, const
       const double row = y + static_cast<double>(d) * k_row_height;
       figure.body += svg_words("soft tiny end", {left - 6, row + 9}, d == 0 ? "↑" : "↓");
       for (std::size_t k = 0; k < k_bins; ++k) {
-        const int shade = shade_of(map.rows[r][d][k], most);
+        const int shade = shade_of(map.rows[r][d][k], colour_limit);
         // A hair wider than the cell, so that no line shows between two.
         if (shade != 0)
           data[static_cast<std::size_t>(shade + k_shades)] +=
@@ -275,15 +275,15 @@ Figure draw_map(const CalibrationProduct& product, const ResidualMap& map, const
   figure.body += svg_words("soft tiny", {left, y + 12}, readable(alpha.low, 0) + "°") +
                  svg_words("tiny middle", {middle, y + 12}, "motor angle α");
   figure.body += svg_words("soft tiny end", {width - k_right_margin, y + 12}, readable(alpha.high, 0) + "°");
-  figure.body += map_scale(left, y + 24, width - k_right_margin - left, most);
+  figure.body += map_scale(left, y + 24, width - k_right_margin - left, colour_limit);
   figure.height = y + 52;
   return figure;
 }
 
-Figure map_figure(const CalibrationProduct& product, const ResidualMap& map, const std::string& title, double most,
-                  const Extent& alpha) {
-  Figure figure = draw_map(product, map, title, most, alpha, {});
-  figure.narrow.push_back(draw_map(product, map, title, most, alpha, {280, 22, 17}));
+Figure map_figure(const CalibrationProduct& product, const ResidualMap& map, const std::string& title,
+                  double colour_limit, const Extent& alpha) {
+  Figure figure = draw_map(product, map, title, colour_limit, alpha, {});
+  figure.narrow.push_back(draw_map(product, map, title, colour_limit, alpha, {280, 22, 17}));
   return figure;
 }
 
@@ -401,13 +401,13 @@ std::string residual_map_html(const CalibrationProduct& product) {
   if (!alpha.has_width() || runs_with_residuals(product) == 0) return "";
   const ResidualMap before = map_of(product, product.calibration.residuals_before, alpha);
   const ResidualMap after = map_of(product, product.calibration.residuals_after, alpha);
-  const double most = std::max({largest(before), largest(after), 1e-3});
+  const double colour_limit = std::max({largest(before), largest(after), 1e-3});
   return "<p class=\"lead\">Every run at a glance: mean of measured less model at each place of α, with α growing (↑) "
          "and falling (↓). Differences between loads indicate stretch or friction, between ↑ and ↓ lost motion, "
          "between columns geometry.</p><div "
          "class=\"plots\">" +
-         in_div(map_figure(product, before, "Before", most, alpha)) +
-         in_div(map_figure(product, after, "After, same colours", most, alpha)) + "</div>";
+         in_div(map_figure(product, before, "Before", colour_limit, alpha)) +
+         in_div(map_figure(product, after, "After, same colours", colour_limit, alpha)) + "</div>";
 }
 
 std::string residual_levels_html(const CalibrationProduct& product) {

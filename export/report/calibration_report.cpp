@@ -348,8 +348,8 @@ bool is_equally_likely(const calibration::Calibration& calibration, const std::s
       });
 }
 
-std::string evidence_row(const calibration::Candidate& candidate, double most, bool equally_likely) {
-  const double width = most > 0 ? std::clamp(100 * candidate.evidence / most, 0.0, 100.0) : 0;
+std::string evidence_row(const calibration::Candidate& candidate, double largest_evidence, bool equally_likely) {
+  const double width = largest_evidence > 0 ? std::clamp(100 * candidate.evidence / largest_evidence, 0.0, 100.0) : 0;
   return std::string("<tr") +
          (candidate.accepted ? " class=\"taken\""
           : equally_likely   ? " class=\"alike\""
@@ -370,12 +370,14 @@ std::string evidence_section(const calibration::Calibration& calibration) {
   std::stable_sort(all.begin(), all.end(), [](const calibration::Candidate& a, const calibration::Candidate& b) {
     return a.accepted != b.accepted ? a.accepted : a.evidence > b.evidence;
   });
-  double most = 0;
+  double largest_evidence = 0;
   for (const calibration::Candidate& candidate : all)
-    most = std::isfinite(candidate.evidence) ? std::max(most, candidate.evidence) : most;
+    largest_evidence =
+        std::isfinite(candidate.evidence) ? std::max(largest_evidence, candidate.evidence) : largest_evidence;
   std::string rows;
   for (const calibration::Candidate& candidate : all)
-    rows += evidence_row(candidate, most, !candidate.accepted && is_equally_likely(calibration, candidate.name));
+    rows += evidence_row(candidate, largest_evidence,
+                         !candidate.accepted && is_equally_likely(calibration, candidate.name));
   if (rows.empty()) return "";
   return html_section(
       "evidence", "Evidence",

@@ -256,7 +256,7 @@ std::string residuals_section(const ComparisonProduct& product) {
 
 }  // namespace
 
-double least_seen(const calibration::Comparison& comparison) {
+double certainly_detected(const calibration::Comparison& comparison) {
   double most = 0;
   for (const calibration::Detectable& one : comparison.changes.detectable) most = std::max(most, one.smallest);
   return most;
@@ -270,9 +270,10 @@ std::string comparison_words(const ComparisonProduct& product) {
       return comparison.why;
     case calibration::ComparisonVerdict::no_change:
       return "Nothing changed that these runs could show" +
-             (least_seen(comparison) > 0 ? "; a change of more than " + rounded(degrees(least_seen(comparison)), 2) +
-                                               "° at the joint would have been seen."
-                                         : std::string("."));
+             (certainly_detected(comparison) > 0
+                  ? "; a change of more than " + rounded(degrees(certainly_detected(comparison)), 2) +
+                        "° at the joint would have been seen."
+                  : std::string("."));
     case calibration::ComparisonVerdict::changed:
       return changed_words(product);
   }

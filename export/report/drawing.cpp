@@ -439,10 +439,10 @@ double radius_towards(const profile::Outline& outline, double angle) {
 /// A magnification 1, 2, 5, 10 … that makes `difference` visible beside a radius of `r`.
 double magnification(double difference, double r) {
   constexpr double k_visible_share = 0.22;  // largest drawn difference per radius
-  const double most = k_visible_share * r / difference;
-  double factor = elementary::pow(10.0, std::floor(elementary::log10(most)));
+  const double largest_factor = k_visible_share * r / difference;
+  double factor = elementary::pow(10.0, std::floor(elementary::log10(largest_factor)));
   for (const double step : {5.0, 2.0}) {
-    if (step * factor <= most) return std::max(1.0, step * factor);
+    if (step * factor <= largest_factor) return std::max(1.0, step * factor);
   }
   return std::max(1.0, factor);
 }

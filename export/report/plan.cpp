@@ -11,6 +11,7 @@
 #include "fusee/base.h"
 #include "fusee/export.h"
 #include "fusee/measurement.h"
+#include "mechanism/effect.h"
 #include "transmission/load.h"
 
 namespace fusee::formats {

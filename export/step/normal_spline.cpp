@@ -146,10 +146,10 @@ class SectorFit {
       }
       errors.push_back(width > k_shortest_span ? worst : 0.0);
     }
-    const double most = k_share_of_worst * *std::max_element(errors.begin(), errors.end());
+    const double threshold = k_share_of_worst * *std::max_element(errors.begin(), errors.end());
     std::vector<std::size_t> coarse;
     for (std::size_t i = 0; i < errors.size(); ++i) {
-      if (errors[i] > std::max(1.0, most)) coarse.push_back(i);
+      if (errors[i] > std::max(1.0, threshold)) coarse.push_back(i);
     }
     return coarse;
   }
@@ -287,10 +287,10 @@ std::optional<std::pair<SupportCurve::Sample, SupportCurve::Sample>> SupportCurv
   const double psi = profile::turned_into(from.psi - 0.5 * k_pi,
                                           elementary::atan2(between.y(), between.x()) - elementary::acos(along));
   if (psi - from.psi < 2 * half || to.psi - psi < 2 * half) return std::nullopt;
-  const auto on = [](const Vec2& centre, double radius, double at) {
+  const auto on_circle = [](const Vec2& centre, double radius, double at) {
     return Sample{at, centre + radius * unit(at), radius};
   };
-  return std::pair(on(c0, from.radius, psi - half), on(c1, to.radius, psi + half));
+  return std::pair(on_circle(c0, from.radius, psi - half), on_circle(c1, to.radius, psi + half));
 }
 
 StepSpline NormalSpline::parallel(double distance) const {

@@ -239,9 +239,9 @@ class SkinBuilder {
     for (std::size_t g = 0; g < 2; ++g) {
       GrooveExtent& extent = extents_[g];
       const HelicalGroove& groove = grooves_[g];
-      const double most = k_furthest_end - k_shortest_run;
-      extent.follow_last = std::min(groove.filled_to(), groove.end() + most);
-      extent.follow_first = std::max(groove.filled_from(), groove.begin() - most);
+      const double longest = k_furthest_end - k_shortest_run;
+      extent.follow_last = std::min(groove.filled_to(), groove.end() + longest);
+      extent.follow_first = std::max(groove.filled_from(), groove.begin() - longest);
       extent.groove_edges_last = groove_edges_end(groove.end(), extent.follow_last, 1.0);
       extent.groove_edges_first = groove_edges_end(groove.begin(), extent.follow_first, -1.0);
     }
@@ -325,15 +325,15 @@ class SkinBuilder {
 
   /// Points of the strands below and above the groove edges beyond their groove's end. `back`: beyond the last end,
   /// otherwise before the first.
-  std::pair<Vec3, Vec3> around(std::size_t g, double turn, bool back) const {
+  std::pair<Vec3, Vec3> neighbours(std::size_t g, double turn, bool back) const {
     if (back) return {ring_at(extents_[g].ring_below, turn), groove_edge_at(g, turn - k_two_pi, true)};
     return {groove_edge_at(g, turn + k_two_pi, false), ring_at(extents_[g].ring_above, turn)};
   }
 
   /// The relative height between the two at which a groove edge ends.
-  double share_of(std::size_t g, bool low, bool back) const {
+  double height_share(std::size_t g, bool low, bool back) const {
     const double turn = back ? extents_[g].follow_last : extents_[g].follow_first;
-    const auto [below, above] = around(g, turn, back);
+    const auto [below, above] = neighbours(g, turn, back);
     return (groove_edge_at(g, turn, low).z() - below.z()) / (above.z() - below.z());
   }
 
@@ -344,8 +344,8 @@ class SkinBuilder {
     const double from = back ? extents_[g].follow_last : extents_[g].follow_first;
     const double to = back ? extents_[g].groove_edges_last : extents_[g].groove_edges_first;
     const double transition = smooth_step((turn - from) / (to - from));
-    const auto [below, above] = around(g, turn, back);
-    const double share = share_of(g, low, back);
+    const auto [below, above] = neighbours(g, turn, back);
+    const double share = height_share(g, low, back);
     return (1.0 - transition) * groove_edge_at(g, turn, low, groove.bulge(turn, low)) +
            transition * ((1.0 - share) * below + share * above);
   }
@@ -517,7 +517,7 @@ class SkinBuilder {
     const Place above = back ? Place{low_groove_edge(g), end - count()} : place(extents_[g].ring_above, end);
     const Vec3 from = skin_.corners[corner_of_.at(below)], to = skin_.corners[corner_of_.at(above)];
     for (const bool low : {true, false}) {
-      const double share = share_of(g, low, back);
+      const double share = height_share(g, low, back);
       const Place groove_edge{low ? low_groove_edge(g) : high_groove_edge(g), end};
       skin_.corners[corner_of_.at(groove_edge)] = (1.0 - share) * from + share * to;
     }
@@ -527,7 +527,7 @@ class SkinBuilder {
 
   /// A strand's pieces from one place to another as one curve. Their tangents are equal at the joins, so the pole there
   /// lies between its neighbours and is removed.
-  StepSkin::Curve joined(const Place& from, int pieces, double outward, double dz, bool is_edge) const {
+  StepSkin::Curve joined_curve(const Place& from, int pieces, double outward, double dz, bool is_edge) const {
     StepSkin::Curve curve;
     double shift = 0;
     for (int k = 0; k < pieces; ++k) {
@@ -554,11 +554,11 @@ class SkinBuilder {
     }
     return curve;
   }
-  StepSkin::Curve joined(const Place& from, int pieces) const {
+  StepSkin::Curve joined_curve(const Place& from, int pieces) const {
     const Strand& strand = strands_[from.strand];
-    if (strand.groove < 0) return joined(from, pieces, 0, 0, true);
+    if (strand.groove < 0) return joined_curve(from, pieces, 0, 0, true);
     const SectionCorner& corner = corners_[strand.number];
-    return joined(from, pieces, corner.outward, corner.dz, true);
+    return joined_curve(from, pieces, corner.outward, corner.dz, true);
   }
   void set_end(Vec3& pole, const Place& here) const {
     const auto corner = corner_of_.find(here);
@@ -570,7 +570,8 @@ class SkinBuilder {
     int pieces = 0;
   };
 
-  /// Edges along a run of a strand, between corners; `param`: of its beginning on the face.
+  /// Edges along a run of a strand, between corners. On the face they begin at the parameter `param` and have the
+  /// parameter `v`: 0 on the lower side, 1 on the upper one.
   std::vector<StepSkin::Use> edges_along(const Run& run, double param, double v) {
     std::vector<StepSkin::Use> uses;
     double at = param;
@@ -586,7 +587,7 @@ class SkinBuilder {
       auto [known, is_new] = edge_from_.emplace(from, skin_.edges.size());
       if (is_new) {
         const Place to = place(from.strand, from.at + pieces);
-        skin_.edges.push_back({corner_of_.at(from), corner_of_.at(to), joined(from, pieces)});
+        skin_.edges.push_back({corner_of_.at(from), corner_of_.at(to), joined_curve(from, pieces)});
       }
       uses.push_back({known->second, false, Vec2(at, v), Vec2(at + width, v)});
       at += width;
@@ -676,13 +677,13 @@ class SkinBuilder {
       patch.knots = std::move(curve.knots);
       patch.rows.push_back(std::move(curve.poles));
     };
-    add_row(joined(first.low, pieces));
+    add_row(joined_curve(first.low, pieces));
     if (is_arc(first)) {
       const SectionCorner& corner = corners_[strands_[first.low.strand].number];
-      add_row(joined(first.low, pieces, corner.arc_outward, corner.arc_dz, false));
+      add_row(joined_curve(first.low, pieces, corner.arc_outward, corner.arc_dz, false));
       patch.weight = corner.weight;
     }
-    add_row(joined(first.high, pieces));
+    add_row(joined_curve(first.high, pieces));
     const double from = patch.knots.front(), to = patch.knots.back();
     std::vector<StepSkin::Use> loop;
     append(loop, edges_along({first.low, pieces}, from, 0), false);

@@ -279,49 +279,49 @@ StepPart helical_part(const Product& product) {
 
 // ---- scaling to the printed size ------------------------------------------------------------------------------------
 
-void scale(StepContour& contour, double by) {
-  contour.start *= by;
+void scale(StepContour& contour, double factor) {
+  contour.start *= factor;
   for (StepContour::Piece& piece : contour.pieces) {
-    piece.to *= by;
-    if (piece.via) *piece.via *= by;
+    piece.to *= factor;
+    if (piece.via) *piece.via *= factor;
   }
 }
 
-void scale(StepPrism& prism, double by) {
-  prism.origin *= by;
-  prism.low *= by;
-  prism.high *= by;
-  scale(prism.outer, by);
-  for (StepContour& loop : prism.inner) scale(loop, by);
-  if (prism.ceiling) prism.ceiling->point *= by;
+void scale(StepPrism& prism, double factor) {
+  prism.origin *= factor;
+  prism.low *= factor;
+  prism.high *= factor;
+  scale(prism.outer, factor);
+  for (StepContour& loop : prism.inner) scale(loop, factor);
+  if (prism.ceiling) prism.ceiling->point *= factor;
 }
 
-void scale(StepFrustum& frustum, double by) {
-  frustum.low_centre *= by;
-  frustum.high_centre *= by;
-  for (double* value : {&frustum.low, &frustum.high, &frustum.low_radius, &frustum.high_radius}) *value *= by;
+void scale(StepFrustum& frustum, double factor) {
+  frustum.low_centre *= factor;
+  frustum.high_centre *= factor;
+  for (double* value : {&frustum.low, &frustum.high, &frustum.low_radius, &frustum.high_radius}) *value *= factor;
 }
 
-void scale(StepTurned& turned_section, double by) {
-  turned_section.centre *= by;
-  for (Vec2& corner : turned_section.section) corner *= by;
+void scale(StepTurned& turned_section, double factor) {
+  turned_section.centre *= factor;
+  for (Vec2& corner : turned_section.section) corner *= factor;
 }
 
-void scale(StepChannel& channel, double by) {
+void scale(StepChannel& channel, double factor) {
   for (StepRing& ring : channel.rings) {
-    ring.middle *= by;
-    ring.radius *= by;
-    ring.ridge *= by;
+    ring.middle *= factor;
+    ring.radius *= factor;
+    ring.ridge *= factor;
   }
 }
 
-void scale(solid::TriangleMesh& mesh, double by) {
-  for (Vec3& vertex : mesh.vertices) vertex *= by;
+void scale(solid::TriangleMesh& mesh, double factor) {
+  for (Vec3& vertex : mesh.vertices) vertex *= factor;
 }
 
-std::vector<StepTool> scaled(std::vector<StepTool> tools, double by) {
+std::vector<StepTool> scaled(std::vector<StepTool> tools, double factor) {
   for (StepTool& tool : tools) {
-    for (StepSolid& solid : tool.common) std::visit([by](auto& shape) { scale(shape, by); }, solid);
+    for (StepSolid& solid : tool.common) std::visit([factor](auto& shape) { scale(shape, factor); }, solid);
   }
   return tools;
 }
@@ -331,11 +331,11 @@ std::vector<StepTool> scaled(std::vector<StepTool> tools, double by) {
 StepPart step_part(const Product& product) {
   StepPart part = product.helix ? helical_part(product) : StepBuilder(product).build();
   const Mechanism& mechanism = product.joint.mechanism;
-  const double by = product.pulley.layout.scale;
-  part.cuts = scaled(step_cuts(mechanism, product.pulley), by);
-  part.raised = scaled(step_raised(mechanism, product.pulley), by);
+  const double factor = product.pulley.layout.scale;
+  part.cuts = scaled(step_cuts(mechanism, product.pulley), factor);
+  part.raised = scaled(step_raised(mechanism, product.pulley), factor);
   if (!product.helix) return part;
-  for (StepTool& tool : scaled(run_out_cuts(product), by)) part.cuts.push_back(std::move(tool));
+  for (StepTool& tool : scaled(run_out_cuts(product), factor)) part.cuts.push_back(std::move(tool));
   return part;
 }
 
