@@ -350,7 +350,7 @@ TEST_F(Build, StoppedBuildLeavesNothing) {
   }
 }
 
-TEST_F(Build, InfeasibleDesignIsValue) {
+TEST_F(Build, InfeasibleDesignIsReturnedNotThrown) {
   file_.mechanism.pulley.r1 = 60;
   const pipeline::BuildResult no_curves = pipeline::build(file_, options_);
   EXPECT_EQ(no_curves.status, pipeline::BuildStatus::infeasible);

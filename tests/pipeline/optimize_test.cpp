@@ -134,7 +134,7 @@ class Front : public Optimize {
   }
 };
 
-TEST_F(Front, HasValueAndFiles) {
+TEST_F(Front, FilesMatchItsPoints) {
   const pipeline::OptimizeResult result = front();
   const auto& points = std::get<optimize::ParetoResult>(result.search).front;
   ASSERT_GT(points.size(), 1u);
