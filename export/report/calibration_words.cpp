@@ -162,7 +162,7 @@ std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(
 namespace {
 
 /// "0 … 10 N", or "5 N".
-std::string range_words(const std::vector<double>& values, const std::string& unit) {
+std::string from_to_words(const std::vector<double>& values, const std::string& unit) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const std::string from = rounded(*least, 2), to = rounded(*most, 2);
   return (from == to ? from : from + " … " + to) + unit;
@@ -178,9 +178,9 @@ std::string measured_range_words(const CalibrationProduct& product) {
     }
     if (run.has_time && run.speed > 0) speeds.push_back(degrees(run.speed));
   }
-  std::string words = "alpha " + range_words({degrees(curve.alpha.front()), degrees(curve.alpha.back())}, "°");
-  if (!loads.empty()) words += ", load " + range_words(loads, " " + product.measurement.load_unit);
-  if (!speeds.empty()) words += ", speed " + range_words(speeds, " °/s");
+  std::string words = "alpha " + from_to_words({degrees(curve.alpha.front()), degrees(curve.alpha.back())}, "°");
+  if (!loads.empty()) words += ", load " + from_to_words(loads, " " + product.measurement.load_unit);
+  if (!speeds.empty()) words += ", speed " + from_to_words(speeds, " °/s");
   return words;
 }
 
