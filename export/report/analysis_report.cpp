@@ -70,11 +70,11 @@ std::vector<Figure> figures(const analysis::AnalysisResult& result, const Mechan
   torque.series = {{"α growing", Ink::main, over_rows(result, [](const auto& r) { return r.rising.motor_torque; })},
                    {"α falling", Ink::p2, over_rows(result, [](const auto& r) { return r.falling.motor_torque; })}};
   Plot error{"Joint angle minus the target motion", alpha, axis_of("Δθ", "°", 1e-3), {}, {}, {}};
-  const auto off = [](const joint::EquilibriumPoint& point, const analysis::AnalysisRow& row) {
+  const auto theta_error = [](const joint::EquilibriumPoint& point, const analysis::AnalysisRow& row) {
     return degrees(point.theta - row.declared.theta);
   };
-  error.series = {{"α growing", Ink::main, over_rows(result, [&](const auto& r) { return off(r.rising, r); })},
-                  {"α falling", Ink::p2, over_rows(result, [&](const auto& r) { return off(r.falling, r); })}};
+  error.series = {{"α growing", Ink::main, over_rows(result, [&](const auto& r) { return theta_error(r.rising, r); })},
+                  {"α falling", Ink::p2, over_rows(result, [&](const auto& r) { return theta_error(r.falling, r); })}};
   Plot stiffness{"Stiffness about the joint, pulley held", alpha, axis_of("stiffness", "N·mm/°", 0.1), {}, {}, {}};
   const auto per_degree = [](double per_radian) { return per_radian * radians(1); };
   stiffness.series = {
@@ -92,17 +92,17 @@ std::string plots(const analysis::AnalysisResult& result, const Mechanism& mecha
 
 /// The figures two by two below the mechanism's name.
 Figure picture_of(const MechanismFile& file, const analysis::AnalysisResult& result) {
-  constexpr double k_head = 34, k_gap = 24;
+  constexpr double k_heading_height = 34, k_spacing = 24;
   const std::string& name = file.mechanism.name;
-  Figure all{0, k_head, name + ": analysis", svg_words("heading", {2, 20}, name), {}};
-  double left = 0, top = k_head, lowest = k_head;
+  Figure all{0, k_heading_height, name + ": analysis", svg_words("heading", {2, 20}, name), {}};
+  double left = 0, top = k_heading_height, lowest = k_heading_height;
   for (const Figure& figure : figures(result, file.mechanism)) {
     all.body += "<g transform=\"translate(" + svg_number(left) + " " + svg_number(top) + ")\">" + figure.body + "</g>";
     all.width = std::max(all.width, left + figure.width);
     lowest = std::max(lowest, top + figure.height);
-    const bool goes_on = left == 0;
-    left = goes_on ? figure.width + k_gap : 0;
-    if (!goes_on) top = lowest + k_gap;
+    const bool is_left_column = left == 0;
+    left = is_left_column ? figure.width + k_spacing : 0;
+    if (!is_left_column) top = lowest + k_spacing;
   }
   all.height = lowest;
   return all;

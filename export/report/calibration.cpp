@@ -1,4 +1,5 @@
-// calibration.json and manifest.json of a calibration.
+// calibration.json and manifest.json of a calibration. Keys of schema 1 keep their first names, also where the code has
+// others now: "worlds" are simulated joints, "slips" are likely input errors.
 
 #include <cmath>
 #include <filesystem>
@@ -40,7 +41,7 @@ Json effect_json(const calibration::FoundEffect& effect) {
                {"evidence", result_json(effect.evidence)},
                {"audit", audit_json(effect.audit)},
                {"correctable_by", fusee::word(effect.correctable_by)}};
-  // Only a group that may be unmodelled has this key.
+  // The key exists only if the cause may be unmodelled.
   if (effect.group.back() == calibration::k_unmodelled) {
     json["unmodelled"] = {{"behind", result_json(effect.unmodelled.log_odds)}, {"words", unmodelled_words(effect)}};
   }
@@ -52,14 +53,14 @@ Json effect_json(const calibration::FoundEffect& effect) {
 }
 
 /// Components of the discrepancy.
-Json discrepancy_json(const std::vector<calibration::DiscrepancyComponent>& parts) {
+Json discrepancy_json(const std::vector<calibration::DiscrepancyComponent>& components) {
   Json list = Json::array();
-  for (const calibration::DiscrepancyComponent& part : parts) {
-    Json json = {{"factor", part.factor},
-                 {"rms_deg", angle_json(part.rms)},
-                 {"evidence", result_json(part.evidence)},
-                 {"words", part.words}};
-    if (part.order > 0) json["order"] = result_json(part.order);
+  for (const calibration::DiscrepancyComponent& component : components) {
+    Json json = {{"factor", component.factor},
+                 {"rms_deg", angle_json(component.rms)},
+                 {"evidence", result_json(component.evidence)},
+                 {"words", component.words}};
+    if (component.order > 0) json["order"] = result_json(component.order);
     list.push_back(json);
   }
   return list;
@@ -67,12 +68,12 @@ Json discrepancy_json(const std::vector<calibration::DiscrepancyComponent>& part
 
 Json angles_json(const std::vector<double>& angles) {
   Json list = Json::array();
-  for (const double one : angles) list.push_back(angle_json(one));
+  for (const double angle : angles) list.push_back(angle_json(angle));
   return list;
 }
 
 /// Null if the effects explain the data.
-Json covered_json(const CalibrationProduct& product) {
+Json empirical_curve_json(const CalibrationProduct& product) {
   const calibration::EmpiricalCurve& curve = product.calibration.curve;
   if (!curve.used && curve.why.empty()) return {};
   Json json = {{"used", curve.used}, {"words", curve_words(product)}};
@@ -129,7 +130,7 @@ Json effects_json(const calibration::Calibration& calibration) {
   return list;
 }
 
-/// A list where two keys have a number each.
+/// A single number, or a list if the input error concerns several keys.
 Json numbers_json(const std::vector<double>& values) {
   if (values.size() == 1) return result_json(values.front());
   Json list = Json::array();
@@ -216,7 +217,7 @@ std::string calibration_json(const CalibrationProduct& product) {
   json["unexplained_where"] = calibration.unexplained_where;
   json["unknown"] = discrepancy_json(calibration.discrepancy);
   json["instead"] = Json::array();  // always empty; readers of the schema expect the key
-  json["covered"] = covered_json(product);
+  json["covered"] = empirical_curve_json(product);
   json["slips"] = input_errors_json(product.input_errors);
   json["detectable"] = detectable_json(calibration);
   json["next"] = next_json(product);

@@ -21,17 +21,22 @@ std::string angle_words(double angle) { return readable_rounded(std::abs(degrees
 
 // ---- the problem ----------------------------------------------------------------------------------------------------
 
-/// Linear regression of the error on one predictor, over all rows.
-struct Pattern {
-  double sum = 0, sum_error = 0, squares = 0, products = 0, most = 0;
+/// Linear regression of the error on one predictor, over all rows. `rows`: their number.
+struct Regression {
+  double sum = 0;        ///< of the predictor
+  double sum_error = 0;  ///< of the error
+  double squares = 0;    ///< sum of the predictor's squares
+  double products = 0;   ///< sum of predictor times error
+  double largest = 0;    ///< largest magnitude of the predictor
 
   void add(double value, double error) {
     sum += value;
     sum_error += error;
     squares += value * value;
     products += value * error;
-    most = std::max(most, std::abs(value));
+    largest = std::max(largest, std::abs(value));
   }
+  /// Sum of squared deviations of the predictor from its mean.
   double spread(double rows) const { return squares - sum * sum / rows; }
   double slope(double rows) const {
     const double spread = this->spread(rows);
@@ -41,14 +46,17 @@ struct Pattern {
   double explained(double rows) const { return slope(rows) * slope(rows) * std::max(0.0, spread(rows)); }
 };
 
-/// Regressions of the error on the joint's angle, the direction and the load, and the sums over all rows.
-struct Patterns {
-  Pattern angle, direction, load;
-  double rows = 0, error = 0, squares = 0;
+/// Regressions of the error on the joint's angle, the direction and the load.
+struct ErrorRegressions {
+  Regression angle, direction, load;
+  double rows = 0;     ///< number of rows
+  double error = 0;    ///< sum of the error over the rows, rad
+  double squares = 0;  ///< sum of the error's squares, rad²
 };
 
-Patterns patterns_of(const measurement::Measurement& measurement, const std::vector<std::vector<double>>& residuals) {
-  Patterns all;
+ErrorRegressions error_regressions(const measurement::Measurement& measurement,
+                                   const std::vector<std::vector<double>>& residuals) {
+  ErrorRegressions all;
   for (std::size_t r = 0; r < std::min(measurement.runs.size(), residuals.size()); ++r) {
     const measurement::Run& run = measurement.runs[r];
     for (const measurement::Stroke& stroke : run.strokes) {
@@ -58,7 +66,8 @@ Patterns patterns_of(const measurement::Measurement& measurement, const std::vec
         all.rows += 1;
         all.error += error;
         all.squares += error * error;
-        all.angle.add(run.samples[i].theta - error, error);
+        const double predicted = run.samples[i].theta - error;
+        all.angle.add(predicted, error);
         all.direction.add(stroke.direction, error);
         all.load.add(run.has_load ? run.samples[i].load : 0.0, error);
       }
@@ -67,28 +76,28 @@ Patterns patterns_of(const measurement::Measurement& measurement, const std::vec
   return all;
 }
 
-/// The pattern that explains more than half of the squared error, or else the largest error.
+/// The mean, or the regression, that explains more than half of the squared error. If none does: the largest error.
 std::string problem_words(const CalibrationProduct& product) {
   const calibration::Calibration& calibration = product.calibration;
-  const Patterns all = patterns_of(product.measurement, calibration.residuals_before);
-  const double size = calibration.before.rms;
+  const ErrorRegressions all = error_regressions(product.measurement, calibration.residuals_before);
   if (!(all.rows > 0) || calibration.verdict == calibration::CalibrationVerdict::no_effect)
-    return "The joint does what its file declares, within " + angle_words(size) + " rms.";
+    return "The joint does what its file declares, within " + angle_words(calibration.before.rms) + " rms.";
   const double mean = all.error / all.rows;
   const double slope = all.angle.slope(all.rows);
-  const std::array<std::pair<double, std::string>, 4> known = {{
+  // Explained sum of squares, and the sentence.
+  const std::array<std::pair<double, std::string>, 4> explanations = {{
       {all.rows * mean * mean, "The joint reads " + angle_words(mean) + (mean > 0 ? " high" : " low") + " everywhere"},
       {all.angle.explained(all.rows),
        "The joint turns " + readable_rounded(std::abs(100 * slope), 2) + " % too " + (slope < 0 ? "little" : "far")},
       {all.direction.explained(all.rows),
        "The joint angle differs by " + angle_words(2 * all.direction.slope(all.rows)) + " between the two directions"},
       {all.load.explained(all.rows),
-       "The joint moves by " + angle_words(all.load.slope(all.rows) * all.load.most) + " under its largest load"},
+       "The joint moves by " + angle_words(all.load.slope(all.rows) * all.load.largest) + " under its largest load"},
   }};
-  const auto most = std::max_element(known.begin(), known.end(),
+  const auto best = std::max_element(explanations.begin(), explanations.end(),
                                      [](const auto& one, const auto& other) { return one.first < other.first; });
-  const bool is_clear = most->first > 0.5 * all.squares;
-  return (is_clear ? most->second : "The joint is wrong by up to " + angle_words(calibration.before.max)) + ": " +
+  const bool is_clear = best->first > 0.5 * all.squares;
+  return (is_clear ? best->second : "The joint is wrong by up to " + angle_words(calibration.before.max)) + ": " +
          angle_words(calibration.before.held_out_rms) + " rms, " + angle_words(calibration.after.held_out_rms) +
          (calibration.curve.used ? " with the identified causes and an empirical curve."
                                  : " with the identified causes.");
@@ -107,7 +116,8 @@ struct CandidateWords {
   std::vector<std::string> numbers;
 };
 
-/// "both pulleys are too small" and "scale −1.2 %". If the sign has no words, the cause is the effect's name.
+/// "both pulleys are too small" and "scale −1.2 %". The cause is the effect's name if the number's sign has
+/// no meaning in words.
 CandidateWords candidate_words(const std::string& name, const std::vector<calibration::FittedParameter>& numbers,
                                const std::string& load_unit) {
   if (numbers.empty()) return {open_words(name), {}};
@@ -124,10 +134,10 @@ std::vector<CandidateWords> other_candidates(const calibration::FoundEffect& eff
   std::vector<CandidateWords> others;
   for (const std::string& member : rivals_of(effect)) {
     if (member == calibration::k_unmodelled) continue;
-    const auto own = std::find_if(effect.alternatives.begin(), effect.alternatives.end(),
-                                  [&](const calibration::GroupMember& other) { return other.name == member; });
-    others.push_back(own == effect.alternatives.end() ? CandidateWords{open_words(member), {}}
-                                                      : candidate_words(member, own->parameters, load_unit));
+    const auto fitted = std::find_if(effect.alternatives.begin(), effect.alternatives.end(),
+                                     [&](const calibration::GroupMember& other) { return other.name == member; });
+    others.push_back(fitted == effect.alternatives.end() ? CandidateWords{open_words(member), {}}
+                                                         : candidate_words(member, fitted->parameters, load_unit));
   }
   return others;
 }
@@ -178,7 +188,7 @@ std::string cause_words(const CalibrationProduct& product) {
 
 // ---- the action -----------------------------------------------------------------------------------------------------
 
-/// The instruction up to the first colon. The remainder is shown below.
+/// The instruction up to its first colon. The page shows all of it in the section "What to do".
 std::string first_clause(const std::string& sentence) {
   return first_upper(sentence.substr(0, sentence.find(": "))) + ".";
 }
@@ -205,8 +215,8 @@ std::string action_words(const CalibrationProduct& product) {
   const calibration::Calibration& calibration = product.calibration;
   if (!product.input_errors.empty()) return "Check the file first: see below.";
   if (calibration.verdict == calibration::CalibrationVerdict::no_effect) return "Nothing to do.";
-  const bool is_sure = calibration.verdict == calibration::CalibrationVerdict::explained;
-  if (!is_sure && !calibration.next.empty()) return first_clause(calibration.next.front().words);
+  const bool is_explained = calibration.verdict == calibration::CalibrationVerdict::explained;
+  if (!is_explained && !calibration.next.empty()) return first_clause(calibration.next.front().words);
   if (!calibration.effects.empty()) {
     const std::string repair = repair_words(largest_effect(calibration.effects), product.measurement.load_unit);
     if (!repair.empty()) return repair;
@@ -257,11 +267,11 @@ std::vector<CauseRow> cause_rows(const CalibrationProduct& product) {
     rows[first].corrected_by =
         effect.correctable_by == CorrectableBy::nothing ? "–" : fusee::word(effect.correctable_by);
     for (const std::string& member : rivals_of(effect)) {
-      const auto own = std::find_if(effect.alternatives.begin(), effect.alternatives.end(),
-                                    [&](const calibration::GroupMember& other) { return other.name == member; });
+      const auto fitted = std::find_if(effect.alternatives.begin(), effect.alternatives.end(),
+                                       [&](const calibration::GroupMember& other) { return other.name == member; });
       const std::vector<calibration::FittedParameter> none;
       add_rows("or " + (member == calibration::k_unmodelled ? "an unmodelled cause" : open_words(member)),
-               own == effect.alternatives.end() ? none : own->parameters, load_unit, rows);
+               fitted == effect.alternatives.end() ? none : fitted->parameters, load_unit, rows);
     }
   }
   return rows;

@@ -14,7 +14,7 @@
 namespace fusee::formats {
 namespace {
 
-constexpr int k_places = 48;                // bins of the range of α
+constexpr int k_bins = 48;                  // bins of the range of α
 constexpr std::size_t k_most_points = 240;  // points of a plot, for each direction
 constexpr std::size_t k_most_runs = 40;     // runs with plots of their own
 constexpr std::size_t k_few_runs = 6;       // up to this number, plots are wide
@@ -30,19 +30,19 @@ struct Extent {
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  bool any() const { return high > low; }
+  bool has_width() const { return high > low; }
 };
 
 // ---- runs in one direction ------------------------------------------------------------------------------------------
 
-/// Calls visit(sample index) for the whole strokes of a run in one direction, and then between() after each stroke.
+/// Calls visit(sample index) for the whole strokes of a run in one direction, and after_stroke() at the end of each.
 void for_each_sample(
     const measurement::Run& run, int direction, const std::function<void(std::size_t)>& visit,
-    const std::function<void()>& between = [] {}) {
+    const std::function<void()>& after_stroke = [] {}) {
   for (const measurement::Stroke& stroke : run.strokes) {
     if (stroke.direction != direction || stroke.partial) continue;
     for (std::size_t i = stroke.first; i <= stroke.last && i < run.samples.size(); ++i) visit(i);
-    between();
+    after_stroke();
   }
 }
 
@@ -68,7 +68,7 @@ Extent alpha_extent(const measurement::Measurement& measurement) {
 }
 
 /// Mean over the samples in each bin of α, deg. NaN before the first and after the last bin with samples.
-using Profile = std::array<double, k_places>;
+using Profile = std::array<double, k_bins>;
 
 class ProfileSum {
  public:
@@ -77,8 +77,8 @@ class ProfileSum {
   void add(const measurement::Run& run, const std::vector<double>& residuals, int direction) {
     for_each_sample(run, direction, [&](std::size_t i) {
       if (!std::isfinite(residuals[i])) return;
-      const double place = (degrees(run.samples[i].alpha) - alpha_.low) / (alpha_.high - alpha_.low) * k_places;
-      const auto k = static_cast<std::size_t>(std::clamp(place, 0.0, k_places - 1.0));
+      const double bin = (degrees(run.samples[i].alpha) - alpha_.low) / (alpha_.high - alpha_.low) * k_bins;
+      const auto k = static_cast<std::size_t>(std::clamp(bin, 0.0, k_bins - 1.0));
       sums_[k] += degrees(residuals[i]);
       counts_[k] += 1;
     });
@@ -88,11 +88,11 @@ class ProfileSum {
   Profile mean() const {
     Profile profile;
     profile.fill(k_gap);
-    std::size_t last = k_places;
-    for (std::size_t k = 0; k < k_places; ++k) {
+    std::size_t last = k_bins;
+    for (std::size_t k = 0; k < k_bins; ++k) {
       if (counts_[k] == 0) continue;
       profile[k] = sums_[k] / counts_[k];
-      for (std::size_t between = last + 1; last < k_places && between < k; ++between) {
+      for (std::size_t between = last + 1; last < k_bins && between < k; ++between) {
         profile[between] = profile[last] + (profile[k] - profile[last]) * static_cast<double>(between - last) /
                                                static_cast<double>(k - last);
       }
@@ -113,14 +113,14 @@ Profile profile_of(const measurement::Run& run, const std::vector<double>& resid
   return sum.mean();
 }
 
-double middle_of_place(const Extent& alpha, std::size_t k) {
-  return alpha.low + (alpha.high - alpha.low) * (static_cast<double>(k) + 0.5) / k_places;
+double bin_middle(const Extent& alpha, std::size_t k) {
+  return alpha.low + (alpha.high - alpha.low) * (static_cast<double>(k) + 0.5) / k_bins;
 }
 
 PlotSeries profile_series(const Profile& profile, int direction, const Extent& alpha) {
   PlotSeries series{direction > 0 ? "α growing" : "α falling", direction > 0 ? Ink::p1 : Ink::p2, {}};
-  for (std::size_t k = 0; k < k_places; ++k) {
-    if (std::isfinite(profile[k])) series.points.emplace_back(middle_of_place(alpha, k), profile[k]);
+  for (std::size_t k = 0; k < k_bins; ++k) {
+    if (std::isfinite(profile[k])) series.points.emplace_back(bin_middle(alpha, k), profile[k]);
   }
   return series;
 }
@@ -138,7 +138,9 @@ PlotSeries stroke_series(const measurement::Run& run, int direction, const std::
   return series;
 }
 
-std::string single(const Plot& plot) { return "<div class=\"single\">" + inline_svg(plot_figure(plot)) + "</div>\n"; }
+std::string single_figure_html(const Plot& plot) {
+  return "<div class=\"single\">" + inline_svg(plot_figure(plot)) + "</div>\n";
+}
 
 /// Range of all residuals, zero included: the same axis for every plot of the page.
 Extent residual_extent(const CalibrationProduct& product) {
@@ -159,6 +161,7 @@ Extent residual_extent(const CalibrationProduct& product) {
 constexpr int k_shades = 8;
 constexpr double k_row_height = 11;
 constexpr double k_run_gap = 3;
+constexpr double k_right_margin = 16;
 
 /// The mean residuals of all runs, before or after: two rows per run.
 struct ResidualMap {
@@ -197,14 +200,14 @@ std::string shade_path(int shade, const std::string& data) {
          svg_number(std::abs(shade) / static_cast<double>(k_shades)) + "\" d=\"" + data + "\"/>";
 }
 
-/// −k_shades … k_shades; 0: too small to be shown.
-int shade_of(double value, double most) {
-  return std::isfinite(value) && most > 0 ? static_cast<int>(std::lround(value / most * k_shades)) : 0;
+/// −k_shades … k_shades; 0: too small to be shown. `colour_limit`: the residual that has the last shade, deg.
+int shade_of(double value, double colour_limit) {
+  return std::isfinite(value) && colour_limit > 0 ? static_cast<int>(std::lround(value / colour_limit * k_shades)) : 0;
 }
 
 /// Keeps the end of a long name, where names of runs differ.
-std::string short_name(const std::string& name, std::size_t most) {
-  return name.size() <= most || most < 4 ? name : "…" + name.substr(name.size() - most + 1);
+std::string short_name(const std::string& name, std::size_t max_length) {
+  return name.size() <= max_length || max_length < 4 ? name : "…" + name.substr(name.size() - max_length + 1);
 }
 
 std::string map_label(const measurement::Run& run, const std::string& load_unit) {
@@ -214,15 +217,15 @@ std::string map_label(const measurement::Run& run, const std::string& load_unit)
 }
 
 /// The shades from cold to warm, and three numbers under them.
-std::string map_scale(double left, double top, double width, double most) {
+std::string map_scale(double left, double top, double width, double colour_limit) {
   std::string svg;
   const double cell = width / (2 * k_shades + 1);
   for (int shade = -k_shades; shade <= k_shades; ++shade) {
     svg += shade_path(shade, shade == 0 ? "" : rectangle(left + cell * (shade + k_shades), top, cell, 8));
   }
-  svg += svg_words("soft tiny", {left, top + 22}, readable_rounded(-most, 2) + "°") +
+  svg += svg_words("soft tiny", {left, top + 22}, readable_rounded(-colour_limit, 2) + "°") +
          svg_words("soft tiny middle", {left + 0.5 * width, top + 22}, "0");
-  return svg + svg_words("soft tiny end", {left + width, top + 22}, "+" + readable_rounded(most, 2) + "°");
+  return svg + svg_words("soft tiny end", {left + width, top + 22}, "+" + readable_rounded(colour_limit, 2) + "°");
 }
 
 /// Labels stand to the left of their rows, or above them in a narrow column.
@@ -232,11 +235,11 @@ struct MapLayout {
   double above = 0;  ///< height of a label above its rows
 };
 
-Figure draw_map(const CalibrationProduct& product, const ResidualMap& map, const std::string& title, double most,
-                const Extent& alpha, const MapLayout& layout) {
+Figure draw_map(const CalibrationProduct& product, const ResidualMap& map, const std::string& title,
+                double colour_limit, const Extent& alpha, const MapLayout& layout) {
   constexpr double top = 30;
   const auto [width, left, above] = layout;
-  const double cell = (width - left - 16) / k_places;
+  const double cell = (width - left - k_right_margin) / k_bins;
   std::array<std::string, 2 * k_shades + 1> data;
   Figure figure{width, 0, title, svg_words("heading", {2, 17}, title), {}};
   double y = top;
@@ -246,14 +249,14 @@ Figure draw_map(const CalibrationProduct& product, const ResidualMap& map, const
                              above > 0 ? Vec2(left, y - 4) : Vec2(left - 22, y + k_row_height + 4),
                              map_label(product.measurement.runs[r], product.measurement.load_unit));
     if (above > 0) {
-      const double right = width - 16, end = y + 2 * k_row_height;
+      const double right = width - k_right_margin, end = y + 2 * k_row_height;
       figure.body += svg_path("frame", {{left, y}, {right, y}, {right, end}, {left, end}}, true);
     }
     for (std::size_t d = 0; d < 2; ++d) {
       const double row = y + static_cast<double>(d) * k_row_height;
       figure.body += svg_words("soft tiny end", {left - 6, row + 9}, d == 0 ? "↑" : "↓");
-      for (std::size_t k = 0; k < k_places; ++k) {
-        const int shade = shade_of(map.rows[r][d][k], most);
+      for (std::size_t k = 0; k < k_bins; ++k) {
+        const int shade = shade_of(map.rows[r][d][k], colour_limit);
         // A hair wider than the cell, so that no line shows between two.
         if (shade != 0)
           data[static_cast<std::size_t>(shade + k_shades)] +=
@@ -264,84 +267,89 @@ Figure draw_map(const CalibrationProduct& product, const ResidualMap& map, const
   for (int shade = -k_shades; shade <= k_shades; ++shade)
     figure.body += shade_path(shade, data[static_cast<std::size_t>(shade + k_shades)]);
   if (above == 0)
-    figure.body +=
-        svg_path("frame", {{left, top}, {width - 16, top}, {width - 16, y - k_run_gap}, {left, y - k_run_gap}}, true);
-  const double middle = left + 0.5 * (width - 16 - left);
+    figure.body += svg_path(
+        "frame",
+        {{left, top}, {width - k_right_margin, top}, {width - k_right_margin, y - k_run_gap}, {left, y - k_run_gap}},
+        true);
+  const double middle = left + 0.5 * (width - k_right_margin - left);
   figure.body += svg_words("soft tiny", {left, y + 12}, readable(alpha.low, 0) + "°") +
                  svg_words("tiny middle", {middle, y + 12}, "motor angle α");
-  figure.body += svg_words("soft tiny end", {width - 16, y + 12}, readable(alpha.high, 0) + "°");
-  figure.body += map_scale(left, y + 24, width - 16 - left, most);
+  figure.body += svg_words("soft tiny end", {width - k_right_margin, y + 12}, readable(alpha.high, 0) + "°");
+  figure.body += map_scale(left, y + 24, width - k_right_margin - left, colour_limit);
   figure.height = y + 52;
   return figure;
 }
 
-Figure map_figure(const CalibrationProduct& product, const ResidualMap& map, const std::string& title, double most,
-                  const Extent& alpha) {
-  Figure figure = draw_map(product, map, title, most, alpha, {});
-  figure.narrow.push_back(draw_map(product, map, title, most, alpha, {280, 22, 17}));
+Figure map_figure(const CalibrationProduct& product, const ResidualMap& map, const std::string& title,
+                  double colour_limit, const Extent& alpha) {
+  Figure figure = draw_map(product, map, title, colour_limit, alpha, {});
+  figure.narrow.push_back(draw_map(product, map, title, colour_limit, alpha, {280, 22, 17}));
   return figure;
 }
 
 // ---- load and speed -------------------------------------------------------------------------------------------------
 
+enum class Factor { load, speed };
+
 /// A dot of the plot: the mean of a run in one direction.
 struct MeanResidual {
-  double at = 0;
+  double level = 0;     ///< mean load in the log's unit, or motor speed in deg/s
   double residual = 0;  ///< deg
   int direction = 1;
 };
 
-std::optional<MeanResidual> level_of(const measurement::Run& run, const std::vector<double>& residuals, int direction,
-                                     bool by_load) {
-  double at = 0, sum = 0, count = 0;
+std::optional<MeanResidual> mean_residual(const measurement::Run& run, const std::vector<double>& residuals,
+                                          int direction, Factor factor) {
+  double level = 0, sum = 0, count = 0;
   for_each_sample(run, direction, [&](std::size_t i) {
     if (!std::isfinite(residuals[i])) return;
-    at += by_load ? run.samples[i].load : degrees(run.speed);
+    level += factor == Factor::load ? run.samples[i].load : degrees(run.speed);
     sum += degrees(residuals[i]);
     count += 1;
   });
-  if (count == 0 || !std::isfinite(at)) return std::nullopt;
-  return MeanResidual{at / count, sum / count, direction};
+  if (count == 0 || !std::isfinite(level)) return std::nullopt;
+  return MeanResidual{level / count, sum / count, direction};
 }
 
-std::vector<MeanResidual> levels_of(const CalibrationProduct& product, const Residuals& residuals, bool by_load) {
-  std::vector<MeanResidual> levels;
+std::vector<MeanResidual> mean_residuals(const CalibrationProduct& product, const Residuals& residuals, Factor factor) {
+  std::vector<MeanResidual> means;
   for (std::size_t r = 0; r < runs_with_residuals(product); ++r) {
     const measurement::Run& run = product.measurement.runs[r];
-    if (by_load ? !run.has_load : !run.has_time) continue;
+    if (factor == Factor::load ? !run.has_load : !run.has_time) continue;
     for (const int direction : {1, -1}) {
-      if (const auto level = level_of(run, residuals[r], direction, by_load)) levels.push_back(*level);
+      if (const auto mean = mean_residual(run, residuals[r], direction, factor)) means.push_back(*mean);
     }
   }
-  return levels;
+  return means;
 }
 
-Plot level_plot(const std::vector<MeanResidual>& levels, const std::string& title, const PlotAxis& x,
+Plot level_plot(const std::vector<MeanResidual>& means, const std::string& title, const PlotAxis& x,
                 const Extent& residual) {
   Plot plot{title, x, {"mean residual", "°", residual.low, residual.high, 1e-3}, {}, {}, {}};
   plot.series = {{"α growing", Ink::p1, {}}, {"α falling", Ink::p2, {}}};
-  for (const MeanResidual& level : levels)
-    plot.marks.push_back({{level.at, level.residual}, "", level.direction > 0 ? Ink::p1 : Ink::p2});
+  for (const MeanResidual& mean : means)
+    plot.marks.push_back({{mean.level, mean.residual}, "", mean.direction > 0 ? Ink::p1 : Ink::p2});
   plot.height = 240;
   return plot;
 }
 
-std::string level_pair(const CalibrationProduct& product, bool by_load) {
-  const std::vector<MeanResidual> before = levels_of(product, product.calibration.residuals_before, by_load);
-  const std::vector<MeanResidual> after = levels_of(product, product.calibration.residuals_after, by_load);
-  Extent at, residual{0, 0};
-  for (const auto* levels : {&before, &after}) {
-    for (const MeanResidual& level : *levels) {
-      at.include(level.at);
-      residual.include(level.residual);
+std::string level_pair(const CalibrationProduct& product, Factor factor) {
+  const std::vector<MeanResidual> before = mean_residuals(product, product.calibration.residuals_before, factor);
+  const std::vector<MeanResidual> after = mean_residuals(product, product.calibration.residuals_after, factor);
+  Extent level, residual{0, 0};
+  for (const auto* means : {&before, &after}) {
+    for (const MeanResidual& mean : *means) {
+      level.include(mean.level);
+      residual.include(mean.residual);
     }
   }
-  const double size = std::max(std::abs(at.low), std::abs(at.high));
-  if (!at.any() || at.high - at.low < 0.05 * size) return "";
-  const double margin = 0.04 * (at.high - at.low);
+  const double size = std::max(std::abs(level.low), std::abs(level.high));
+  if (!level.has_width() || level.high - level.low < 0.05 * size) return "";
+  const double margin = 0.04 * (level.high - level.low);
   const std::string& unit = product.measurement.load_unit;
-  const PlotAxis axis{by_load ? "load, mean in that direction" : "motor speed", by_load ? unit : "°/s", at.low - margin,
-                      at.high + margin};
+  const bool by_load = factor == Factor::load;
+  const PlotAxis axis{by_load ? "load, mean in that direction" : "motor speed", by_load ? unit : "°/s",
+                      level.low - margin, level.high + margin};
   const std::string title = by_load ? "Over load" : "Over speed";
   return in_div(plot_figure(level_plot(before, title + ": before", axis, residual))) +
          in_div(plot_figure(level_plot(after, title + ": after", axis, residual)));
@@ -390,20 +398,20 @@ std::string run_words(const measurement::Run& run, const std::string& load_unit)
 
 std::string residual_map_html(const CalibrationProduct& product) {
   const Extent alpha = alpha_extent(product.measurement);
-  if (!alpha.any() || runs_with_residuals(product) == 0) return "";
+  if (!alpha.has_width() || runs_with_residuals(product) == 0) return "";
   const ResidualMap before = map_of(product, product.calibration.residuals_before, alpha);
   const ResidualMap after = map_of(product, product.calibration.residuals_after, alpha);
-  const double most = std::max({largest(before), largest(after), 1e-3});
+  const double colour_limit = std::max({largest(before), largest(after), 1e-3});
   return "<p class=\"lead\">Every run at a glance: mean of measured less model at each place of α, with α growing (↑) "
          "and falling (↓). Differences between loads indicate stretch or friction, between ↑ and ↓ lost motion, "
          "between columns geometry.</p><div "
          "class=\"plots\">" +
-         in_div(map_figure(product, before, "Before", most, alpha)) +
-         in_div(map_figure(product, after, "After, same colours", most, alpha)) + "</div>";
+         in_div(map_figure(product, before, "Before", colour_limit, alpha)) +
+         in_div(map_figure(product, after, "After, same colours", colour_limit, alpha)) + "</div>";
 }
 
 std::string residual_levels_html(const CalibrationProduct& product) {
-  const std::string html = level_pair(product, true) + level_pair(product, false);
+  const std::string html = level_pair(product, Factor::load) + level_pair(product, Factor::speed);
   return html.empty() ? ""
                       : "<h3>Over load and speed</h3><p class=\"lead\">Each dot is a run in one direction.</p><div "
                         "class=\"plots\">" +
@@ -413,7 +421,7 @@ std::string residual_levels_html(const CalibrationProduct& product) {
 std::string residual_runs_html(const CalibrationProduct& product) {
   const Extent extent = residual_extent(product), alpha = alpha_extent(product.measurement);
   const std::size_t judged = runs_with_residuals(product), shown = std::min(judged, k_most_runs);
-  if (shown == 0 || !alpha.any()) return "";
+  if (shown == 0 || !alpha.has_width()) return "";
   const bool wide = shown <= k_few_runs;
   std::string html;
   for (std::size_t r = 0; r < shown; ++r) {
@@ -435,7 +443,7 @@ std::string residual_runs_html(const CalibrationProduct& product) {
 std::string residual_html(const CalibrationProduct& product) {
   const Extent alpha = alpha_extent(product.measurement);
   const std::size_t judged = runs_with_residuals(product);
-  if (judged == 0 || !alpha.any()) return "";
+  if (judged == 0 || !alpha.has_width()) return "";
   const double floor = degrees(product.calibration.noise.rms);
   Plot plot{"Residual of all runs",
             {"motor angle α", "°", alpha.low, alpha.high, 1e-6},
@@ -452,7 +460,7 @@ std::string residual_html(const CalibrationProduct& product) {
   if (floor > 0) plot.limits = {{floor, ""}, {-floor, ""}};
   plot.width = 560;
   plot.height = 260;
-  return single(plot);
+  return single_figure_html(plot);
 }
 
 std::string discrepancy_html(const calibration::DiscrepancyComponent& part) {
@@ -468,7 +476,7 @@ std::string discrepancy_html(const calibration::DiscrepancyComponent& part) {
             {}};
   plot.width = 560;
   plot.height = 220;
-  return single(plot);
+  return single_figure_html(plot);
 }
 
 std::string curve_html(const CalibrationProduct& product) {
@@ -487,7 +495,7 @@ std::string curve_html(const CalibrationProduct& product) {
             {}};
   plot.width = 560;
   plot.height = 240;
-  return single(plot);
+  return single_figure_html(plot);
 }
 
 std::string compensation_html(const CalibrationProduct& product) {
@@ -517,7 +525,7 @@ std::string compensation_html(const CalibrationProduct& product) {
             {}};
   plot.width = 560;
   plot.height = 260;
-  return single(plot);
+  return single_figure_html(plot);
 }
 
 std::string logged_html(const measurement::Measurement& measurement) {

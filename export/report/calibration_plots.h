@@ -8,7 +8,7 @@
 
 namespace fusee::formats {
 
-/// All runs at a glance: a row for each run and direction, a column for each place of α, the mean residual as colour.
+/// All runs at a glance: a row for each run and direction, a column for each bin of α, the mean residual as colour.
 std::string residual_map_html(const CalibrationProduct& product);
 /// Residuals of each run over α, before beside after.
 std::string residual_runs_html(const CalibrationProduct& product);
@@ -18,7 +18,7 @@ std::string residual_levels_html(const CalibrationProduct& product);
 std::string residual_html(const CalibrationProduct& product);
 /// A component of the discrepancy over α.
 std::string discrepancy_html(const calibration::DiscrepancyComponent& part);
-/// The empirical curve over α, both ways; "" where the table has none.
+/// The empirical curve over α, in both directions; "" if compensation.csv has none.
 std::string curve_html(const CalibrationProduct& product);
 /// The required motor angle minus that of the target motion, over θ.
 std::string compensation_html(const CalibrationProduct& product);

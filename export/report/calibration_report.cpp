@@ -307,13 +307,14 @@ std::string residuals_section(const CalibrationProduct& product) {
                       map + residual_levels_html(product) + residual_runs_html(product) + run_table(product));
 }
 
-std::string covered_html(const CalibrationProduct& product) {
+std::string empirical_curve_html(const CalibrationProduct& product) {
   const std::string words = curve_words(product);
   if (words.empty()) return "";
   return "<h3>The part that the table corrects</h3><p>" + safe_text(first_upper(words)) + ".</p>" + curve_html(product);
 }
 
-std::string described_html(const std::string& heading, const std::vector<calibration::DiscrepancyComponent>& parts) {
+std::string discrepancy_list_html(const std::string& heading,
+                                  const std::vector<calibration::DiscrepancyComponent>& parts) {
   std::string html = parts.empty() ? "" : "<h3>" + heading + "</h3>";
   for (const calibration::DiscrepancyComponent& part : parts)
     html += "<p>" + safe_text(first_upper(discrepancy_words(part))) + ".</p>" + discrepancy_html(part);
@@ -331,8 +332,8 @@ std::string remainder_section(const CalibrationProduct& product) {
   const std::string correlation = " The correlation of neighbouring rows is " +
                                   readable(calibration.residual_autocorrelation, 2) +
                                   "; that of noise is near 0. Dashed: the noise floor of a single row.";
-  const std::string parts =
-      described_html("Unmodelled, by what it depends on", calibration.discrepancy) + covered_html(product);
+  const std::string parts = discrepancy_list_html("Unmodelled, by what it depends on", calibration.discrepancy) +
+                            empirical_curve_html(product);
   return html_section("unexplained", "Unexplained residual",
                       "<p class=\"lead\">" + safe_text(words + correlation) + "</p>" + plot + parts);
 }
@@ -347,8 +348,8 @@ bool is_equally_likely(const calibration::Calibration& calibration, const std::s
       });
 }
 
-std::string evidence_row(const calibration::Candidate& candidate, double most, bool equally_likely) {
-  const double width = most > 0 ? std::clamp(100 * candidate.evidence / most, 0.0, 100.0) : 0;
+std::string evidence_row(const calibration::Candidate& candidate, double largest_evidence, bool equally_likely) {
+  const double width = largest_evidence > 0 ? std::clamp(100 * candidate.evidence / largest_evidence, 0.0, 100.0) : 0;
   return std::string("<tr") +
          (candidate.accepted ? " class=\"taken\""
           : equally_likely   ? " class=\"alike\""
@@ -369,12 +370,14 @@ std::string evidence_section(const calibration::Calibration& calibration) {
   std::stable_sort(all.begin(), all.end(), [](const calibration::Candidate& a, const calibration::Candidate& b) {
     return a.accepted != b.accepted ? a.accepted : a.evidence > b.evidence;
   });
-  double most = 0;
+  double largest_evidence = 0;
   for (const calibration::Candidate& candidate : all)
-    most = std::isfinite(candidate.evidence) ? std::max(most, candidate.evidence) : most;
+    largest_evidence =
+        std::isfinite(candidate.evidence) ? std::max(largest_evidence, candidate.evidence) : largest_evidence;
   std::string rows;
   for (const calibration::Candidate& candidate : all)
-    rows += evidence_row(candidate, most, !candidate.accepted && is_equally_likely(calibration, candidate.name));
+    rows += evidence_row(candidate, largest_evidence,
+                         !candidate.accepted && is_equally_likely(calibration, candidate.name));
   if (rows.empty()) return "";
   return html_section(
       "evidence", "Evidence",

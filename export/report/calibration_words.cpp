@@ -17,7 +17,7 @@ struct NamedUnit {
   std::string_view ending;
   std::string_view shown;
 };
-// The longer ending first.
+// An ending stands before a shorter one that also matches, because the first match is taken.
 constexpr std::array<NamedUnit, 10> k_units{{{"_percent_per_decade", " % per decade"},
                                              {"_deg_per_load", "° per "},
                                              {"_percent", " %"},
@@ -33,8 +33,8 @@ bool ends_with(std::string_view text, std::string_view ending) {
   return text.size() > ending.size() && text.substr(text.size() - ending.size()) == ending;
 }
 
-/// The part that notes about different files share: no name before the first ": ", no digits.
-std::string gist(const std::string& note) {
+/// The text that notes about different files share: without the name before the first ": ", and without digits.
+std::string shared_text(const std::string& note) {
   const std::size_t colon = note.find(": ");
   std::string text = colon == std::string::npos ? note : note.substr(colon);
   std::erase_if(text, [](char c) { return c >= '0' && c <= '9'; });
@@ -73,8 +73,8 @@ std::string beside_words(const calibration::FoundEffect& effect, const std::stri
   std::vector<std::string> members;
   for (const calibration::GroupMember& member : effect.beside) {
     std::vector<std::string> numbers;
-    for (const calibration::FittedParameter& own : member.parameters)
-      numbers.push_back(parameter_words(own, load_unit));
+    for (const calibration::FittedParameter& parameter : member.parameters)
+      numbers.push_back(parameter_words(parameter, load_unit));
     members.push_back(open_words(member.name) + " (" + joined(numbers, "; ") + ")");
   }
   if (members.empty()) return "";
@@ -96,6 +96,7 @@ NameAndUnit name_and_unit(const std::string& parameter, const std::string& load_
   for (const NamedUnit& known : k_units) {
     if (!ends_with(parameter, known.ending)) continue;
     std::string unit(known.shown);
+    // An angle per load ends with the load's own unit.
     if (unit == "° per ") unit += load_unit.empty() ? "unit of load" : load_unit;
     return {open_words(parameter.substr(0, parameter.size() - known.ending.size())), unit};
   }
@@ -104,10 +105,11 @@ NameAndUnit name_and_unit(const std::string& parameter, const std::string& load_
 
 std::string parameter_words(const calibration::FittedParameter& parameter, const std::string& load_unit) {
   const auto [name, unit] = name_and_unit(parameter.name, load_unit);
-  const std::string own = readable_rounded(parameter.low_if_only) + " … " + readable_rounded(parameter.high_if_only),
-                    all = readable_rounded(parameter.low) + " … " + readable_rounded(parameter.high);
-  return name + " = " + readable_rounded(parameter.value) + unit + " (95 %: " + own +
-         (own == all ? "" : " if it is the only cause, otherwise " + all) + ")" +
+  const std::string if_only =
+      readable_rounded(parameter.low_if_only) + " … " + readable_rounded(parameter.high_if_only);
+  const std::string otherwise = readable_rounded(parameter.low) + " … " + readable_rounded(parameter.high);
+  return name + " = " + readable_rounded(parameter.value) + unit + " (95 %: " + if_only +
+         (if_only == otherwise ? "" : " if it is the only cause, otherwise " + otherwise) + ")" +
          (parameter.sense.empty() ? "" : ", " + parameter.sense);
 }
 
@@ -145,11 +147,12 @@ std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(
       sorted.begin(), sorted.end(),
       [](const calibration::Detectable& a, const calibration::Detectable& b) { return a.smallest < b.smallest; });
   std::vector<std::pair<double, std::vector<std::string>>> groups;
-  std::string size;
+  std::string group_size;
   for (const calibration::Detectable& detectable : sorted) {
-    if (const std::string this_size = rounded(degrees(detectable.smallest), 2); groups.empty() || this_size != size) {
+    const std::string size = rounded(degrees(detectable.smallest), 2);
+    if (groups.empty() || size != group_size) {
       groups.push_back({detectable.smallest, {}});
-      size = this_size;
+      group_size = size;
     }
     groups.back().second.push_back(detectable.name);
   }
@@ -159,8 +162,8 @@ std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(
 namespace {
 
 /// "0 … 10 N", or "5 N".
-std::string seen_words(const std::vector<double>& seen, const std::string& unit) {
-  const auto [least, most] = std::minmax_element(seen.begin(), seen.end());
+std::string from_to_words(const std::vector<double>& values, const std::string& unit) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const std::string from = rounded(*least, 2), to = rounded(*most, 2);
   return (from == to ? from : from + " … " + to) + unit;
 }
@@ -175,9 +178,9 @@ std::string measured_range_words(const CalibrationProduct& product) {
     }
     if (run.has_time && run.speed > 0) speeds.push_back(degrees(run.speed));
   }
-  std::string words = "alpha " + seen_words({degrees(curve.alpha.front()), degrees(curve.alpha.back())}, "°");
-  if (!loads.empty()) words += ", load " + seen_words(loads, " " + product.measurement.load_unit);
-  if (!speeds.empty()) words += ", speed " + seen_words(speeds, " °/s");
+  std::string words = "alpha " + from_to_words({degrees(curve.alpha.front()), degrees(curve.alpha.back())}, "°");
+  if (!loads.empty()) words += ", load " + from_to_words(loads, " " + product.measurement.load_unit);
+  if (!speeds.empty()) words += ", speed " + from_to_words(speeds, " °/s");
   return words;
 }
 
@@ -223,11 +226,12 @@ std::vector<std::string> input_error_texts(const CalibrationProduct& product) {
 std::vector<std::string> shortened_notes(const std::vector<std::string>& notes) {
   constexpr std::size_t k_shown_alike = 2;
   std::map<std::string, std::size_t> count;
-  for (const std::string& note : notes) ++count[gist(note)];
+  for (const std::string& note : notes) ++count[shared_text(note)];
   std::map<std::string, std::size_t> seen;
   std::vector<std::string> shown;
   for (const std::string& note : notes) {
-    const std::size_t all = count[gist(note)], nth = ++seen[gist(note)];
+    const std::size_t all = count[shared_text(note)], nth = ++seen[shared_text(note)];
+    // A line in place of a single note would save nothing.
     if (nth <= k_shown_alike || all == k_shown_alike + 1) {
       shown.push_back(note);
     } else if (nth == k_shown_alike + 1) {

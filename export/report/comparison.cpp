@@ -86,22 +86,23 @@ const ChangeWords* find_words(const std::string& effect, const std::string& para
 
 std::string with_sign(double value) { return (value < 0 ? "−" : "+") + readable_rounded(std::abs(value)); }
 
-std::string percentage_sign_filled(std::string_view text, const std::string& size) {
+/// The text with `size` in place of its '%'.
+std::string with_size(std::string_view text, const std::string& size) {
   std::string words(text);
   words.replace(words.find('%'), 1, size);
   return words;
 }
 
-/// The most significant number: the largest ratio of change to interval width. A number without an interval follows
-/// from others.
-const calibration::ChangedParameter* leading(const calibration::StateChange& change) {
-  const auto certainty = [](const calibration::ChangedParameter& p) {
+/// The most significant parameter: the largest ratio of change to interval width. A number without an interval follows
+/// from the others.
+const calibration::ChangedParameter* most_significant(const calibration::StateChange& change) {
+  const auto significance = [](const calibration::ChangedParameter& p) {
     return p.high > p.low ? std::abs(p.change()) / (p.high - p.low) : 0.0;
   };
   const auto most =
       std::max_element(change.parameters.begin(), change.parameters.end(),
                        [&](const calibration::ChangedParameter& a, const calibration::ChangedParameter& b) {
-                         return certainty(a) < certainty(b);
+                         return significance(a) < significance(b);
                        });
   return most == change.parameters.end() ? nullptr : &*most;
 }
@@ -113,22 +114,22 @@ std::string interval_words(const calibration::ChangedParameter& parameter, const
 /// "Tendon 1 lost 4.2 N of pretension (95 %: −4.6 … −3.8 N)". If the interval contains 0, no direction
 /// is stated.
 std::string sentence(const calibration::StateChange& change, const std::string& load_unit) {
-  const calibration::ChangedParameter* number = leading(change);
+  const calibration::ChangedParameter* number = most_significant(change);
   if (number == nullptr) return first_upper(open_words(change.name)) + " changed";
   const auto [name, unit] = name_and_unit(number->name, load_unit);
   const std::string interval = " (95 %: " + interval_words(*number, unit) + ")";
   const ChangeWords* words = find_words(change.name, number->name);
   const bool has_sign = number->low > 0 || number->high < 0;
   if (words != nullptr && has_sign)
-    return percentage_sign_filled(number->change() > 0 ? words->grew : words->shrank,
-                                  readable_rounded(std::abs(number->change())) + unit) +
+    return with_size(number->change() > 0 ? words->grew : words->shrank,
+                     readable_rounded(std::abs(number->change())) + unit) +
            interval;
   return first_upper(words != nullptr ? std::string(words->name) : open_words(change.name) + ", " + name) +
          " changed by " + with_sign(number->change()) + unit + interval;
 }
 
 std::string remedy(const calibration::StateChange& change) {
-  const calibration::ChangedParameter* number = leading(change);
+  const calibration::ChangedParameter* number = most_significant(change);
   const ChangeWords* words = number == nullptr ? nullptr : find_words(change.name, number->name);
   return words == nullptr ? "Look at the " + std::string(fusee::word(change.place)) : std::string(words->remedy);
 }
@@ -188,22 +189,22 @@ Json change_json(const calibration::StateChange& change) {
           {"by_runs", result_json(change.by_runs)}};
 }
 
-Json run_names_json(const ComparisonProduct& product, bool after) {
-  Json names = Json::array();
-  for (std::size_t i = 0; i < product.measurement.runs.size(); ++i) {
-    if ((i >= product.runs_before) == after) names.push_back(product.measurement.runs[i].name);
-  }
-  return names;
+/// Names of the runs of each state.
+Json run_names_json(const ComparisonProduct& product) {
+  Json before = Json::array(), after = Json::array();
+  for (std::size_t i = 0; i < product.measurement.runs.size(); ++i)
+    (i < product.runs_before ? before : after).push_back(product.measurement.runs[i].name);
+  return {{"before", before}, {"after", after}};
 }
 
 // ---- page -----------------------------------------------------------------------------------------------------------
 
 std::string verdict_section(const ComparisonProduct& product) {
   const calibration::ComparisonVerdict verdict = product.comparison.verdict;
-  const bool is_answer =
-      verdict == calibration::ComparisonVerdict::changed || verdict == calibration::ComparisonVerdict::no_change;
-  const std::string style = verdict == calibration::ComparisonVerdict::no_change ? "good" : is_answer ? "noted" : "bad";
-  const std::string sign = verdict == calibration::ComparisonVerdict::no_change ? "✓" : is_answer ? "!" : "✗";
+  const bool is_unchanged = verdict == calibration::ComparisonVerdict::no_change;
+  const bool is_changed = verdict == calibration::ComparisonVerdict::changed;
+  const std::string style = is_unchanged ? "good" : is_changed ? "noted" : "bad";
+  const std::string sign = is_unchanged ? "✓" : is_changed ? "!" : "✗";
   return "<section class=\"verdict " + style + "\"><span class=\"sign\">" + sign + "</span><p><b>" +
          safe_text(first_upper(open_words(std::string(calibration::word(verdict))))) + ".</b> " +
          safe_text(comparison_words(product)) + "</p></section>\n";
@@ -239,7 +240,7 @@ std::string detectable_section(const calibration::Calibration& calibration) {
                           html_table({"#at the joint", "effects"}, rows));
 }
 
-/// The pictures of a calibration, of all runs about the joint as it was before.
+/// The plots of a calibration page: residuals of all runs from the joint as it was identified before.
 std::string residuals_section(const ComparisonProduct& product) {
   CalibrationProduct about_before;
   about_before.file = product.file;
@@ -255,7 +256,7 @@ std::string residuals_section(const ComparisonProduct& product) {
 
 }  // namespace
 
-double least_seen(const calibration::Comparison& comparison) {
+double certainly_detected(const calibration::Comparison& comparison) {
   double most = 0;
   for (const calibration::Detectable& one : comparison.changes.detectable) most = std::max(most, one.smallest);
   return most;
@@ -269,9 +270,10 @@ std::string comparison_words(const ComparisonProduct& product) {
       return comparison.why;
     case calibration::ComparisonVerdict::no_change:
       return "Nothing changed that these runs could show" +
-             (least_seen(comparison) > 0 ? "; a change of more than " + rounded(degrees(least_seen(comparison)), 2) +
-                                               "° at the joint would have been seen."
-                                         : std::string("."));
+             (certainly_detected(comparison) > 0
+                  ? "; a change of more than " + rounded(degrees(certainly_detected(comparison)), 2) +
+                        "° at the joint would have been seen."
+                  : std::string("."));
     case calibration::ComparisonVerdict::changed:
       return changed_words(product);
   }
@@ -312,7 +314,7 @@ std::string comparison_json(const ComparisonProduct& product) {
   json["detectable"] = Json::array();
   for (const calibration::Detectable& one : comparison.changes.detectable)
     json["detectable"].push_back({{"name", one.name}, {"smallest_deg", angle_json(one.smallest)}});
-  json["runs"] = {{"before", run_names_json(product, false)}, {"after", run_names_json(product, true)}};
+  json["runs"] = run_names_json(product);
   json["notes"] = product.measurement.notes;
   return json_text(json, 1);
 }
@@ -320,7 +322,7 @@ std::string comparison_json(const ComparisonProduct& product) {
 std::string comparison_manifest_json(const ComparisonProduct& product, const std::vector<OutputFile>& outputs) {
   Json json = {{"schema", 1}, {"tool", std::string(k_tool)}};
   json["input"] = input_json(product.file);
-  json["runs"] = {{"before", run_names_json(product, false)}, {"after", run_names_json(product, true)}};
+  json["runs"] = run_names_json(product);
   json["verdict"] = calibration::word(product.comparison.verdict);
   json["outputs"] = output_list(outputs);
   return json_text(json, 1);

@@ -52,11 +52,11 @@ void put_spiral(std::string& table, transmission::Side side, const helix::Spiral
   }
 }
 
-/// Ratio of a planar force to the tension along the sloped path of the tendon that carries.
-double sloped_cosine(const Product& product, std::size_t i, const transmission::PaperForces& forces) {
+/// Ratio of a planar force to the tension along the sloped path, for the tendon that carries the load.
+double slope_cosine(const Product& product, std::size_t i, const transmission::PaperForces& forces) {
   if (!product.helix) return 1.0;
-  const std::size_t carries = forces.T2 > 0 ? 1 : 0;
-  return elementary::cos(product.helix->synthesis.sides.at(carries).stroke[i].slope);
+  const std::size_t loaded_side = forces.T2 > 0 ? 1 : 0;
+  return elementary::cos(product.helix->synthesis.sides.at(loaded_side).stroke[i].slope);
 }
 
 void add_slopes(std::vector<double>& row, const HelixProduct& helix, std::size_t i) {
@@ -66,9 +66,10 @@ void add_slopes(std::vector<double>& row, const HelixProduct& helix, std::size_t
   }
 }
 
+/// Results of the tendons wound on the mesh, at one α.
 struct AsBuilt {
-  double theta = k_none;
-  double excess = k_none;
+  double theta = k_none;   ///< rad
+  double excess = k_none;  ///< excess length of tendon 2, mm
 };
 
 /// The rewound pulley at `alpha`, interpolated; empty outside its points.
@@ -137,7 +138,7 @@ std::string transmission_csv(const Product& product) {
     const transmission::TransmissionPoint& point = product.synthesis.stroke[i];
     const transmission::PaperForces forces = transmission::paper_forces(product.joint.mechanism, point);
     const AsBuilt as_built = as_built_at(product.as_built.points, point.alpha);
-    const double along = sloped_cosine(product, i, forces);
+    const double cosine = slope_cosine(product, i, forces);
     std::vector<double> row = {degrees(point.alpha),
                                degrees(point.theta),
                                point.t1.p,
@@ -145,9 +146,9 @@ std::string transmission_csv(const Product& product) {
                                point.t1.m,
                                point.t2.m,
                                degrees(forces.gamma2),
-                               forces.T2 / along,
+                               forces.T2 / cosine,
                                degrees(forces.phi),
-                               forces.Tb / along,
+                               forces.Tb / cosine,
                                forces.elongation,
                                degrees(forces.theta_error),
                                degrees(as_built.theta),

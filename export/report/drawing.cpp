@@ -12,7 +12,7 @@ namespace {
 
 // Placing on paper ----------------------------------------------------------------------------------------------------
 
-/// mm, y up → px, y down.
+/// Maps the mechanism (mm, y up) to the figure (px, y down).
 struct View {
   Vec2 low{1e9, 1e9};
   Vec2 high{-1e9, -1e9};
@@ -87,14 +87,14 @@ struct PaperBox {
   double left, top, width, height;
 };
 
-View fitted(View view, const PaperBox& frame) {
-  view.fit(frame.left, frame.top, frame.width, frame.height);
+View fitted(View view, const PaperBox& box) {
+  view.fit(box.left, box.top, box.width, box.height);
   return view;
 }
 
 /// A view that contains the joint at each of these angles.
 View mechanism_view(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
-                    const std::vector<double>& thetas, const PaperBox& frame) {
+                    const std::vector<double>& thetas, const PaperBox& box) {
   View view;
   view.include({0, 0}, 0.06 * mechanism.joint.R);
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
@@ -111,14 +111,14 @@ View mechanism_view(const Mechanism& mechanism, const profile::SynthesisResult& 
     for (const transmission::Side side : {transmission::Side::left, transmission::Side::right})
       view.include(attachment(mechanism, side, theta));
   }
-  return fitted(view, frame);
+  return fitted(view, box);
 }
 
 /// The pulley alone, enlarged.
-View pulley_view(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const PaperBox& frame) {
+View pulley_view(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const PaperBox& box) {
   View view;
   view.include(pulley_axis(mechanism), pulley_reach(synthesis));
-  return fitted(view, frame);
+  return fitted(view, box);
 }
 
 /// A group that turns with the pulley: the outlines at home.
@@ -241,7 +241,7 @@ Figure mechanism_figure(const Mechanism& mechanism, const profile::SynthesisResu
 
 // The joint to be moved -----------------------------------------------------------------------------------------------
 
-/// The place nearest to α = 0. `stroke` must not be empty.
+/// The point nearest to α = 0. `stroke` must not be empty.
 const transmission::TransmissionPoint& home_of(const std::vector<transmission::TransmissionPoint>& stroke) {
   return *std::min_element(stroke.begin(), stroke.end(),
                            [](const auto& a, const auto& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
@@ -262,8 +262,8 @@ Figure moving_figure(const Mechanism& mechanism, const profile::SynthesisResult&
 constexpr double k_sketch_width = 380;
 constexpr double k_sketch_height = 460;
 
-/// A horizontal dimension at the height `y`, between two points of the drawing. A short one has its name outside.
-std::string across(const View& view, double from, double to, double y, const std::string& name) {
+/// A horizontal dimension between two abscissae (mm), drawn at the height `y` (px). A short one has its name outside.
+std::string horizontal_dimension(const View& view, double from, double to, double y, const std::string& name) {
   const double left = view({std::min(from, to), 0}).x(), right = view({std::max(from, to), 0}).x();
   const Vec2 tick(0, 4);
   std::string svg = svg_line("dimension", {left, y}, {right, y});
@@ -274,8 +274,8 @@ std::string across(const View& view, double from, double to, double y, const std
          (from < to ? svg_words("small", {right + 6, y + 4}, name) : svg_words("small end", {left - 6, y + 4}, name));
 }
 
-/// A vertical dimension at `x`, between two heights of the drawing, with its name beside it.
-std::string upright(const View& view, double from, double to, double x, const std::string& name) {
+/// A vertical dimension between two heights (mm), drawn at `x` (px), with its name beside it.
+std::string vertical_dimension(const View& view, double from, double to, double x, const std::string& name) {
   const double top = view({0, std::max(from, to)}).y(), bottom = view({0, std::min(from, to)}).y();
   const Vec2 tick(4, 0);
   std::string svg = svg_line("dimension", {x, top}, {x, bottom});
@@ -286,7 +286,7 @@ std::string upright(const View& view, double from, double to, double x, const st
 }
 
 /// A radius from a centre to the lower left, with its name on it, because tendons may pass outside.
-std::string radius_of(const View& view, const Vec2& centre, double radius, const std::string& name) {
+std::string named_radius(const View& view, const Vec2& centre, double radius, const std::string& name) {
   const Vec2 from = view(centre), to = view(centre + radius * unit(radians(215.0)));
   return svg_line("dimension", from, to) + svg_words("small halo middle", 0.5 * (from + to) + Vec2(0, 4), name);
 }
@@ -296,7 +296,7 @@ std::string radius_of(const View& view, const Vec2& centre, double radius, const
 constexpr double k_profile_width = 480;
 constexpr double k_profile_height = 532;
 
-/// A dimension along a radius: a line from the axis to the point, and its length beside the point.
+/// A dimension along a radius: a line from the axis to the point (mm), and its length beside the point.
 std::string radius_dimension(const View& view, const Vec2& point) {
   const Vec2 tip = view(point);
   const Vec2 outward = (tip - view({0, 0})).normalized();
@@ -335,8 +335,8 @@ std::string anchors(const View& view, const solid::Pulley& pulley, transmission:
       if (anchor.tail->pilot_diameter > 0)
         svg += svg_circle("hole", view(anchor.tail->to), 0.5 * anchor.tail->pilot_diameter * view.scale);
     }
-    const Vec2 place = view(anchor.pocket);
-    svg += svg_words("soft halo middle", place + Vec2(0, 4), anchor.wound_end ? "a" : "s");
+    // a: anchor under load; s: spare anchor. The page explains both letters.
+    svg += svg_words("soft halo middle", view(anchor.pocket) + Vec2(0, 4), anchor.wound_end ? "a" : "s");
   }
   return svg;
 }
@@ -364,6 +364,7 @@ std::string axes(const View& view, double reach) {
          svg_words("soft halo middle", view({0, 1.12 * reach}) - Vec2(0, 6), "home");
 }
 
+/// The angle in [0, 2π).
 double wrapped(double angle) { return angle - k_two_pi * std::floor(angle / k_two_pi); }
 
 double active_turn(const profile::Outline& outline) {
@@ -396,29 +397,29 @@ std::string profile_legend(const profile::Outline& outline) {
 
 // The polar drawing for comparison ------------------------------------------------------------------------------------
 
-/// A place of the active arc in polar coordinates about the axis.
-struct PolarPlace {
-  double alpha = 0;
-  double angle = 0;
-  double r = 0;
+/// A point of the active arc in polar coordinates about the axis, or the difference of two curves there.
+struct PolarPoint {
+  double alpha = 0;  ///< of the stroke, rad
+  double angle = 0;  ///< direction from the axis, rad
+  double r = 0;      ///< radius, or difference of radii, mm
 };
 
 /// r against α, as the paper draws it.
-std::vector<PolarPlace> polar_drawing(const std::vector<transmission::TransmissionPoint>& stroke,
+std::vector<PolarPoint> polar_drawing(const std::vector<transmission::TransmissionPoint>& stroke,
                                       transmission::Side side) {
   const auto tendon = [side](const transmission::TransmissionPoint& point) -> const transmission::TendonPoint& {
     return side == transmission::Side::left ? point.t1 : point.t2;
   };
   const double home_normal = tendon(home_of(stroke)).lower_normal;
-  std::vector<PolarPlace> places;
+  std::vector<PolarPoint> points;
   for (const transmission::TransmissionPoint& point : stroke)
-    places.push_back({point.alpha, home_normal + point.alpha, tendon(point).p});
-  return places;
+    points.push_back({point.alpha, home_normal + point.alpha, tendon(point).p});
+  return points;
 }
 
-bool is_round(const std::vector<PolarPlace>& drawing) {
+bool is_round(const std::vector<PolarPoint>& drawing) {
   const auto [least, most] = std::minmax_element(drawing.begin(), drawing.end(),
-                                                 [](const PolarPlace& a, const PolarPlace& b) { return a.r < b.r; });
+                                                 [](const PolarPoint& a, const PolarPoint& b) { return a.r < b.r; });
   return most->r - least->r < 1e-9 * most->r;
 }
 
@@ -437,11 +438,11 @@ double radius_towards(const profile::Outline& outline, double angle) {
 
 /// A magnification 1, 2, 5, 10 … that makes `difference` visible beside a radius of `r`.
 double magnification(double difference, double r) {
-  constexpr double k_seen = 0.22;  // relative to the radius
-  const double most = k_seen * r / difference;
-  double factor = elementary::pow(10.0, std::floor(elementary::log10(most)));
+  constexpr double k_visible_share = 0.22;  // largest drawn difference per radius
+  const double largest_factor = k_visible_share * r / difference;
+  double factor = elementary::pow(10.0, std::floor(elementary::log10(largest_factor)));
   for (const double step : {5.0, 2.0}) {
-    if (step * factor <= most) return std::max(1.0, step * factor);
+    if (step * factor <= largest_factor) return std::max(1.0, step * factor);
   }
   return std::max(1.0, factor);
 }
@@ -474,30 +475,33 @@ std::optional<Figure> dimension_figure(const Mechanism& mechanism, const profile
   if (synthesis.p1.points.empty() || synthesis.p2.points.empty() || synthesis.stroke.empty()) return std::nullopt;
   const transmission::TransmissionPoint& home = home_of(synthesis.stroke);
   const Vec2 axis = pulley_axis(mechanism);
-  const double top = mechanism.joint.is_plain() ? mechanism.joint.R : 0;
+  const double end_height = mechanism.joint.is_plain() ? mechanism.joint.R : 0;  // of C; 0: R is not drawn
   const Guides& guides = mechanism.guides;
   constexpr double k_below = 52, k_right = 92;
   Figure figure{k_sketch_width, k_sketch_height, "Dimensions of the joint at home, to scale", {}, {}};
   const View view = mechanism_view(mechanism, synthesis, {home.theta},
                                    {30, 24, k_sketch_width - 30 - k_right, k_sketch_height - 32 - k_below});
   figure.body = scene(mechanism, synthesis, view, {home.alpha, home.theta});
-  const double pins = -guides.OE, low = k_sketch_height - 30;
+  const double pin_height = -guides.OE, low = k_sketch_height - 30;
   const double first = view(view.high).x() + 14, second = first + 36;
-  // Lines from the points to the dimensions.
-  const auto aid = [](const Vec2& from, const Vec2& to) { return svg_line("grid", from, to); };
-  figure.body += aid(view({0, 0}), {first, view({0, 0}).y()}) + aid(view({0, pins}), {second, view({0, pins}).y()}) +
-                 aid(view(axis), {second, view(axis).y()}) + aid(view({0, pins}), {view({0, 0}).x(), low}) +
-                 aid(view({-guides.EB, pins}), {view({-guides.EB, 0}).x(), low}) +
-                 aid(view({guides.ED, pins}), {view({guides.ED, 0}).x(), low});
+  const auto extension_line = [](const Vec2& from, const Vec2& to) { return svg_line("grid", from, to); };
+  figure.body += extension_line(view({0, 0}), {first, view({0, 0}).y()}) +
+                 extension_line(view({0, pin_height}), {second, view({0, pin_height}).y()}) +
+                 extension_line(view(axis), {second, view(axis).y()}) +
+                 extension_line(view({0, pin_height}), {view({0, 0}).x(), low}) +
+                 extension_line(view({-guides.EB, pin_height}), {view({-guides.EB, 0}).x(), low}) +
+                 extension_line(view({guides.ED, pin_height}), {view({guides.ED, 0}).x(), low});
   const double left = view(view.low).x() - 12;
-  if (top > 0)
-    figure.body += aid({left, view({0, 0}).y()}, view({0, 0})) + aid({left, view({0, top}).y()}, view({0, top}));
-  figure.body += across(view, 0, -guides.EB, low, "EB") + across(view, 0, guides.ED, low, "ED");
-  if (guides.OE != 0) figure.body += upright(view, 0, pins, first, "OE");
-  figure.body += upright(view, pins, axis.y(), second, "EF");
-  if (top > 0) figure.body += upright(view, 0, top, left, "R");
-  if (mechanism.joint.drum_radius > 0) figure.body += radius_of(view, {0, 0}, mechanism.joint.drum_radius, "drum");
-  if (mechanism.pulley.law == Law::compensate) figure.body += radius_of(view, axis, mechanism.pulley.r1, "r1");
+  if (end_height > 0)
+    figure.body += extension_line({left, view({0, 0}).y()}, view({0, 0})) +
+                   extension_line({left, view({0, end_height}).y()}, view({0, end_height}));
+  figure.body +=
+      horizontal_dimension(view, 0, -guides.EB, low, "EB") + horizontal_dimension(view, 0, guides.ED, low, "ED");
+  if (guides.OE != 0) figure.body += vertical_dimension(view, 0, pin_height, first, "OE");
+  figure.body += vertical_dimension(view, pin_height, axis.y(), second, "EF");
+  if (end_height > 0) figure.body += vertical_dimension(view, 0, end_height, left, "R");
+  if (mechanism.joint.drum_radius > 0) figure.body += named_radius(view, {0, 0}, mechanism.joint.drum_radius, "drum");
+  if (mechanism.pulley.law == Law::compensate) figure.body += named_radius(view, axis, mechanism.pulley.r1, "r1");
   return figure;
 }
 
@@ -534,23 +538,23 @@ Figure profile_figure(const Mechanism& mechanism, const profile::Outline& outlin
 std::optional<Figure> polar_figure(const profile::SynthesisResult& synthesis, transmission::Side side) {
   const profile::Outline& outline = side == transmission::Side::left ? synthesis.p1 : synthesis.p2;
   if (outline.points.size() < 3 || synthesis.stroke.size() < 2) return std::nullopt;
-  const std::vector<PolarPlace> drawing = polar_drawing(synthesis.stroke, side);
+  const std::vector<PolarPoint> drawing = polar_drawing(synthesis.stroke, side);
   if (is_round(drawing)) return std::nullopt;
   std::vector<Vec2> drawn;
-  std::vector<PolarPlace> differences;  // of the drawing from the profile
-  PolarPlace most;
-  for (const PolarPlace& place : drawing) {
-    drawn.push_back(place.r * unit(place.angle));
-    const double difference = place.r - radius_towards(outline, place.angle);
+  std::vector<PolarPoint> differences;  // of the drawing from the profile
+  PolarPoint largest;
+  for (const PolarPoint& point : drawing) {
+    drawn.push_back(point.r * unit(point.angle));
+    const double difference = point.r - radius_towards(outline, point.angle);
     if (!std::isfinite(difference)) continue;
-    differences.push_back({place.alpha, place.angle, difference});
-    if (std::abs(difference) > std::abs(most.r)) most = differences.back();
+    differences.push_back({point.alpha, point.angle, difference});
+    if (std::abs(difference) > std::abs(largest.r)) largest = differences.back();
   }
-  if (most.r == 0) return std::nullopt;
-  const double factor = magnification(std::abs(most.r), drawing.front().r);
+  if (largest.r == 0) return std::nullopt;
+  const double factor = magnification(std::abs(largest.r), drawing.front().r);
   std::vector<Vec2> magnified;
-  for (const PolarPlace& place : differences)
-    magnified.push_back((radius_towards(outline, place.angle) + factor * place.r) * unit(place.angle));
+  for (const PolarPoint& point : differences)
+    magnified.push_back((radius_towards(outline, point.angle) + factor * point.r) * unit(point.angle));
 
   const std::string name(transmission::pulley_name(side));
   Figure figure{k_profile_width, k_profile_height, "The polar drawing of " + name + " name_offset its profile", {}, {}};
@@ -570,7 +574,7 @@ std::optional<Figure> polar_figure(const profile::SynthesisResult& synthesis, tr
       curve("curve whole " + ink(side), view, arc_points(outline, outline.active_first, outline.active_last));
   figure.body += curve("thin main", view, drawn) + curve("third", view, magnified);
   figure.body += svg_words("small middle", {0.5 * k_profile_width, k_profile_height - 12},
-                           readable(most.r, 3) + " mm apart at α = " + readable(degrees(most.alpha), 1) + "°");
+                           readable(largest.r, 3) + " mm apart at α = " + readable(degrees(largest.alpha), 1) + "°");
   return figure;
 }
 

@@ -1,6 +1,6 @@
 /// \file
 /// Internal: drawings to scale: the mechanism with both tendons on their true path, and the pulleys' profiles with
-/// dimensions. mm → px.
+/// dimensions. Input is in mm, figures are in px.
 #pragma once
 
 #include <optional>
@@ -14,10 +14,10 @@
 
 namespace fusee::formats {
 
-/// One place of the stroke to draw.
+/// A position of the mechanism.
 struct Pose {
-  double alpha = 0;
-  double theta = 0;
+  double alpha = 0;  ///< rad
+  double theta = 0;  ///< rad
 };
 
 /// The mechanism at several poses, one figure each, all at one scale. Moving parts are groups (class "joint-link",
@@ -38,8 +38,8 @@ std::optional<Figure> dimension_figure(const Mechanism& mechanism, const profile
 /// anchors, dimensions.
 Figure profile_figure(const Mechanism& mechanism, const profile::Outline& outline, const solid::Pulley& pulley);
 
-/// The polar drawing of one pulley, r against α from the direction of the tendon's normal at home, over its exact
-/// profile, with the difference magnified. The figure of method = "exact". Empty for a round pulley, where both are
+/// The paper's drawing of one pulley over its exact profile, with the difference magnified. The paper draws r(α) in polar
+/// coordinates; α counts from the direction of the tendon's normal at home. Empty for a round pulley, where both are
 /// equal.
 std::optional<Figure> polar_figure(const profile::SynthesisResult& synthesis, transmission::Side side);
 

@@ -13,7 +13,7 @@ namespace {
 const PlotAxis k_motor_axis{"pulley angle α", "°", {}, {}, 1e-6};
 
 template <typename Value>
-std::vector<Vec2> of_side(const Product& product, std::size_t side, Value value) {
+std::vector<Vec2> over_alpha(const Product& product, std::size_t side, Value value) {
   std::vector<Vec2> points;
   const std::vector<helix::HelixPoint>& stroke = product.helix->synthesis.sides.at(side).stroke;
   for (std::size_t i = 0; i < stroke.size(); ++i)
@@ -40,13 +40,13 @@ std::vector<Plot> helix_plots(const Product& product) {
   const HelixProduct& helix = *product.helix;
   Plot heights{"Height of the take-offs", k_motor_axis, {"above the lower face", "mm", {}, {}, 0.1}, {}, {}, {}};
   heights.series = {{"tendon 1", Ink::p1,
-                     of_side(product, 0, [&](const helix::HelixPoint& p) { return helix.pulley.p1.height(p.z); })},
+                     over_alpha(product, 0, [&](const helix::HelixPoint& p) { return helix.pulley.p1.height(p.z); })},
                     {"tendon 2", Ink::p2,
-                     of_side(product, 1, [&](const helix::HelixPoint& p) { return helix.pulley.p2.height(p.z); })}};
+                     over_alpha(product, 1, [&](const helix::HelixPoint& p) { return helix.pulley.p2.height(p.z); })}};
   Plot fleets{"Fleet angles", k_motor_axis, {"path against groove", "°", {}, {}, 0.1}, {}, {}, {}};
   fleets.series = {
-      {"tendon 1", Ink::p1, of_side(product, 0, [](const helix::HelixPoint& p) { return degrees(p.fleet); })},
-      {"tendon 2", Ink::p2, of_side(product, 1, [](const helix::HelixPoint& p) { return degrees(p.fleet); })}};
+      {"tendon 1", Ink::p1, over_alpha(product, 0, [](const helix::HelixPoint& p) { return degrees(p.fleet); })},
+      {"tendon 2", Ink::p2, over_alpha(product, 1, [](const helix::HelixPoint& p) { return degrees(p.fleet); })}};
   return {heights, fleets};
 }
 

@@ -32,14 +32,14 @@ const helical_solid::HelicalAnchor& anchor_of(const Product& product, transmissi
 helical_solid::Fan coarse_fan(const Product& product) {
   const HelixProduct& helix = *product.helix;
   const solid::BodyLayout& layout = product.pulley.layout;
-  const double half = 0.5 * layout.tendon_diameter;
-  // Length of solid around the channel and its pocket.
+  const double tendon_radius = 0.5 * layout.tendon_diameter;
+  // Length of the groove beyond its end that stays filled, for the channel and its pocket.
   double filled = 0;
   for (const helical_solid::HelicalAnchor& anchor : helix.pulley.anchors)
     filled = std::max(filled, anchor.bend_radius + 2.0 * anchor.pocket_radius + layout.min_wall);
   return helical_solid::make_fan(helical_solid::SpiralCurve(helix.synthesis.sides[0].spiral, helix.pulley.p1),
                                  helical_solid::SpiralCurve(helix.synthesis.sides[1].spiral, helix.pulley.p2),
-                                 layout.groove_depth - half, half, k_helical_sagitta, filled);
+                                 layout.groove_depth - tendon_radius, tendon_radius, k_helical_sagitta, filled);
 }
 
 std::string run_out_array(const Product& product) {
@@ -53,11 +53,11 @@ std::string run_out_array(const Product& product) {
   return text + "];\n\n";
 }
 
-std::string rows_array(const char* name, const helical_solid::Winding& winding, double half) {
+std::string rows_array(const char* name, const helical_solid::Winding& winding, double tendon_radius) {
   std::string text = fmt::format("{} = [", name);
   for (std::size_t j = 0; j < winding.rows.size(); ++j) {
     const helical_solid::WindingRow& row = winding.rows[j];
-    const Vec2 floor = row.position - half * row.normal;
+    const Vec2 floor = row.position - tendon_radius * row.normal;
     text += (j == 0       ? "\n  "
              : j % 3 == 0 ? ",\n  "
                           : ", ") +
@@ -71,8 +71,8 @@ std::string groove_edges_text(const char* name, const helical_solid::Winding& wi
   return fmt::format("{} = [{}, {}];", name, decimal(winding.bulge_low), decimal(winding.bulge_high));
 }
 
-/// `made`: the fan that the part was cut from, which has the projections of its groove edges.
-std::string spiral_arrays(const helical_solid::Fan& fan, const helical_solid::Fan& made, double half) {
+/// `fan`: the coarse rows to write. `part_fan`: that of the written part, which has the projections of its groove edges.
+std::string spiral_arrays(const helical_solid::Fan& fan, const helical_solid::Fan& part_fan, double tendon_radius) {
   return "// The groove floors from end to end: x, y, direction of the outward normal, degrees, and the height "
          "of the tendon's\n// centre line there. A turn has as many rows as the fan has columns.\n" +
          fmt::format("columns = {};\n", fan.columns()) +
@@ -80,10 +80,10 @@ std::string spiral_arrays(const helical_solid::Fan& fan, const helical_solid::Fa
                      fan.p1.first_column, fan.p2.first_column) +
          fmt::format("filled1 = {};  // rows past P1's last end, with no groove\nfilled2 = {};  // before P2's first\n",
                      fan.p1.filled_back, fan.p2.filled_front) +
-         groove_edges_text("edge_bulges1", made.p1) +
+         groove_edges_text("edge_bulges1", part_fan.p1) +
          "  // initial projection of these rows' lower and upper groove edges\n" +
-         groove_edges_text("edge_bulges2", made.p2) + "\n" + rows_array("P1", fan.p1, half) +
-         rows_array("P2", fan.p2, half) + "\n";
+         groove_edges_text("edge_bulges2", part_fan.p2) + "\n" + rows_array("P1", fan.p1, tendon_radius) +
+         rows_array("P2", fan.p2, tendon_radius) + "\n";
 }
 
 /// The groove's dimensions can only be reduced, because the ribs between its turns must remain.

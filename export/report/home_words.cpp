@@ -8,7 +8,7 @@
 namespace fusee::formats {
 namespace {
 
-/// Place of the knot of tendon 2, in the frame of the mesh.
+/// Position of the knot of tendon 2 in the frame of the mesh, mm.
 std::optional<Vec2> knot_of_tendon2(const Product& product) {
   if (product.helix) {
     for (const helical_solid::HelicalAnchor& anchor : product.helix->pulley.anchors) {

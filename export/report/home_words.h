@@ -1,5 +1,5 @@
 /// \file
-/// Internal: what shows the home position of a pulley.
+/// Internal: how a person recognises the home position of a pulley.
 #pragma once
 
 #include <string>

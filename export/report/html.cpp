@@ -14,7 +14,7 @@ std::vector<std::string> titles_of(std::string_view table) {
   std::vector<std::string> titles;
   for (std::size_t at = table.find("<th"); at != std::string_view::npos; at = table.find("<th", at)) {
     at += 3;
-    if (table.substr(at, 3) == "ead") continue;
+    if (table.substr(at, 3) == "ead") continue;  // <thead>
     const std::size_t begin = table.find('>', at) + 1;
     titles.emplace_back(table.substr(begin, table.find("</th>", begin) - begin));
   }

@@ -36,7 +36,7 @@ std::string html_page(const Page& page);
 /// "" if the body is empty.
 std::string html_section(const std::string& id, const std::string& title, const std::string& body);
 
-/// A title that begins with '#' is of a column of numbers. `rows`: HTML.
+/// A title that begins with '#' heads a column of numbers. `rows`: HTML.
 std::string html_table(const std::vector<std::string>& titles, const std::string& rows);
 std::string html_cell(const std::string& words);
 std::string html_number_cell(const std::string& words);

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: how a mechanism file and the settings with which it was read are named in outputs.
+/// Internal: a mechanism file and its settings (--set) as outputs name them.
 #pragma once
 
 #include <string>

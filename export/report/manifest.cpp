@@ -141,7 +141,9 @@ Json print_json(const solid::Pulley& pulley) {
 /// The largest loads of the knots on the pulley.
 Json knots_json(const Product& product) {
   const solid::Holding& holding = product.holding;
-  const auto known = [](const std::optional<double>& value) { return value ? result_json(*value) : Json(nullptr); };
+  const auto number_or_null = [](const std::optional<double>& value) {
+    return value ? result_json(*value) : Json(nullptr);
+  };
   Json list = Json::array();
   for (const solid::KnotHold& knot : holding.knots) {
     list.push_back({{"tendon", knot.side == transmission::Side::left ? 1 : 2},
@@ -152,7 +154,7 @@ Json knots_json(const Product& product) {
                     {"strength_N", holding.strength ? result_json(holding.strength->tension) : Json(nullptr)},
                     {"strength_source", holding.strength ? Json(holding.strength->source) : Json(nullptr)},
                     {"efficiency", result_json(product.joint.mechanism.tendon.knot_efficiency)},
-                    {"share", known(holding.share(knot))}});
+                    {"share", number_or_null(holding.share(knot))}});
   }
   return list;
 }

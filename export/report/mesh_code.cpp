@@ -8,7 +8,7 @@
 namespace fusee::formats {
 namespace {
 
-constexpr double k_levels = 65535;
+constexpr double k_levels = 65535;  // steps along the longest side of the bounding box: 16 bits
 constexpr std::uint32_t k_unvisited = std::numeric_limits<std::uint32_t>::max();
 
 void put_varint(std::string& bytes, std::uint32_t value) {
@@ -34,7 +34,7 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-bool is_whole(const solid::TriangleMesh& mesh) {
+bool is_valid(const solid::TriangleMesh& mesh) {
   if (mesh.triangles.empty()) return false;
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t index : triangle) {
@@ -47,7 +47,7 @@ bool is_whole(const solid::TriangleMesh& mesh) {
 }  // namespace
 
 std::optional<MeshCode> encode_mesh(const solid::TriangleMesh& mesh) {
-  if (!is_whole(mesh)) return std::nullopt;
+  if (!is_valid(mesh)) return std::nullopt;
   MeshCode code;
   code.low = mesh.vertices[mesh.triangles[0][0]];
   Vec3 high = code.low;
@@ -63,7 +63,7 @@ std::optional<MeshCode> encode_mesh(const solid::TriangleMesh& mesh) {
   std::string bytes;
   std::vector<std::uint32_t> order_of(mesh.vertices.size(), k_unvisited);
   std::uint32_t newest = 0;
-  std::array<int, 3> before{0, 0, 0};
+  std::array<int, 3> previous{0, 0, 0};
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t index : triangle) {
       if (order_of[index] != k_unvisited) {
@@ -74,8 +74,8 @@ std::optional<MeshCode> encode_mesh(const solid::TriangleMesh& mesh) {
       put_varint(bytes, 0);
       for (int axis = 0; axis < 3; ++axis) {
         const int level = static_cast<int>(std::lround((mesh.vertices[index][axis] - code.low[axis]) / code.step));
-        put_varint(bytes, zigzag(level - before[axis]));
-        before[axis] = level;
+        put_varint(bytes, zigzag(level - previous[axis]));
+        previous[axis] = level;
       }
     }
   }

@@ -9,17 +9,17 @@
 
 namespace fusee::formats {
 
-/// Encodes every triangle of the mesh, in order. Positions are rounded to `step`, with an error of at most step/2 in
-/// each coordinate.
+/// Every triangle of a mesh, in order. Positions are rounded to `step`, with an error of at most step/2 in each
+/// coordinate.
 ///
-/// bytes: for each corner a varint `newest − index`, where `newest` is the number of vertices so far. 0 is a new
-/// vertex, followed by three zigzag varints: its coordinates minus those of the previous vertex, in steps.
+/// The encoded bytes have a varint `newest − index` for each corner, where `newest` is the number of vertices so far. 0
+/// is a new vertex, followed by three zigzag varints: its coordinates minus those of the previous vertex, in steps.
 struct MeshCode {
-  std::string base64;
+  std::string base64;  ///< the encoded bytes
   std::size_t vertices = 0;
   std::size_t triangles = 0;
-  Vec3 low{0, 0, 0};
-  double step = 0;  ///< mm
+  Vec3 low{0, 0, 0};  ///< corner of the bounding box from which steps count, mm
+  double step = 0;    ///< mm
 };
 
 /// Empty for a mesh that is empty or invalid (an index out of range, a number that is not finite).

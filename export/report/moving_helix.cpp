@@ -10,7 +10,7 @@
 namespace fusee::formats {
 namespace {
 
-// A drawing requires fewer rows than a part.
+// Least turn between drawn rows, because a drawing requires fewer rows than a part.
 constexpr double k_drawn_turn = radians(4.0);
 
 std::string number_text(double value, int decimals) {
@@ -27,11 +27,11 @@ std::string numbers_text(std::size_t count, int decimals, Number number) {
 /// x, y, height and turn of rows with a minimum spacing.
 std::string drawn_rows(const helix::Spiral& spiral, const helical_solid::SpiralPlace& place) {
   std::string text = "[";
-  double drawn = -1e9;
+  double drawn_turn = -1e9;
   for (std::size_t i = 0; i < spiral.rows.size(); ++i) {
     const helix::SpiralRow& row = spiral.rows[i];
-    if (row.turn - drawn < k_drawn_turn && i + 1 < spiral.rows.size()) continue;
-    drawn = row.turn;
+    if (row.turn - drawn_turn < k_drawn_turn && i + 1 < spiral.rows.size()) continue;
+    drawn_turn = row.turn;
     text += (text.size() > 1 ? ",[" : "[") + number_text(row.x, 3) + "," + number_text(row.y, 3) + "," +
             number_text(place.height(row.z), 3) + "," + number_text(row.turn, 4) + "]";
   }
@@ -43,7 +43,7 @@ std::string side_json(const Product& product, std::size_t i) {
   const helix::HelixSide& side = helix.synthesis.sides.at(i);
   const helical_solid::SpiralPlace& place = i == 0 ? helix.pulley.p1 : helix.pulley.p2;
   const std::vector<transmission::TransmissionPoint>& stroke = product.synthesis.stroke;
-  // Rise per mm in the direction of the joint. That distance is shorter than the path in the tendon's own plane.
+  // Rise per mm towards the joint (+y). The slope is per mm along the tendon in plan, |cos(normal)| of which is along y.
   const auto rise = [&](std::size_t k) {
     const transmission::TendonPoint& tendon = i == 0 ? stroke[k].t1 : stroke[k].t2;
     return -place.direction * elementary::tan(side.stroke[k].slope) / std::abs(elementary::cos(tendon.lower_normal));

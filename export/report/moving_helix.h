@@ -10,7 +10,7 @@
 namespace fusee::formats {
 
 /// HTML above the drawing.
-inline constexpr std::string_view k_helical_words =
+inline constexpr std::string_view k_moving_helix_words =
     "<p class=\"lead\">From the side, with the joint to the right, to scale: the turning pitch curves, the wound part "
     "of each tendon (thick), and both paths from the take-offs to the guides. The part above turns too.</p>";
 

@@ -34,7 +34,7 @@ std::string json_numbers(const std::string& name, const Items& items, int decima
 }
 
 template <typename Items, typename Text>
-std::string all_of(const Items& items, Text text_of) {
+std::string comma_separated(const Items& items, Text text_of) {
   std::string text;
   for (const auto& item : items) text += (text.empty() ? "" : ",") + text_of(item);
   return text;
@@ -53,11 +53,11 @@ bool has_equilibrium(const joint::EquilibriumPoint& point) {
 }
 
 /// The joint under its load, in one direction of the stroke.
-std::string json_way(const std::vector<analysis::StrokePoint>& loaded,
-                     joint::EquilibriumPoint analysis::StrokePoint::*way) {
+std::string json_direction(const std::vector<analysis::StrokePoint>& loaded,
+                           joint::EquilibriumPoint analysis::StrokePoint::*direction) {
   const auto numbers = [&](const std::string& key, int decimals, auto value) {
     return json_numbers(key, loaded, decimals, [&](const analysis::StrokePoint& point) {
-      return has_equilibrium(point.*way) ? value(point.*way) : std::nan("");
+      return has_equilibrium(point.*direction) ? value(point.*direction) : std::nan("");
     });
   };
   const auto tension = [&](const std::string& key, joint::TendonState joint::EquilibriumPoint::*tendon,
@@ -79,8 +79,8 @@ std::string json_strokes(const std::vector<correction::LoadedStroke>& strokes) {
   for (const bool rising : {true, false}) {
     text += rising ? ",\"rising\":[" : ",\"falling\":[";
     for (std::size_t i = 0; i < strokes.size(); ++i)
-      text += (i ? "," : "") +
-              json_way(strokes[i].points, rising ? &analysis::StrokePoint::rising : &analysis::StrokePoint::falling);
+      text += (i ? "," : "") + json_direction(strokes[i].points, rising ? &analysis::StrokePoint::rising
+                                                                        : &analysis::StrokePoint::falling);
     text += "]";
   }
   return text;
@@ -132,7 +132,7 @@ std::string json_ends(const Mechanism& mechanism) {
 std::string json_sheaths(const Mechanism& mechanism) {
   if (!mechanism.sheath.is_there()) return "";
   const auto points_of = [&mechanism](transmission::Side side) {
-    return all_of(sheath_curve(mechanism, side), json_point);
+    return comma_separated(sheath_curve(mechanism, side), json_point);
   };
   return "\"exits\":[" + json_point(sheath_exit(mechanism, transmission::Side::left)) + "," +
          json_point(sheath_exit(mechanism, transmission::Side::right)) + "],\"sheaths\":[[" +
@@ -156,7 +156,7 @@ std::string motion_json(const Mechanism& mechanism, const profile::SynthesisResu
          numbers("slope", 6, [](const transmission::TransmissionPoint& point) { return point.g; }) +
          numbers("r1", 4, [](const transmission::TransmissionPoint& point) { return point.t1.p; }) +
          numbers("r2", 4, [](const transmission::TransmissionPoint& point) { return point.t2.p; }) +
-         json_strokes(strokes) + ",\"effects\":[" + all_of(effects, json_effect) + "]}";
+         json_strokes(strokes) + ",\"effects\":[" + comma_separated(effects, json_effect) + "]}";
 }
 
 // Visible elements ----------------------------------------------------------------------------------------------------
@@ -203,19 +203,19 @@ std::string effect_controls(const correction::RehearsedEffect& effect, std::size
          "</div>";
 }
 
-std::string numbers_list(bool imperfect, const Joint& joint) {
+std::string numbers_list(bool has_effects, const Joint& joint) {
   return "<dl class=\"numbers\" hidden=\"hidden\">" + number_row("Joint angle θ, declared", "theta") +
-         number_row(imperfect ? "θ as the sensor shows it" : "θ under the load", "loaded") +
+         number_row(has_effects ? "θ as the sensor shows it" : "θ under the load", "loaded") +
          number_row("dθ/dα", "slope") + number_row("r1, r2", "radii") +
          number_row(joint.attachment1 ? "Tendon 1, at A1 / at P1" : "Tendon 1, at C / at P1", "tendon1") +
          number_row(joint.attachment2 ? "Tendon 2, at A2 / at P2" : "Tendon 2, at C / at P2", "tendon2") +
          number_row("Motor torque", "torque") + number_row("Turning", "way") +
-         (imperfect ? number_row("Deviation from the target motion", "off") : "") + "</dl>";
+         (has_effects ? number_row("Deviation from the target motion", "off") : "") + "</dl>";
 }
 
-std::string moving(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
-                   const std::vector<correction::LoadedStroke>& strokes,
-                   const std::vector<correction::RehearsedEffect>& effects) {
+std::string moving_html(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
+                        const std::vector<correction::LoadedStroke>& strokes,
+                        const std::vector<correction::RehearsedEffect>& effects) {
   std::string html = "<div class=\"moving\">" + alpha_controls(synthesis) + load_controls(strokes);
   for (std::size_t i = 0; i < effects.size(); ++i) html += effect_controls(effects[i], i);
   html += "<div class=\"scenes\">";
@@ -230,7 +230,7 @@ std::string moving(const Mechanism& mechanism, const profile::SynthesisResult& s
 std::string moving_joint(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
                          const std::vector<analysis::StrokePoint>& loaded) {
   if (synthesis.stroke.empty() || loaded.size() != synthesis.stroke.size() || synthesis.p1.points.size() < 3) return "";
-  return moving(mechanism, synthesis, {{mechanism.load.tip_force, loaded}}, {});
+  return moving_html(mechanism, synthesis, {{mechanism.load.tip_force, loaded}}, {});
 }
 
 namespace {
@@ -273,7 +273,7 @@ std::string_view joint_script(const Mechanism& mechanism) {
 
 std::string moving_joint(const correction::Rehearsal& rehearsal) {
   if (rehearsal.effects.empty()) return "";
-  return moving(rehearsal.mechanism, rehearsal.synthesis, rehearsal.strokes, rehearsal.effects);
+  return moving_html(rehearsal.mechanism, rehearsal.synthesis, rehearsal.strokes, rehearsal.effects);
 }
 
 }  // namespace fusee::formats

@@ -12,7 +12,7 @@ namespace {
 
 std::string two_digits(int number) { return (number < 10 ? "0" : "") + std::to_string(number); }
 
-Figure drawn(const paper::PaperFigure& figure) {
+Figure drawn_figure(const paper::PaperFigure& figure) {
   constexpr Ink inks[] = {Ink::main, Ink::p1, Ink::p2, Ink::third};
   Plot plot;
   plot.title = "Fig. " + std::to_string(figure.number) + ": " + figure.title;
@@ -96,7 +96,8 @@ std::string laws_csv(const paper::Reproduction& all) {
 }
 
 std::string mu_windows_text(const paper::MuWindow& window) {
-  return paper::windows_text({"mu", "", 0.01, 0.51, window.windows});
+  constexpr double k_searched_from = 0.01, k_searched_to = 0.51;  // as in paper/reproduction.cpp
+  return paper::windows_text({"mu", "", k_searched_from, k_searched_to, window.windows});
 }
 
 std::string mu_windows_csv(const paper::Reproduction& all) {
@@ -191,8 +192,8 @@ std::string manifest_of(const std::vector<OutputFile>& files) {
 
 std::string claim_windows_text(const paper::Claim& claim) {
   std::string text;
-  for (const paper::ParameterWindows& of : claim.windows)
-    text += (text.empty() ? "" : "; ") + of.parameter + " " + paper::windows_text(of);
+  for (const paper::ParameterWindows& parameter : claim.windows)
+    text += (text.empty() ? "" : "; ") + parameter.parameter + " " + paper::windows_text(parameter);
   return text.empty() ? "does not depend on assumed numbers" : text;
 }
 
@@ -206,7 +207,7 @@ std::vector<OutputFile> paper_files(const paper::Reproduction& reproduction) {
   std::vector<OutputFile> files;
   for (const paper::PaperFigure& figure : reproduction.figures) {
     const std::string name = "fig_" + two_digits(figure.number);
-    files.push_back({name + ".svg", standalone_svg(drawn(figure))});
+    files.push_back({name + ".svg", standalone_svg(drawn_figure(figure))});
     files.push_back({name + ".csv", figure_csv(figure)});
   }
   files.push_back({"table_4.csv", table_4_csv(reproduction)});

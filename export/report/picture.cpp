@@ -1,5 +1,5 @@
-// Declarations of the functions of librsvg and cairo that are called, as in their C interfaces (librsvg 2.46, cairo 1.2
-// and later).
+// PNG and PDF by librsvg and cairo. Their functions are declared here as in their C interfaces (librsvg 2.46, cairo 1.2
+// and later), because neither library is required to build.
 
 #include "export/report/picture.h"
 
@@ -109,13 +109,13 @@ std::string with_colours(std::string svg) {
 }  // namespace
 
 std::string png_of(const std::string& svg, double width, double height) {
-  constexpr double k_dots = 2;
-  return Renderer().png(with_colours(svg), k_dots * width, k_dots * height);
+  constexpr double k_dots_per_pixel = 2;
+  return Renderer().png(with_colours(svg), k_dots_per_pixel * width, k_dots_per_pixel * height);
 }
 
 std::string pdf_of(const std::string& svg, double width, double height) {
-  constexpr double k_points = 72.0 / 96.0;
-  return Renderer().pdf(with_colours(svg), k_points * width, k_points * height);
+  constexpr double k_points_per_pixel = 72.0 / 96.0;
+  return Renderer().pdf(with_colours(svg), k_points_per_pixel * width, k_points_per_pixel * height);
 }
 
 }  // namespace fusee::formats

@@ -11,6 +11,7 @@
 #include "fusee/base.h"
 #include "fusee/export.h"
 #include "fusee/measurement.h"
+#include "mechanism/effect.h"
 #include "transmission/load.h"
 
 namespace fusee::formats {
@@ -19,8 +20,8 @@ namespace {
 /// Enough for the shape of every stroke, and for a person who sets them one by one.
 constexpr int k_rows_a_stroke = 120;
 
-/// Four digits, for values with an uncertainty of some tens of percent.
-Json size(double value) { return std::isfinite(value) ? Json(std::stod(rounded(value, 4))) : Json(); }
+/// For values with an uncertainty of some tens of percent.
+Json four_digits_json(double value) { return std::isfinite(value) ? Json(std::stod(rounded(value, 4))) : Json(); }
 
 std::string_view word(plan::BenchChange change) {
   switch (change) {
@@ -71,10 +72,10 @@ Json steps_json(const plan::Plan& plan, const std::vector<plan::PlanStep>& steps
 
 Json cause_json(const plan::PlannedCause& cause) {
   return {{"name", cause.name},
-          {"usual_deg", size(degrees(cause.usual))},
-          {"smallest_deg", size(degrees(cause.smallest))},
-          {"smallest_alone_deg", cause.smallest_alone ? size(degrees(*cause.smallest_alone)) : Json()},
-          {"smallest", {{"key", "identified." + cause.key}, {"value", size(cause.smallest_key)}}},
+          {"usual_deg", four_digits_json(degrees(cause.usual))},
+          {"smallest_deg", four_digits_json(degrees(cause.smallest))},
+          {"smallest_alone_deg", cause.smallest_alone ? four_digits_json(degrees(*cause.smallest_alone)) : Json()},
+          {"smallest", {{"key", "identified." + cause.key}, {"value", four_digits_json(cause.smallest_key)}}},
           {"confounded_with", cause.rivals}};
 }
 
@@ -85,7 +86,7 @@ Json false_positives_json(const plan::FalsePositives& rates) {
           {"named_in_group", rates.group}};
 }
 
-std::string comments(const PlanProduct& product, std::size_t step) {
+std::string comment_lines(const PlanProduct& product, std::size_t step) {
   const plan::PlannedRun& run = *product.plan.steps[step].run;
   std::string text = "# " + product.file.mechanism.name + ", " + run_file_name(product.plan, step) + ": " +
                      product.plan.steps[step].words + "\n";
@@ -119,7 +120,7 @@ std::string hanging_words(const PlanProduct& product, const plan::PlannedRun& ru
 std::string run_csv(const PlanProduct& product, std::size_t step) {
   const joint::BenchRun driven = fusee::plan::driven(*product.plan.steps[step].run, k_rows_a_stroke);
   const joint::Mounting& mounting = driven.mounting;
-  std::string table = comments(product, step) + "time_s,alpha_deg,load_N,theta_deg";
+  std::string table = comment_lines(product, step) + "time_s,alpha_deg,load_N,theta_deg";
   if (mounting.motor_sensor_turned != 0) table += "," + std::string(measurement::k_motor_sensor_turned) + "_deg";
   if (mounting.joint_sensor_turned != 0) table += "," + std::string(measurement::k_joint_sensor_turned) + "_deg";
   table += "\n";

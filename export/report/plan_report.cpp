@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/text.h"
+#include "export/report/calibration_words.h"
 #include "export/report/html.h"
 #include "export/report/input_json.h"
 #include "export/report/report_parts.h"
@@ -22,22 +23,11 @@ const char* const k_all_runs = "run_*.csv";
 std::string size_words(double angle) { return with_unit(degrees(angle), "deg", 2); }
 std::string minutes_words(double minutes) { return fixed(minutes, 1) + " min"; }
 
-std::string open_name(std::string name) {
-  for (char& c : name) c = c == '_' ? ' ' : c;
-  return name;
-}
-
-/// Keys of the file keep their names.
+/// Underscores become spaces in the names of causes only: a step's own words may contain a key of the file.
 std::vector<std::string> more_items(const std::vector<plan::PlanStep>& steps) {
   std::vector<std::string> items;
-  for (const plan::PlanStep& step : steps) items.push_back(minute_words(step, open_name(gain_words(step))));
+  for (const plan::PlanStep& step : steps) items.push_back(minute_words(step, open_words(gain_words(step))));
   return items;
-}
-
-std::string names_of(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + open_name(name);
-  return text;
 }
 
 /// Instructions for a run, in order.
@@ -69,7 +59,7 @@ std::string step_item(const PlanProduct& product, std::size_t i) {
         "class=\"value\">&#160;</span> <span class=\"value\">&#160;</span></p>";
   }
   const bool is_inspection = !step.run && step.reading == nullptr;
-  if (!is_inspection) html += "<p class=\"tells\">" + safe_text(open_name(gain_words(step))) + "</p>";
+  if (!is_inspection) html += "<p class=\"tells\">" + safe_text(open_words(gain_words(step))) + "</p>";
   return html + "</div><div class=\"when\">" + safe_text(minutes_words(step.minutes)) + " <br/>by " +
          safe_text(minutes_words(step.end_minute)) + "</div></li>";
 }
@@ -92,22 +82,23 @@ std::string steps_section(const PlanProduct& product) {
 /// `runs`: the arguments of the command.
 std::string after_section(const PlanProduct& product, const std::string& runs) {
   const std::string spec = std::filesystem::path(product.file.path).filename().string();
-  const bool reads = std::any_of(product.plan.steps.begin(), product.plan.steps.end(),
-                                 [](const plan::PlanStep& step) { return step.reading != nullptr; });
+  const bool has_readings = std::any_of(product.plan.steps.begin(), product.plan.steps.end(),
+                                        [](const plan::PlanStep& step) { return step.reading != nullptr; });
   return html_section(
       "after", "Then",
-      (reads ? std::string("<p>Write what was read by hand into <code>[prior]</code> of the file, and</p>") : "") +
+      (has_readings ? std::string("<p>Write what was read by hand into <code>[prior]</code> of the file, and</p>")
+                    : "") +
           "<p><code>fusee calibrate " + safe_text(spec + " " + runs) + "</code></p>");
 }
 
 std::string causes_section(const plan::Plan& plan) {
   std::string rows;
   for (const plan::PlannedCause& cause : plan.causes) {
-    rows += "<tr><td>" + safe_text(open_name(cause.name)) + "</td><td class=\"number\">" +
+    rows += "<tr><td>" + safe_text(open_words(cause.name)) + "</td><td class=\"number\">" +
             safe_text(size_words(cause.usual)) + "</td><td class=\"number\">" + safe_text(size_words(cause.smallest)) +
             "</td><td class=\"number\">" +
             safe_text(cause.smallest_alone ? size_words(*cause.smallest_alone) : std::string("–")) + "</td><td>" +
-            safe_text(names_of(cause.rivals)) + "</td></tr>";
+            safe_text(open_words(joined(cause.rivals, ", "))) + "</td></tr>";
   }
   return html_section(
       "causes", "What these runs can show",
@@ -123,7 +114,7 @@ std::string causes_section(const plan::Plan& plan) {
 std::string left_out_section(const plan::Plan& plan) {
   if (plan.left_out.empty()) return "";
   std::vector<std::string> lines;
-  for (const auto& [name, why] : plan.left_out) lines.push_back(open_name(name) + ": " + why);
+  for (const auto& [name, why] : plan.left_out) lines.push_back(open_words(name) + ": " + why);
   return html_section("left_out", "Not planned for", html_list(lines));
 }
 

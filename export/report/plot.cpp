@@ -82,12 +82,13 @@ Frame make_frame(const Plot& plot, double extra_height) {
   frame.y = {frame.y_ticks.front(), frame.y_ticks.back()};
   frame.x_ticks = nice_ticks(frame.x.low, frame.x.high, static_cast<int>(plot.width / k_tick_pitch), plot.x.unit);
   // The stroke fills the width, because ticks beyond its ends would only add empty space.
-  const double slop = 1e-9 * frame.x.span();
-  std::erase_if(frame.x_ticks, [&](double t) { return t < frame.x.low - slop || t > frame.x.high + slop; });
+  const double tolerance = 1e-9 * frame.x.span();
+  std::erase_if(frame.x_ticks, [&](double t) { return t < frame.x.low - tolerance || t > frame.x.high + tolerance; });
   double label_width = 0;
   for (const double tick : frame.y_ticks) {
     label_width = std::max(label_width, words_width(tick_label(tick, step_of(frame.y_ticks)), k_small_font));
   }
+  // Margins: name of y and its labels to the left, title and legend above, labels and name of x below.
   frame.left = 34 + label_width;
   frame.top = 58 + extra_height;
   frame.width = plot.width - frame.left - 14;
@@ -147,7 +148,8 @@ struct Header {
   double extra_height = 0;  ///< beyond one line each
 };
 
-constexpr double k_line = 18;
+constexpr double k_line_height = 18;
+constexpr double k_title_baseline = 17, k_legend_baseline = 42;  // of their first lines
 
 std::vector<std::string> wrapped_title(const std::string& title, double width) {
   constexpr double k_heading_font = 14.5;  // semibold
@@ -166,13 +168,13 @@ std::vector<std::string> wrapped_title(const std::string& title, double width) {
 
 Header make_header(const Plot& plot) {
   Header header;
-  double y = 17;
+  double y = k_title_baseline;
   for (const std::string& line : wrapped_title(plot.title, plot.width)) {
     header.svg += svg_words("heading", {2, y}, line);
-    y += k_line;
+    y += k_line_height;
   }
-  header.extra_height = y - 17 - k_line;
-  y = 42 + header.extra_height;
+  header.extra_height = y - k_title_baseline - k_line_height;
+  y = k_legend_baseline + header.extra_height;
   const auto named =
       std::count_if(plot.series.begin(), plot.series.end(), [](const auto& s) { return !s.name.empty(); });
   double x = 2;
@@ -181,8 +183,8 @@ Header make_header(const Plot& plot) {
     const double width = 32 + words_width(series.name, k_small_font);
     if (x > 2 && x + width > plot.width) {
       x = 2;
-      y += k_line;
-      header.extra_height += k_line;
+      y += k_line_height;
+      header.extra_height += k_line_height;
     }
     header.svg += svg_line(series_classes(series), {x, y - 4}, {x + 26, y - 4});
     header.svg += svg_words("small", {x + 32, y}, series.name);
@@ -191,7 +193,7 @@ Header make_header(const Plot& plot) {
   return header;
 }
 
-/// Lines end at the frame if the axis has a forced end: SVG clips them by `clip`.
+/// A curve is broken where it leaves the frame above or below, as it may if the axis has a forced end.
 std::string curves(const Plot& plot, const Frame& frame) {
   std::string svg;
   for (const PlotSeries& series : plot.series) {
@@ -310,10 +312,10 @@ Figure laid_out(Plot plot) {
   const Header header = make_header(plot);
   plot.height += header.extra_height;
   Frame frame = make_frame(plot, header.extra_height);
-  // A name longer than its axis would run into the legend.
-  const double name = words_width(axis_words(plot.y), k_small_font) + 6;
-  if (frame.height < name) {
-    plot.height += name - frame.height;
+  // A name of y longer than its axis would run into the legend.
+  const double name_length = words_width(axis_words(plot.y), k_small_font) + 6;
+  if (frame.height < name_length) {
+    plot.height += name_length - frame.height;
     frame = make_frame(plot, header.extra_height);
   }
   Figure figure{plot.width, plot.height, plot.title, {}, readout_attributes(plot, frame)};

@@ -21,7 +21,7 @@ enum class Ink { main, p1, p2, third };
 struct PlotAxis {
   std::string label;          ///< "pulley angle α"
   std::string unit;           ///< "mm", "°" … or "" for a dimensionless number
-  std::optional<double> low;  ///< force the end of the axis
+  std::optional<double> low;  ///< end of the axis; empty: the data's
   std::optional<double> high;
   double least_span = 0;  ///< least span of the axis, so that rounding noise is not magnified
 };
@@ -30,7 +30,7 @@ struct PlotSeries {
   std::string name;  ///< "": no legend and no read-out
   Ink ink = Ink::main;
   std::vector<Vec2> points;  ///< a point that is not finite breaks the line
-  bool thin = false;         ///< secondary
+  bool thin = false;         ///< a thinner line, for a secondary curve
 };
 
 /// A horizontal line for a limit, with its label at the right end.
@@ -62,7 +62,7 @@ Figure plot_figure(const Plot& plot);
 /// Evenly spaced round numbers, the first <= low and the last >= high; about `count` of them. Steps are 1, 2, 5 × 10^k,
 /// and for `unit` "°" also 15, 30, 45, 90. Requires finite low < high.
 std::vector<double> nice_ticks(double low, double high, int count, const std::string& unit = {});
-/// The minimax line of the points and its deviation: y − (offset + slope x) <= deviation.
+/// The minimax line of the points and its deviation: |y − (offset + slope x)| <= deviation.
 struct BestLine {
   double slope = 0;
   double offset = 0;

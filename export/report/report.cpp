@@ -66,12 +66,12 @@ std::string verdict_words(const Product& product) {
   const std::string count = std::to_string(product.checks.size());
   if (product.checks.empty()) return "Nothing was checked on this part.";
   if (failed.empty()) {
-    const bool paper = product.joint.mechanism.pulley.method == Method::paper;
-    return std::string(paper ? "Made by the paper’s drawing: " : "Checked: ") +
+    const bool is_paper_method = product.joint.mechanism.pulley.method == Method::paper;
+    return std::string(is_paper_method ? "Made by the paper’s drawing: " : "Checked: ") +
            "the pulley as built follows θ(α) within " + with_unit(degrees(product.as_built.max_theta_error), "deg") +
            limit_words(find_check(product, "theta_error")) + " and the tendons’ excess length stays within " +
            with_unit(product.as_built.max_excess, "mm") + limit_words(find_check(product, "excess_length")) +
-           (paper ? " (reported, not judged)" : "") + ". All " + count + " checks hold." +
+           (is_paper_method ? " (reported, not judged)" : "") + ". All " + count + " checks hold." +
            under_load_sentences(product.under_load, product.joint.mechanism);
   }
   return "Do not build it unchanged: " + std::to_string(failed.size()) + " of " + count + " checks failed. " +
@@ -106,6 +106,7 @@ std::string warnings(const Product& product) {
 
 // Key numbers ---------------------------------------------------------------------------------------------------------
 
+/// Range of a quantity over the stroke. NaN is the initial value, which fmin and fmax ignore.
 struct StrokeRange {
   double low = std::numeric_limits<double>::quiet_NaN();
   double high = low;
@@ -248,6 +249,7 @@ GrooveBand groove_band(const Product& product, transmission::Side which) {
   const bool left = which == transmission::Side::left;
   const solid::BodyLayout& layout = product.pulley.layout;
   const solid::GrooveWalls& walls = left ? layout.p1 : layout.p2;
+  // Slightly narrower than the groove, so that the flanges stay untinted.
   const double half = 0.98 * std::min(walls.below_width(), walls.above_width());
   if (!product.helix) return {left ? layout.z_p1 : layout.z_p2, half};
   const helical_solid::SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
@@ -256,8 +258,9 @@ GrooveBand groove_band(const Product& product, transmission::Side which) {
   return {0.5 * (first + last), 0.5 * std::abs(last - first) + half};
 }
 
-/// Text for tinting a groove, with the least radius of the tint.
-std::string groove_words(const Product& product, transmission::Side which) {
+/// The tinted region of a groove for viewer.js: height of its middle, half height, least radius (mm). The bore, within
+/// that radius, stays untinted.
+std::string tint_words(const Product& product, transmission::Side which) {
   const solid::BodyLayout& layout = product.pulley.layout;
   const GrooveBand band = groove_band(product, which);
   return vector_words(layout.scale * Vec3(band.middle, band.half, 1.1 * layout.bore.radius));
@@ -269,8 +272,8 @@ std::string part_view(const Product& product) {
   std::string html =
       "<div class=\"stage\"><canvas tabindex=\"0\" aria-label=\"The pulley in three dimensions\" data-low=\"" +
       vector_words(code->low) + "\" data-step=\"" + shortest(code->step) + "\" data-triangles=\"" +
-      std::to_string(code->triangles) + "\" data-groove1=\"" + groove_words(product, transmission::Side::left) +
-      "\" data-groove2=\"" + groove_words(product, transmission::Side::right) + "\"></canvas>";
+      std::to_string(code->triangles) + "\" data-groove1=\"" + tint_words(product, transmission::Side::left) +
+      "\" data-groove2=\"" + tint_words(product, transmission::Side::right) + "\"></canvas>";
   html +=
       "<div class=\"buttons\" hidden=\"hidden\"><button data-view=\"isometric\">Isometric</button><button "
       "data-view=\"top\">Top</button>"
@@ -306,8 +309,8 @@ std::vector<Pose> poses(const Product& product) {
   return result;
 }
 
-/// Text for the tendons' ends and their path to the pulley.
-std::string way_words(const Mechanism& mechanism) {
+/// Text for the path of both tendons from their ends to the pulley.
+std::string tendon_path_words(const Mechanism& mechanism) {
   if (mechanism.is_papers()) return "from C over the pin to the pulley";
   std::string words = mechanism.joint.is_plain() ? "from C" : "from their ends on the link";
   if (mechanism.joint.drum_radius > 0) words += ", on its drum as far as they touch it,";
@@ -317,7 +320,8 @@ std::string way_words(const Mechanism& mechanism) {
 }
 
 std::string mechanism_words(const Mechanism& mechanism) {
-  return "<p class=\"lead\">To scale. Both tendons run on their true path at the centre line: " + way_words(mechanism) +
+  return "<p class=\"lead\">To scale. Both tendons run on their true path at the centre line: " +
+         tendon_path_words(mechanism) +
          ", and along the groove to their anchor.\nThe pulleys are shown by their pitch curves; the dash-dotted ray "
          "points to home.</p>\n<p class=\"key\"><span class=\"swatch p1\">tendon 1, pulley P1</span><span "
          "class=\"swatch p2\">tendon 2, pulley P2</span><span class=\"swatch dot\">take-off point</span></p>\n";
@@ -326,8 +330,8 @@ std::string mechanism_words(const Mechanism& mechanism) {
 /// "C → pin B → P1".
 std::string path_words(const Mechanism& mechanism, transmission::Side side) {
   const bool left = side == transmission::Side::left;
-  const bool own = (left ? mechanism.joint.attachment1 : mechanism.joint.attachment2).has_value();
-  std::string words = !own ? "C" : left ? "A1" : "A2";
+  const bool has_attachment = (left ? mechanism.joint.attachment1 : mechanism.joint.attachment2).has_value();
+  std::string words = !has_attachment ? "C" : left ? "A1" : "A2";
   if (mechanism.joint.drum_radius > 0) words += " → drum";
   words += mechanism.guides.kind == GuideKind::idler ? " → idler " : " → pin ";
   words += left ? "B" : "D";
@@ -349,7 +353,7 @@ std::string mechanism_panels(const Product& product) {
 
 std::string moving_section(const Product& product) {
   if (product.helix)
-    return "<section id=\"moving\"><h2>The tendons in motion</h2>" + std::string(k_helical_words) +
+    return "<section id=\"moving\"><h2>The tendons in motion</h2>" + std::string(k_moving_helix_words) +
            moving_helix(product) + "</section>";
   const std::string joint = moving_joint(product.joint.mechanism, product.synthesis, product.holding.loaded);
   if (joint.empty()) return "";
@@ -475,7 +479,7 @@ std::string polyhole_words(const solid::BoreLayout& bore) {
 }
 
 /// Instructions for routing a tendon from its pulley to its end.
-std::string lead_words(const Mechanism& mechanism) {
+std::string routing_words(const Mechanism& mechanism) {
   const std::string pin = mechanism.guides.kind == GuideKind::idler ? "idler " : "pin ";
   const std::string over = mechanism.sheath.is_there() ? "through its sheath, over the " : "up over the ";
   std::string to = " to C";
@@ -502,7 +506,7 @@ std::vector<std::string> steps(const Product& product) {
   } else
     items.push_back(
         "Hold the joint at home. Knot tendon 1 into P1’s anchor, lay it into the lower groove and lead it " +
-        lead_words(product.joint.mechanism));
+        routing_words(product.joint.mechanism));
   items.push_back("Tighten both until tendon 1 carries " + with_unit(product.joint.mechanism.tendon.pretension, "N") +
                   " at home, then turn the pulley over the whole stroke: neither may go slack.");
   return items;

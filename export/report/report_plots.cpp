@@ -93,8 +93,8 @@ PlotSeries curvature_series(const profile::Outline& outline, bool active) {
 std::optional<double> highest_shown(std::vector<double> radii) {
   if (radii.empty()) return std::nullopt;
   std::sort(radii.begin(), radii.end());
-  const double usual = radii[radii.size() * 9 / 10];
-  return std::min(1.6 * radii.back(), 3 * usual);
+  const double ninth_decile = radii[radii.size() * 9 / 10];
+  return std::min(1.6 * radii.back(), 3 * ninth_decile);
 }
 
 Plot curvature_plot(const Product& product) {
@@ -176,7 +176,7 @@ namespace {
 
 const PlotAxis k_theta_axis{"joint angle θ", "°", {}, {}, 1e-6};
 
-std::vector<Vec2> wanted_torque(const Mechanism& mechanism) {
+std::vector<Vec2> target_torque(const Mechanism& mechanism) {
   std::vector<Vec2> points;
   for (const TorqueRow& row : mechanism.pulley.torque_rows) points.emplace_back(degrees(row.theta), row.torque);
   if (points.empty()) {
@@ -186,17 +186,17 @@ std::vector<Vec2> wanted_torque(const Mechanism& mechanism) {
   return points;
 }
 
-/// The torque that balances the load on the pulley as wound: load · dθ/dα, by differences of the wound angles over some
-/// degrees. Over less, the corners of facets, some 0.001° high, would dominate.
+/// The torque that balances the load on the pulley as wound: load · dθ/dα, by differences of the wound angles over
+/// k_half_width on both sides. Over less, the corners of facets, some 0.001° high, would dominate.
 std::vector<Vec2> torque_as_wound(const Product& product) {
   const std::vector<profile::RewindPoint>& wound = product.as_built.points;
-  constexpr double k_over = radians(4);
+  constexpr double k_half_width = radians(4);
   std::vector<Vec2> points;
   for (std::size_t i = 0, first = 0, last = 0; i < wound.size(); ++i) {
-    while (last < wound.size() && wound[last].alpha < wound[i].alpha + k_over) ++last;
-    while (wound[first].alpha < wound[i].alpha - k_over) ++first;
+    while (last < wound.size() && wound[last].alpha < wound[i].alpha + k_half_width) ++last;
+    while (wound[first].alpha < wound[i].alpha - k_half_width) ++first;
     if (last == wound.size()) break;
-    if (wound[i].alpha - wound.front().alpha < k_over) continue;
+    if (wound[i].alpha - wound.front().alpha < k_half_width) continue;
     const double slope = (wound[last].theta - wound[first].theta) / (wound[last].alpha - wound[first].alpha);
     const double theta = 0.5 * (wound[last].theta + wound[first].theta);
     points.emplace_back(degrees(theta), transmission::law_load_torque(product.joint.mechanism, theta).value * slope);
@@ -206,8 +206,8 @@ std::vector<Vec2> torque_as_wound(const Product& product) {
 
 std::vector<Vec2> torque_with_friction(const Product& product, bool rising) {
   std::vector<Vec2> points;
-  for (const analysis::StrokePoint& at : product.holding.loaded) {
-    const joint::EquilibriumPoint& point = rising ? at.rising : at.falling;
+  for (const analysis::StrokePoint& both : product.holding.loaded) {
+    const joint::EquilibriumPoint& point = rising ? both.rising : both.falling;
     const bool held = point.status == joint::EquilibriumStatus::held;
     points.emplace_back(degrees(point.theta), held ? point.motor_torque : k_gap);
   }
@@ -216,7 +216,7 @@ std::vector<Vec2> torque_with_friction(const Product& product, bool rising) {
 
 Plot motor_plot(const Product& product) {
   Plot plot{"Motor torque that holds the load", k_theta_axis, {"torque towards +α", "N·mm", {}, {}, 1}, {}, {}, {}};
-  plot.series = {{"wanted", Ink::third, wanted_torque(product.joint.mechanism)},
+  plot.series = {{"wanted", Ink::third, target_torque(product.joint.mechanism)},
                  {"no friction", Ink::main, torque_as_wound(product)}};
   if (!product.holding.loaded.empty()) {
     plot.series.push_back({"α growing", Ink::p1, torque_with_friction(product, true), true});
@@ -229,8 +229,8 @@ Plot load_plot(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const auto over_theta = [&](auto value) {
     std::vector<Vec2> points;
-    for (const transmission::TransmissionPoint& at : product.synthesis.stroke)
-      points.emplace_back(degrees(at.theta), value(at.theta));
+    for (const transmission::TransmissionPoint& point : product.synthesis.stroke)
+      points.emplace_back(degrees(point.theta), value(point.theta));
     return points;
   };
   const auto spring = [&](double theta) { return mechanism.spring.torque(theta); };
@@ -259,14 +259,14 @@ std::vector<Plot> force_plots(const Product& product) {
     return over_alpha(product.synthesis,
                       [&](const auto& p) { return value(transmission::paper_forces(mechanism, p)); });
   };
-  const std::string below = mechanism.sheath.is_there()                 ? "Tb, behind the sheath"
-                            : mechanism.guides.kind == GuideKind::idler ? "Tb, below the idler"
-                                                                        : "Tb, below the pin";
+  const std::string lower_name = mechanism.sheath.is_there()                 ? "Tb, behind the sheath"
+                                 : mechanism.guides.kind == GuideKind::idler ? "Tb, below the idler"
+                                                                             : "Tb, below the pin";
   Plot tension{"Tension of tendon 2 under the tip force", k_alpha_axis, {"tension", "N", 0.0, {}, 0.1}, {}, {}, {}};
   tension.series = {
       {mechanism.guides.kind == GuideKind::idler ? "T2, above the idler" : "T2, above the pin", Ink::p2,
        force([](const transmission::PaperForces& f) { return f.T2; })},
-      {below + " (with friction)", Ink::main, force([](const transmission::PaperForces& f) { return f.Tb; })}};
+      {lower_name + " (with friction)", Ink::main, force([](const transmission::PaperForces& f) { return f.Tb; })}};
   Plot stretch{"Joint angle lost by stretch", k_alpha_axis, {"Δθ", "°", {}, {}, 1e-3}, {}, {}, {}};
   stretch.series = {{"Δθ", Ink::p2, force([](const transmission::PaperForces& f) { return degrees(f.theta_error); })}};
   return {tension, stretch};

@@ -25,7 +25,7 @@ using namespace scad;
 namespace {
 
 // OpenSCAD's exact arithmetic takes about a millisecond per point. There are fewer points than in the mesh, with edges
-// within this distance of the curve.
+// within this distance of the curve, mm.
 constexpr double k_sagitta = 0.015;
 constexpr double k_widest_turn = radians(4);
 
@@ -49,7 +49,8 @@ std::vector<std::size_t> kept_points(const profile::Outline& p1, const profile::
     const double turn = p1.points[to].psi - p1.points[from].psi;
     const double chord = std::max((p1.points[to].position - p1.points[from].position).norm(),
                                   (p2.points[to].position - p2.points[from].position).norm());
-    return turn > k_widest_turn || chord * turn / 8 > k_sagitta;
+    const double sagitta = chord * turn / 8;  // of a circular arc with a small turn
+    return turn > k_widest_turn || sagitta > k_sagitta;
   };
   std::vector<std::size_t> kept{0};
   for (std::size_t i = 1; i < n; ++i) {
@@ -59,9 +60,9 @@ std::vector<std::size_t> kept_points(const profile::Outline& p1, const profile::
   return kept;
 }
 
-std::string floor_array(const char* name, const profile::Outline& outline, double d,
+std::string floor_array(const char* name, const profile::Outline& outline, double tendon_diameter,
                         const std::vector<std::size_t>& kept) {
-  const Polygon floor = profile::parallel(outline, -0.5 * d);
+  const Polygon floor = profile::parallel(outline, -0.5 * tendon_diameter);
   std::string text = fmt::format("{} = [", name);
   for (std::size_t k = 0; k < kept.size(); ++k) {
     const Vec2& p = floor[kept[k]];
@@ -73,7 +74,7 @@ std::string floor_array(const char* name, const profile::Outline& outline, doubl
   return text + "];\n";
 }
 
-/// Margins of the flanges outside the groove edges, which body.h chooses.
+/// Margins of the flanges outside the groove edges, mm. solid/body.h chooses them.
 struct RimMargins {
   double lower = 0, middle = 0, upper = 0;
 };
@@ -83,9 +84,11 @@ RimMargins rim_margins(const solid::FlangeRims& rims, const profile::Outline& p1
   const double r1 = circumradius(rims.groove_edge1), r2 = circumradius(rims.groove_edge2);
   if (kind == Flange::round)
     return {circumradius(rims.lower) - r1, circumradius(rims.middle) - std::max(r1, r2), circumradius(rims.upper) - r2};
+  // The program draws the middle flange around the smooth maximum of both support functions, as around_both() in
+  // solid/body.cpp does. Its margin is what the rim has beyond that, in the direction of the first normal.
   const Vec2& n = p1.points[0].normal;
   const double h1 = p1.points[0].position.dot(n), h2 = p2.points[0].position.dot(n);
-  const double blend = 0.5;
+  const double blend = 0.5;  // as in pulley.scad and solid/body.cpp, mm
   const double around =
       std::max(h1, h2) + blend * elementary::log1p(elementary::exp(-std::abs(h1 - h2) / blend)) + groove_edge;
   return {0, rims.middle[0].dot(n) - around, 0};
@@ -243,11 +246,12 @@ std::string tie_off_arrays(const Product& product) {
 
 std::string floor_arrays(const Product& product, const solid::FlangeRims& rims) {
   const profile::SynthesisResult& synthesis = product.synthesis;
-  const double d = product.joint.mechanism.tendon.diameter;
+  const double tendon_diameter = product.joint.mechanism.tendon.diameter;
   const std::vector<std::size_t> kept = kept_points(synthesis.p1, synthesis.p2, rims);
   return "// The groove floors: x, y, and direction of the outward normal, degrees. Point i of both has the same "
          "normal.\n" +
-         floor_array("P1", synthesis.p1, d, kept) + floor_array("P2", synthesis.p2, d, kept);
+         floor_array("P1", synthesis.p1, tendon_diameter, kept) +
+         floor_array("P2", synthesis.p2, tendon_diameter, kept);
 }
 
 }  // namespace

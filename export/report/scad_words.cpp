@@ -81,10 +81,10 @@ const char* name_of(Groove groove) { return groove == Groove::u ? "u" : groove =
 // finer than any manufacture.
 std::string slider_text(const Slider& slider) {
   const double value = std::round(slider.value * 1000) / 1000;
-  const auto between = [&](double step) { return std::abs(std::remainder(value - slider.low, step)) > 1e-9; };
+  const auto is_between_steps = [&](double step) { return std::abs(std::remainder(value - slider.low, step)) > 1e-9; };
   double step = slider.step;
   for (const double finer : {0.01, 0.001}) {
-    if (between(step)) step = finer;
+    if (is_between_steps(step)) step = finer;
   }
   return fmt::format("// {}\n{} = {}; // [{}:{}:{}]\n", slider.words, slider.name, decimal(value),
                      decimal(std::min(slider.low, value)), decimal(step),
@@ -172,20 +172,20 @@ std::string bore_numbers(const solid::BoreLayout& bore, double compensation) {
   return text + fmt::format("horn_holes = [{}];  // of its screws: x, y, diameter\n", fmt::join(holes, ", "));
 }
 
-// Lines that begin with a mark say which turns the following lines are for. Those of "both" come first.
+// A line that begins with the mark states which turns the following lines are for. Lines before the first are for both.
 std::string program_for(std::string_view turns) {
   constexpr std::string_view k_mark = "//= ";
   std::string program;
   std::string_view rest = embedded::pulley_scad;
-  bool is_ours = true;
+  bool is_for_turns = true;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find('\n'), rest.size() - 1) + 1;
     const std::string_view line = rest.substr(0, end);
     rest.remove_prefix(end);
     if (line.starts_with(k_mark)) {
-      const std::string_view whose = line.substr(k_mark.size(), line.size() - k_mark.size() - 1);
-      is_ours = whose == "both" || whose == turns;
-    } else if (is_ours) {
+      const std::string_view section_turns = line.substr(k_mark.size(), line.size() - k_mark.size() - 1);
+      is_for_turns = section_turns == "both" || section_turns == turns;
+    } else if (is_for_turns) {
       program += line;
     }
   }

@@ -1,3 +1,5 @@
+// The table of `fusee simulate`: one row for each row of the log.
+
 #include <functional>
 
 #include "base/text.h"
@@ -8,12 +10,12 @@
 namespace fusee::formats {
 namespace {
 
-using OfRow = std::function<double(const measurement::Sample& row, const joint::JointState& state)>;
+using RowValue = std::function<double(const measurement::Sample& row, const joint::JointState& state)>;
 
-std::vector<double> values(const Simulation& simulation, const OfRow& of_row) {
+std::vector<double> values(const Simulation& simulation, const RowValue& row_value) {
   std::vector<double> all;
   const std::vector<measurement::Sample>& rows = simulation.log.runs.front().samples;
-  for (std::size_t i = 0; i < rows.size(); ++i) all.push_back(of_row(rows[i], simulation.states[i]));
+  for (std::size_t i = 0; i < rows.size(); ++i) all.push_back(row_value(rows[i], simulation.states[i]));
   return all;
 }
 
@@ -36,8 +38,8 @@ std::vector<SimulationColumn> simulation_columns(const Simulation& simulation) {
   const Mechanism& declared = simulation.file.mechanism;
   const std::string& unit = simulation.log.load_unit;
   std::vector<SimulationColumn> columns;
-  const auto add = [&](const std::string& name, const OfRow& of_row) {
-    columns.push_back({name, values(simulation, of_row)});
+  const auto add = [&](const std::string& name, const RowValue& row_value) {
+    columns.push_back({name, values(simulation, row_value)});
   };
   if (run.has_time) add("time_s", [](const measurement::Sample& row, const joint::JointState&) { return row.time; });
   add("alpha_deg", [](const measurement::Sample& row, const joint::JointState&) { return degrees(row.alpha); });
@@ -49,22 +51,22 @@ std::vector<SimulationColumn> simulation_columns(const Simulation& simulation) {
     add("load_N", [&](const measurement::Sample&, const joint::JointState&) { return declared.load.tip_force; });
   }
   if (!declared.transmission) {
-    const auto held = [](const joint::JointState& state) {
+    const auto has_equilibrium = [](const joint::JointState& state) {
       return state.status != joint::EquilibriumStatus::no_equilibrium;
     };
-    const auto known = [held](double value, const joint::JointState& state) {
-      return held(state) ? value : std::nan("");
+    const auto or_nan = [has_equilibrium](double value, const joint::JointState& state) {
+      return has_equilibrium(state) ? value : std::nan("");
     };
     add("tension1_N",
-        [known](const measurement::Sample&, const joint::JointState& state) { return known(state.t1.lower, state); });
+        [or_nan](const measurement::Sample&, const joint::JointState& state) { return or_nan(state.t1.lower, state); });
     add("tension2_N",
-        [known](const measurement::Sample&, const joint::JointState& state) { return known(state.t2.lower, state); });
+        [or_nan](const measurement::Sample&, const joint::JointState& state) { return or_nan(state.t2.lower, state); });
     add("motor_torque_Nmm",
         [](const measurement::Sample&, const joint::JointState& state) { return state.motor_torque; });
     add("tension1_joint_N",
-        [known](const measurement::Sample&, const joint::JointState& state) { return known(state.t1.upper, state); });
+        [or_nan](const measurement::Sample&, const joint::JointState& state) { return or_nan(state.t1.upper, state); });
     add("tension2_joint_N",
-        [known](const measurement::Sample&, const joint::JointState& state) { return known(state.t2.upper, state); });
+        [or_nan](const measurement::Sample&, const joint::JointState& state) { return or_nan(state.t2.upper, state); });
     add("loose_deg", [](const measurement::Sample&, const joint::JointState& state) { return degrees(state.loose); });
   }
   add("joint_deg", [](const measurement::Sample&, const joint::JointState& state) { return degrees(state.theta); });

@@ -103,7 +103,8 @@ std::string svg_words(std::string_view classes, const Vec2& at, std::string_view
 }
 
 double words_width(std::string_view words, double font_size) {
-  return 0.56 * font_size * static_cast<double>(characters(words));
+  constexpr double k_mean_width = 0.56;  // of a character per font size
+  return k_mean_width * font_size * static_cast<double>(characters(words));
 }
 
 std::vector<Vec2> thinned(const std::vector<Vec2>& points, double tolerance) {

@@ -81,7 +81,7 @@ constexpr PlainName k_plain_names[] = {
     {"excess_length_reported", "Excess length or stretch of tendon 2 as built (method “paper”: reported only)"},
 };
 
-/// Checks of one file among several.
+/// Beginnings of the names of checks of one file, and that file.
 constexpr PlainName k_prefixes[] = {{"obj_", "pulley.obj"},
                                     {"3mf_", "pulley.3mf"},
                                     {"drc_", "pulley.drc"},
@@ -118,8 +118,8 @@ std::string cell(std::string_view classes, const std::string& html) {
   return (classes.empty() ? std::string("<td>") : "<td class=\"" + std::string(classes) + "\">") + html + "</td>";
 }
 
-/// The relation required of the value. Neither a Check nor a Condition stores it, but its value, limit and outcome
-/// imply it.
+/// The relation to the limit that is required of the value. A Check and a Condition do not store it, but its value,
+/// limit and outcome imply it.
 std::string_view relation(double value, double limit, bool ok, std::string_view unit) {
   if (value == limit || !std::isfinite(value)) return "";
   if (!ok && unit == "1") return "";
@@ -188,15 +188,25 @@ std::string with_unit(double value, std::string_view unit, int digits) {
 }
 
 std::string checks_tables(const std::vector<Check>& checks) {
-  // Failed checks come first.
+  // In this order, then one group for each file.
+  enum : std::size_t { k_failed, k_as_built, k_part, k_first_file };
   std::vector<CheckGroup> groups{{"Failed", {}}, {"As built", {}}, {"The part, in pulley.stl", {}}};
   for (const PlainName& file : k_prefixes) groups.push_back({std::string(file.words), {}});
   for (const Check& check : checks) {
     const std::size_t file = file_index(check.name);
+    const bool has_file = file < std::size(k_prefixes);
     Check named = check;
-    named.name = plain_name(check.ok && file < std::size(k_prefixes) ? without_file(check.name) : check.name);
-    const bool as_built = check.name.rfind("theta_error", 0) == 0 || check.name.rfind("excess_length", 0) == 0;
-    groups[!check.ok ? 0 : as_built ? 1 : file < std::size(k_prefixes) ? 3 + file : 2].checks.push_back(named);
+    // The heading names the file, except in the group of failed checks.
+    named.name = plain_name(check.ok && has_file ? without_file(check.name) : check.name);
+    const bool is_as_built = check.name.rfind("theta_error", 0) == 0 || check.name.rfind("excess_length", 0) == 0;
+    std::size_t group = k_part;
+    if (!check.ok)
+      group = k_failed;
+    else if (is_as_built)
+      group = k_as_built;
+    else if (has_file)
+      group = k_first_file + file;
+    groups[group].checks.push_back(named);
   }
   std::string html = "<div class=\"groups\">";
   for (const CheckGroup& group : groups) {
@@ -215,14 +225,17 @@ std::string conditions_table(const std::vector<profile::Condition>& conditions, 
       "<th class=\"number\">Value</th><th class=\"number\">Limit</th><th "
       "class=\"number\">Margin</th></tr></thead><tbody>";
   for (const profile::Condition& condition : conditions) {
-    // A condition without numbers: there either is a dead centre or not.
-    const bool plain = condition.value == condition.limit;
+    // Some conditions have no numbers: there either is a dead centre or not.
+    const bool has_no_numbers = condition.value == condition.limit;
     const double distance = std::abs(condition.value - condition.limit);
     html += row_start(condition.ok) + name_cell(plain_name(condition.name), condition.ok ? "" : condition.message);
-    if (over_stroke) html += cell("number", plain && condition.ok ? "" : readable(degrees(condition.alpha), 1) + "°");
-    html += cell("number", plain ? "" : safe_text(with_unit(condition.value, condition.unit, 4))) +
-            cell("number", plain ? "" : limit_words(condition.value, condition.limit, condition.ok, condition.unit)) +
-            cell("number", plain ? "" : safe_text(with_unit(condition.ok ? distance : -distance, condition.unit))) +
+    if (over_stroke)
+      html += cell("number", has_no_numbers && condition.ok ? "" : readable(degrees(condition.alpha), 1) + "°");
+    html += cell("number", has_no_numbers ? "" : safe_text(with_unit(condition.value, condition.unit, 4))) +
+            cell("number",
+                 has_no_numbers ? "" : limit_words(condition.value, condition.limit, condition.ok, condition.unit)) +
+            cell("number",
+                 has_no_numbers ? "" : safe_text(with_unit(condition.ok ? distance : -distance, condition.unit))) +
             "</tr>";
   }
   return html + "</tbody></table></div>";

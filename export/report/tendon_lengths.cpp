@@ -10,9 +10,9 @@ namespace fusee::formats {
 namespace {
 
 // Length at one end: a figure-eight stopper knot takes about a dozen diameters (assumed), and a tail pulls it tight.
-constexpr double k_knot_ratio = 12.0;
-constexpr double k_tail = 50.0;
-constexpr double k_cut_step = 5.0;
+constexpr double k_knot_ratio = 12.0;  // length of the knot per tendon diameter
+constexpr double k_tail = 50.0;        // mm
+constexpr double k_cut_step = 5.0;     // mm
 
 TendonLength length_to(const Product& product, const solid::Anchor& anchor) {
   const Mechanism& mechanism = product.joint.mechanism;
@@ -26,12 +26,12 @@ TendonLength length_to(const Product& product, const solid::Anchor& anchor) {
   const double rho = sheathed ? 0.0 : mechanism.seen_pitch_radius();
   const Vec2 pin = sheathed ? sheath_exit(mechanism, anchor.side) : pin_centre(mechanism, anchor.side);
   const Vec2 axis = pulley_axis(mechanism);
-  // The nearest sampled point is exact enough: a step along the tangent adds to the arc what it takes from the span.
+  // The nearest sampled point suffices: a step along the tangent lengthens the arc by as much as it shortens the span.
   const std::size_t contact = solid::index_at_normal(outline, tendon.lower_normal);
   const double to_pin = (pin - axis - outline.points[contact].position).norm();
   const double lower_span = std::sqrt(std::max(0.0, (to_pin - rho) * (to_pin + rho)));
 
-  // The channel leaves the floor at `anchor.exit`; the tendon leaves the pitch curve at the nearest point of that.
+  // The channel leaves the floor at `anchor.exit`. The tendon leaves the pitch curve at its point nearest to that.
   const std::size_t exit = solid::index_at_place(outline, anchor.exit);
   const double above_pulley = tendon.length - tendon.lower_reach;
   TendonLength result;
@@ -67,8 +67,8 @@ TendonLength length_on_helix(const Product& product, const helical_solid::Helica
       home->free + elementary::hypot(rise, rise / side.spiral.slope) + (anchor.pocket - anchor.exit).norm();
   result.cut = cut_length(result.between_knots + 2.0 * tendon_end(product.joint.mechanism.tendon));
   result.lap_at_home = std::abs(end.turn - side.spiral.row_at(home->z).turn);
-  const helix::SpiralRow& used = rows.at(left ? side.spiral.last_used : side.spiral.first_used);
-  result.spare_lap = std::abs(end.turn - used.turn);
+  const helix::SpiralRow& last_used = rows.at(left ? side.spiral.last_used : side.spiral.first_used);
+  result.spare_lap = std::abs(end.turn - last_used.turn);
   return result;
 }
 

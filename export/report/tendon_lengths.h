@@ -16,7 +16,7 @@ struct TendonLength {
   Vec2 joint_knot;           ///< C, in the frame of the mechanism, mm
   Vec3 pulley_knot;          ///< centre of the knot pocket, in the frame of the mesh, mm
   double between_knots = 0;  ///< along the tendon's centre line, mm
-  /// Length between the knots, both knots, and a tail of 50 mm at each end to pull with; whole 5 mm
+  /// Length between the knots, both knots, and a tail of 50 mm at each end to pull with; rounded up to 5 mm
   double cut = 0;
   double lap_at_home = 0;  ///< angle on the groove between the anchor and the take-off at home, rad
   /// Angle on the groove between the anchor and the last point of contact at full pay-out, rad
@@ -25,7 +25,7 @@ struct TendonLength {
 
 /// Length of a knot and the tail to pull it tight, mm.
 double tendon_end(const Tendon& tendon);
-/// The next length that is convenient to measure, mm.
+/// The length, mm, rounded up to one that is convenient to measure.
 double cut_length(double needed);
 
 /// One entry for each tendon whose pulley has an anchor.

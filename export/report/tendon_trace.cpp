@@ -133,7 +133,7 @@ std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const profil
   trace.attachment = attachment(mechanism, outline.side, theta);
   double upper = tangent_normal(pin, rho, trace.attachment, true, sign);
   std::vector<Vec2> over_drum;
-  double above = 0;
+  double length_to_drum_end = 0;  // from the attachment to where the tendon leaves the drum
   if (mechanism.joint.drum_radius > 0) {
     const transmission::PinPlace place = transmission::pin_place(mechanism, outline.side, rho);
     const transmission::UpperSpan span = transmission::upper_span(place, sign * theta);
@@ -141,7 +141,7 @@ std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const profil
       const auto world = [sign](double normal) { return sign > 0 ? normal : k_pi - normal; };
       upper = world(span.normal);
       over_drum = arc({0, 0}, place.drum, world(span.end_normal), upper);
-      above = (over_drum.front() - trace.attachment).norm() + place.drum * span.on_drum;
+      length_to_drum_end = (over_drum.front() - trace.attachment).norm() + place.drum * span.on_drum;
     }
   }
   const auto contact = pulley_contact(mechanism, outline, alpha);
@@ -168,7 +168,8 @@ std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const profil
     onto_pulley = through.back();
   }
   trace.free_path.push_back(trace.take_off);
-  trace.free_length = above + (trace.onto_pin - from).norm() + rho * wrap + (trace.take_off - onto_pulley).norm();
+  trace.free_length =
+      length_to_drum_end + (trace.onto_pin - from).norm() + rho * wrap + (trace.take_off - onto_pulley).norm();
   if (sheathed) trace.free_length += mechanism.sheath.length;
   trace.wound_length = length_of(trace.wound_path);
   return trace;

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: positions of the mechanism's points at one place of the stroke, and the path of a tendon over them. Frame
+/// Internal: positions of the mechanism's points at one pose of the stroke, and the path of a tendon over them. Frame
 /// of the mechanism file (docs/reference/mechanism-file.md), mm.
 #pragma once
 
@@ -19,7 +19,7 @@ Vec2 pin_centre(const Mechanism& mechanism, transmission::Side side);
 /// Exit of a tendon's sheath beside the pulley. Requires a sheath.
 Vec2 sheath_exit(const Mechanism& mechanism, transmission::Side side);
 /// The curve of a sheath in drawings: from the pin's outer side, straight down, to its exit. Its true course is
-/// unknown, and its length is the file's.
+/// unknown, and its length in the file is another.
 std::vector<Vec2> sheath_curve(const Mechanism& mechanism, transmission::Side side);
 /// The end of a tendon: C, or its own attachment.
 Vec2 attachment(const Mechanism& mechanism, transmission::Side side, double theta);

@@ -32,11 +32,12 @@ bool is_ok(const analysis::MotorCheck& motor, std::string_view name) {
   return true;
 }
 
-std::string tendon_sentence(const analysis::UnderLoad& load, bool first) {
-  const std::vector<analysis::AlphaRange>& ranges = first ? load.slack1 : load.slack2;
+/// `tendon`: 1 or 2.
+std::string slack_sentence(const analysis::UnderLoad& load, int tendon) {
+  const std::vector<analysis::AlphaRange>& ranges = tendon == 1 ? load.slack1 : load.slack2;
   if (ranges.empty()) return "";
   const std::string remedy = pretension_words(load, ranges);
-  return std::string(" Tendon ") + (first ? "1" : "2") + " is slack " + (load.is_whole_range(ranges) ? "" : "at ") +
+  return " Tendon " + std::to_string(tendon) + " is slack " + (load.is_whole_range(ranges) ? "" : "at ") +
          slack_words(load, ranges) + (remedy.empty() ? "." : ": " + remedy + ".");
 }
 
@@ -114,13 +115,13 @@ std::string pretension_words(const analysis::UnderLoad& load, const std::vector<
 std::string under_load_sentences(const analysis::UnderLoad& load, const Mechanism& mechanism) {
   if (load.rows.empty()) return "";
   std::string words = " " + load_words(mechanism);
-  words[1] = words[1] == 'u' ? 'U' : 'W';
+  words[1] = words[1] == 'u' ? 'U' : 'W';  // load_words() begins with "under" or "without"
   if (load.lost_at)
     return words + ", there is no equilibrium at α = " + readable(degrees(*load.lost_at), 1) +
            "°: the load pulls the joint past its dead centre.";
   words += ", θ is off by up to " + with_unit(degrees(load.theta_error.value), "deg") +
            " (at α = " + readable(degrees(load.theta_error.alpha), 1) + "°).";
-  words += tendon_sentence(load, true) + tendon_sentence(load, false);
+  words += slack_sentence(load, 1) + slack_sentence(load, 2);
   if (const auto factor = load.safety_factor())
     words += " The tendons’ safety factor against breaking is " + readable_rounded(*factor, 3) + ".";
   return words;

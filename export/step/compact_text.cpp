@@ -54,7 +54,7 @@ std::vector<std::string> statements_of(std::string_view text) {
   return statements;
 }
 
-/// Ten digits: 5e-8 mm for a part of half a metre.
+/// Ten digits, which resolve 5e-8 mm on a part of half a metre.
 std::string short_number(std::string_view number) {
   char text[32];
   const double value = std::strtod(std::string(number).c_str(), nullptr);
@@ -82,7 +82,7 @@ std::string with_short_numbers(std::string_view statement) {
   return text;
 }
 
-/// `statement` with each #number replaced by `renamed` of it.
+/// The statement with each reference #n replaced by #renamed(n).
 template <typename Rename>
 std::string with_references(std::string_view statement, const Rename& renamed) {
   std::string text;
@@ -109,27 +109,28 @@ bool is_value(const Instance& instance) {
   return std::find(k_values.begin(), k_values.end(), type) != k_values.end();
 }
 
-/// Repeats until all instances differ, because a vector becomes equal when its direction is.
+/// Keeps the first of equal values, and lets all references point to it. Repeats until all values differ, because two
+/// vectors become equal when their directions are merged.
 void merge_values(std::vector<Instance>& instances) {
   while (true) {
     std::unordered_map<std::string_view, std::size_t> first;
-    std::unordered_map<std::size_t, std::size_t> same;
+    std::unordered_map<std::size_t, std::size_t> replaced_by;
     std::vector<Instance> kept;
     kept.reserve(instances.size());
     for (const Instance& instance : instances) {
       if (is_value(instance)) {
         const auto [found, is_new] = first.try_emplace(instance.definition, instance.number);
         if (!is_new) {
-          same[instance.number] = found->second;
+          replaced_by[instance.number] = found->second;
           continue;
         }
       }
       kept.push_back({instance.number, {}});
     }
-    if (same.empty()) return;
-    const auto renamed = [&same](std::size_t number) {
-      const auto found = same.find(number);
-      return found == same.end() ? number : found->second;
+    if (replaced_by.empty()) return;
+    const auto renamed = [&replaced_by](std::size_t number) {
+      const auto found = replaced_by.find(number);
+      return found == replaced_by.end() ? number : found->second;
     };
     std::size_t k = 0;
     for (const Instance& instance : instances) {

@@ -8,9 +8,11 @@
 namespace fusee::formats {
 namespace {
 
-// Tolerance of the contact of straight and arc, which was constructed in different arithmetic, mm.
-constexpr double k_touches = 1e-7;
-// Up to this angle an arc of one span has a weight well away from 0.
+// Tolerance for recognising that straight and arc touch, mm. The section was computed in another order of operations.
+constexpr double k_contact_tolerance = 1e-7;
+// Shortest straight part of a wall, as a difference of offsets, mm.
+constexpr double k_shortest_straight = 1e-3;
+// Up to this turn, an arc of one span has a middle weight well above 0.
 constexpr double k_widest_seat = radians(150);
 
 /// Angle of one wall's arc before its straight part; empty if the groove edge cuts the arc off.
@@ -19,8 +21,9 @@ std::optional<double> seat_turn(const std::vector<solid::GroovePoint>& wall, dou
   const double lean = elementary::atan2(groove_edge.dz - last.dz, groove_edge.offset - last.offset);
   // The straight touches the arc: its distance from the centre equals the radius.
   const double distance = std::abs((radius - last.offset) * elementary::sin(lean) + last.dz * elementary::cos(lean));
-  const double end = radius * (1 - elementary::sin(lean));
-  if (std::abs(distance - radius) > k_touches || end > groove_edge.offset - 1e-3) return std::nullopt;
+  const double arc_end_offset = radius * (1 - elementary::sin(lean));
+  if (std::abs(distance - radius) > k_contact_tolerance || arc_end_offset > groove_edge.offset - k_shortest_straight)
+    return std::nullopt;
   return 0.5 * k_pi - lean;
 }
 

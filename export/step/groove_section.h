@@ -12,10 +12,11 @@ namespace fusee::formats {
 
 /// The arc of a groove's seat in its section.
 struct Seat {
-  double radius = 0;
+  double radius = 0;            ///< mm
   double below = 0, above = 0;  ///< angles of the arc on both sides of the floor, rad
 
-  /// Split angles of the arc, from −below to above. A single span keeps a weight well away from 0.
+  /// Angles at which the arc is split, from −below to above. The middle weight of each span, the cosine of half its
+  /// turn, is then well above 0.
   std::vector<double> angles() const;
 };
 

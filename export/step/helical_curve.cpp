@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "export/step/normal_spline.h"
 #include "fusee/base.h"
 
 namespace fusee::formats {
@@ -17,13 +18,13 @@ double polynomial(const std::array<double, 6>& powers, double u) {
   return value;
 }
 
-double slope_of(const std::array<double, 6>& powers, double u) {
+double derivative(const std::array<double, 6>& powers, double u) {
   double value = 0;
   for (std::size_t k = 5; k > 0; --k) value = value * u + static_cast<double>(k) * powers[k];
   return value;
 }
 
-/// A smooth step on the second half of the way.
+/// A smooth step over the second half of the share.
 double late_step(double share) { return smooth_step(2.0 * share - 1.0); }
 
 /// Integral from 0.
@@ -45,12 +46,7 @@ HelicalCurve::HelicalCurve(const helix::Spiral& spiral, const helical_solid::Spi
     const double h0 = from.dot(unit(a.turn)), h1 = to.dot(unit(b.turn));
     const double d0 = width * from.dot(turned_left(unit(a.turn))), d1 = width * to.dot(turned_left(unit(b.turn)));
     const double e0 = 0.5 * width * width * (a.rho - h0), e1 = 0.5 * width * width * (b.rho - h1);
-    const double rise = h1 - h0 - d0 - e0, steeper = d1 - d0 - 2 * e0, bent = e1 - e0;
-    pieces_.push_back({a.turn,
-                       width,
-                       {h0, d0, e0, 10 * rise - 4 * steeper + bent, -15 * rise + 7 * steeper - 2 * bent,
-                        6 * rise - 3 * steeper + bent},
-                       place.height(a.z)});
+    pieces_.push_back({a.turn, width, hermite_powers(h0, d0, e0, h1, d1, e1), place.height(a.z)});
   }
 }
 
@@ -59,10 +55,10 @@ Vec3 HelicalCurve::at(double turn) const {
                                       [](double value, const Piece& piece) { return value < piece.turn; });
   const Piece& piece = *(above - 1);
   const double u = (turn - piece.turn) / piece.width;
-  const double slope = slope_of(piece.support, u) / piece.width;
+  const double slope = derivative(piece.support, u) / piece.width;
   const Vec2 point = polynomial(piece.support, u) * unit(turn) + slope * turned_left(unit(turn));
-  const double length = slope - piece.support[1] / piece.width + piece.width * integral_of(piece.support, u);
-  return {point.x(), point.y(), piece.height + slope_ * length};
+  const double length_in_plan = slope - piece.support[1] / piece.width + piece.width * integral_of(piece.support, u);
+  return {point.x(), point.y(), piece.height + slope_ * length_in_plan};
 }
 
 double smooth_step(double share) {
@@ -98,11 +94,11 @@ double HelicalGroove::bulge(double turn, bool low) const {
 // its start.
 Vec2 HelicalGroove::ring(double direction, bool lowest, double outward) const {
   const double first = lowest ? filled_to_ : filled_from_, inwards = lowest ? -1.0 : 1.0;
-  const double away = inwards * (direction - first);
-  const double turned = away - k_two_pi * std::floor(away / k_two_pi);
-  const double turn = first + inwards * turned;
+  const double past_first = inwards * (direction - first);
+  const double within_turn = past_first - k_two_pi * std::floor(past_first / k_two_pi);
+  const double turn = first + inwards * within_turn;
   const Vec2 gap = (at(first) - at(first + inwards * k_two_pi)).head<2>();
-  return at(turn).head<2>() + outward * unit(turn) + late_step(turned / k_two_pi) * gap;
+  return at(turn).head<2>() + outward * unit(turn) + late_step(within_turn / k_two_pi) * gap;
 }
 
 }  // namespace fusee::formats

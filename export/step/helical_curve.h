@@ -12,18 +12,19 @@
 
 namespace fusee::formats {
 
-/// Given by its support function h(ψ) over all turns, as in SupportCurve: X = h n + h' t. The height follows from s =
-/// h' + ∫ h dψ.
+/// Given by its support function h(ψ) over all turns, as in SupportCurve: X = h n + h' t. The height grows in proportion
+/// to the length in plan, s = h' + ∫ h dψ.
 class HelicalCurve {
  public:
   HelicalCurve(const helix::Spiral& spiral, const helical_solid::SpiralPlace& place);
 
-  /// (x, y, height). The last piece is extrapolated beyond the rows.
+  /// x, y and height, mm, where the normal has the direction `turn`, rad, counted over all turns. Beyond the rows, the
+  /// first and the last piece are extrapolated.
   Vec3 at(double turn) const;
 
  private:
   struct Piece {
-    double turn = 0, width = 0;
+    double turn = 0, width = 0;          ///< its begin and its extent in ψ, rad
     std::array<double, 6> support = {};  ///< powers of h over u from 0 to 1
     double height = 0;                   ///< height at u = 0
   };
@@ -35,7 +36,8 @@ class HelicalCurve {
 /// Rises from 0 at 0 to 1 at 1, with two zero derivatives at both ends.
 double smooth_step(double share);
 
-/// A groove of the part, including the continuation of its edges beyond its ends, which follow the turn before.
+/// A groove of the part, with the continuation of its edges beyond its ends. There it repeats the course of the adjacent
+/// turn, shifted to meet the end.
 class HelicalGroove {
  public:
   HelicalGroove(const helix::Spiral& spiral, const helical_solid::SpiralPlace& place,
@@ -43,12 +45,12 @@ class HelicalGroove {
 
   double begin() const { return begin_; }
   double end() const { return end_; }
-  /// Turns up to which the groove is filled up to its edges.
+  /// Beyond its ends the groove is filled up to its edges, as far as these turns.
   double filled_from() const { return filled_from_; }
   double filled_to() const { return filled_to_; }
 
   Vec3 at(double turn) const;
-  /// Projection of a groove edge over the filled rows.
+  /// Projection of the lower (`low`) or the upper groove edge over the filled rows, mm.
   double bulge(double turn, bool low) const;
   /// A closed ring at the distance `outward`, about the lowest or the highest turn, in the direction of a normal.
   Vec2 ring(double direction, bool lowest, double outward) const;

@@ -15,10 +15,11 @@ constexpr int k_order = k_step_degree + 1;
 constexpr double k_first_span = radians(30);
 /// Error of a circle within reach that is drawn by the normals, mm. It has to meet the exact circle.
 constexpr double k_circle_tolerance = 2e-6;
-/// Shorter spans gain nothing: the samples' own directions can be this close beside a bridge.
+/// Spans are not divided further: the samples' own directions can be this close beside a bridge.
 constexpr double k_shortest_span = radians(0.01);
 constexpr std::size_t k_most_spans = 300;
 constexpr int k_samples_a_span = 13;
+/// Spans are refined together if their error is at least this share of the worst one.
 constexpr double k_share_of_worst = 0.25;
 /// Kinks closer than this are merged.
 constexpr double k_same_kink = radians(0.002);
@@ -30,7 +31,7 @@ constexpr double k_straight_turn = radians(0.005);
 /// A knot and its multiplicity.
 struct Break {
   double psi = 0;
-  int times = 1;
+  int multiplicity = 1;
 };
 
 std::size_t span_of(const std::vector<double>& knots, double psi) {
@@ -60,7 +61,7 @@ std::array<double, k_order> basis_at(const std::vector<double>& knots, std::size
 std::vector<double> flat_knots(const std::vector<Break>& breaks) {
   std::vector<double> knots(k_order, breaks.front().psi);
   for (std::size_t i = 1; i + 1 < breaks.size(); ++i)
-    knots.insert(knots.end(), static_cast<std::size_t>(breaks[i].times), breaks[i].psi);
+    knots.insert(knots.end(), static_cast<std::size_t>(breaks[i].multiplicity), breaks[i].psi);
   knots.insert(knots.end(), k_order, breaks.back().psi);
   return knots;
 }
@@ -87,65 +88,68 @@ std::vector<Break> first_breaks(double from, double to, const std::vector<double
 /// Least squares fit of samples, with exact ends and end tangents. Adjacent pieces then join as smoothly as the curve.
 class SectorFit {
  public:
-  explicit SectorFit(const SplineWish& wish) : wish_(wish) {}
+  explicit SectorFit(const SplineTarget& target) : target_(target) {}
 
-  JointSpline on(const std::vector<Break>& breaks) const {
-    JointSpline spline{flat_knots(breaks), {}};
+  SplineBundle fit_on(const std::vector<Break>& breaks) const {
+    SplineBundle spline{flat_knots(breaks), {}};
     const std::size_t count = spline.knots.size() - k_order;
+    // Poles at each end that are given by the end, and by its tangent if there are enough poles.
     const std::size_t fixed = count >= 6 ? 2 : 1;
     const double from = breaks.front().psi, to = breaks.back().psi;
     Eigen::MatrixXd& poles = spline.poles;
-    poles = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count), wish_.at(from).size());
+    poles = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count), target_.at(from).size());
     set_end(poles, spline.knots, 0, from, fixed);
     set_end(poles, spline.knots, count - 1, to, fixed);
     const auto free = static_cast<Eigen::Index>(count - 2 * fixed);
     if (free > 0) {
-      Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(free, free), right = Eigen::MatrixXd::Zero(free, poles.cols());
+      Eigen::MatrixXd normal_matrix = Eigen::MatrixXd::Zero(free, free);
+      Eigen::MatrixXd right_side = Eigen::MatrixXd::Zero(free, poles.cols());
       for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
         const double begin = breaks[i].psi, width = breaks[i + 1].psi - begin;
         for (int k = 0; k < k_samples_a_span; ++k) {
           const double psi = begin + width * (k + 0.5) / k_samples_a_span;
           const std::size_t span = span_of(spline.knots, psi);
           const auto basis = basis_at(spline.knots, span, psi);
-          Eigen::RowVectorXd rest = wish_.at(psi);
+          Eigen::RowVectorXd residual = target_.at(psi);
           const std::size_t first = span - k_step_degree;
           for (std::size_t a = 0; a < k_order; ++a) {
-            if (is_fixed(first + a, count, fixed)) rest -= basis[a] * poles.row(static_cast<Eigen::Index>(first + a));
+            if (is_fixed(first + a, count, fixed))
+              residual -= basis[a] * poles.row(static_cast<Eigen::Index>(first + a));
           }
           for (std::size_t a = 0; a < k_order; ++a) {
             if (is_fixed(first + a, count, fixed)) continue;
             const auto row = static_cast<Eigen::Index>(first + a - fixed);
-            right.row(row) += width * basis[a] * rest;
+            right_side.row(row) += width * basis[a] * residual;
             for (std::size_t b = 0; b < k_order; ++b) {
               if (!is_fixed(first + b, count, fixed))
-                normal(row, static_cast<Eigen::Index>(first + b - fixed)) += width * basis[a] * basis[b];
+                normal_matrix(row, static_cast<Eigen::Index>(first + b - fixed)) += width * basis[a] * basis[b];
             }
           }
         }
       }
-      poles.middleRows(static_cast<Eigen::Index>(fixed), free) = solved(normal, right);
+      poles.middleRows(static_cast<Eigen::Index>(fixed), free) = solved(normal_matrix, right_side);
     }
     return spline;
   }
 
   /// The spans with an excessive error, the worst first. A sharp bend makes its neighbours oscillate until it is
   /// resolved.
-  std::vector<std::size_t> coarse_spans(const JointSpline& spline, const std::vector<Break>& breaks) const {
+  std::vector<std::size_t> coarse_spans(const SplineBundle& spline, const std::vector<Break>& breaks) const {
     constexpr int k_samples = 24;
     std::vector<double> errors;
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
       const double begin = breaks[i].psi, width = breaks[i + 1].psi - begin;
       double worst = 0;
       for (int k = 0; k < k_samples; ++k) {
-        const double psi = begin + width * (k + 0.31) / k_samples;
-        worst = std::max(worst, wish_.off(spline.at(psi), psi));
+        const double psi = begin + width * (k + 0.31) / k_samples;  // between the samples of the fit
+        worst = std::max(worst, target_.error(spline.at(psi), psi));
       }
       errors.push_back(width > k_shortest_span ? worst : 0.0);
     }
-    const double most = k_share_of_worst * *std::max_element(errors.begin(), errors.end());
+    const double threshold = k_share_of_worst * *std::max_element(errors.begin(), errors.end());
     std::vector<std::size_t> coarse;
     for (std::size_t i = 0; i < errors.size(); ++i) {
-      if (errors[i] > std::max(1.0, most)) coarse.push_back(i);
+      if (errors[i] > std::max(1.0, threshold)) coarse.push_back(i);
     }
     return coarse;
   }
@@ -153,27 +157,27 @@ class SectorFit {
  private:
   static bool is_fixed(std::size_t i, std::size_t count, std::size_t fixed) { return i < fixed || i + fixed >= count; }
 
-  void set_end(Eigen::MatrixXd& poles, const std::vector<double>& knots, std::size_t end, double psi,
+  void set_end(Eigen::MatrixXd& poles, const std::vector<double>& knots, std::size_t pole, double psi,
                std::size_t fixed) const {
-    const auto row = static_cast<Eigen::Index>(end);
-    poles.row(row) = wish_.at(psi);
+    const auto row = static_cast<Eigen::Index>(pole);
+    poles.row(row) = target_.at(psi);
     if (fixed < 2) return;
-    const bool first = end == 0;
+    const bool first = pole == 0;
     const double step =
         first ? knots[k_order] - knots[k_order - 1] : knots[knots.size() - k_order - 1] - knots[knots.size() - k_order];
     const double share = step / k_step_degree;
-    poles.row(first ? row + 1 : row - 1) = poles.row(row) + share * wish_.slope(psi);
+    poles.row(first ? row + 1 : row - 1) = poles.row(row) + share * target_.slope(psi);
   }
 
-  const SplineWish& wish_;
+  const SplineTarget& target_;
 };
 
-/// Removes the knots that are unnecessary after refinement.
+/// Removes the knots without which the tolerance is still met.
 std::vector<Break> thinned(const SectorFit& sector, std::vector<Break> breaks) {
   for (std::size_t i = 1; i + 1 < breaks.size();) {
     std::vector<Break> fewer = breaks;
     fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
-    if (breaks[i].times == 1 && sector.coarse_spans(sector.on(fewer), fewer).empty())
+    if (breaks[i].multiplicity == 1 && sector.coarse_spans(sector.fit_on(fewer), fewer).empty())
       breaks = std::move(fewer);
     else
       ++i;
@@ -196,6 +200,17 @@ std::vector<double> radii_beside(const std::vector<double>& psi, const std::vect
 
 }  // namespace
 
+std::array<double, 6> hermite_powers(double h0, double d0, double e0, double h1, double d1, double e1) {
+  // Remainders at u = 1, of the value and of its first and half its second derivative, after the first three powers.
+  const double rise = h1 - h0 - d0 - e0, slope_rise = d1 - d0 - 2 * e0, bend_rise = e1 - e0;
+  return {h0,
+          d0,
+          e0,
+          10 * rise - 4 * slope_rise + bend_rise,
+          -15 * rise + 7 * slope_rise - 2 * bend_rise,
+          6 * rise - 3 * slope_rise + bend_rise};
+}
+
 SupportCurve::SupportCurve(std::vector<double> psi, std::vector<Vec2> points, std::vector<double> radii) {
   const auto close = [&] {
     psi.push_back(psi.front() + k_two_pi);
@@ -216,17 +231,15 @@ SupportCurve::SupportCurve(std::vector<double> psi, std::vector<Vec2> points, st
   psi_.push_back(psi.back());
 }
 
-// The Hermite polynomial of degree 5 over u from 0 to 1 with the radii of both ends. If the curve is then not convex,
-// as beside a bridge over a hollow, degree 3 without the radii.
+// The Hermite polynomial of degree 5 with the radii of both ends. If the curve is then not convex, as beside a bridge
+// over a hollow: the one of degree 3, which ignores the radii.
 void SupportCurve::add(const Sample& from, const Sample& to) {
   constexpr int k_samples = 8;
   const double width = to.psi - from.psi;
   const double h0 = from.support(), d0 = width * from.slope(), e0 = 0.5 * width * width * (from.radius - h0);
   const double h1 = to.support(), d1 = width * to.slope(), e1 = 0.5 * width * width * (to.radius - h1);
-  const double rise = h1 - h0 - d0 - e0, steeper = d1 - d0 - 2 * e0, bent = e1 - e0;
   psi_.push_back(from.psi);
-  support_.push_back(
-      {h0, d0, e0, 10 * rise - 4 * steeper + bent, -15 * rise + 7 * steeper - 2 * bent, 6 * rise - 3 * steeper + bent});
+  support_.push_back(hermite_powers(h0, d0, e0, h1, d1, e1));
   for (int k = 1; k < k_samples; ++k) {
     if (values_in(support_.size() - 1, width, static_cast<double>(k) / k_samples).radius >= 0) continue;
     support_.back() = {h0, d0, 3 * (h1 - h0) - 2 * d0 - d1, d0 + d1 - 2 * (h1 - h0), 0, 0};
@@ -257,8 +270,8 @@ SupportCurve::Values SupportCurve::values_at(double psi) const {
 }
 
 Vec2 SupportCurve::at(double psi) const {
-  const Values found = values_at(psi);
-  return found.support * unit(psi) + found.slope * turned_left(unit(psi));
+  const Values values = values_at(psi);
+  return values.support * unit(psi) + values.slope * turned_left(unit(psi));
 }
 
 // The common outer tangent of both circles of curvature: n · (c1 − c0) = r0 − r1. It has a single direction. Its
@@ -274,10 +287,10 @@ std::optional<std::pair<SupportCurve::Sample, SupportCurve::Sample>> SupportCurv
   const double psi = profile::turned_into(from.psi - 0.5 * k_pi,
                                           elementary::atan2(between.y(), between.x()) - elementary::acos(along));
   if (psi - from.psi < 2 * half || to.psi - psi < 2 * half) return std::nullopt;
-  const auto on = [](const Vec2& centre, double radius, double at) {
+  const auto on_circle = [](const Vec2& centre, double radius, double at) {
     return Sample{at, centre + radius * unit(at), radius};
   };
-  return std::pair(on(c0, from.radius, psi - half), on(c1, to.radius, psi + half));
+  return std::pair(on_circle(c0, from.radius, psi - half), on_circle(c1, to.radius, psi + half));
 }
 
 StepSpline NormalSpline::parallel(double distance) const {
@@ -294,7 +307,7 @@ Vec2 point_on(const StepSpline& spline, double psi) {
   return point;
 }
 
-Eigen::RowVectorXd JointSpline::at(double psi) const {
+Eigen::RowVectorXd SplineBundle::at(double psi) const {
   const std::size_t span = span_of(knots, psi);
   const auto basis = basis_at(knots, span, psi);
   Eigen::RowVectorXd values = Eigen::RowVectorXd::Zero(poles.cols());
@@ -303,13 +316,13 @@ Eigen::RowVectorXd JointSpline::at(double psi) const {
   return values;
 }
 
-std::optional<JointSpline> fit(const SplineWish& wish, double from, double to, const std::vector<double>& kinks) {
-  const SectorFit sector(wish);
+std::optional<SplineBundle> fit(const SplineTarget& target, double from, double to, const std::vector<double>& kinks) {
+  const SectorFit sector(target);
   std::vector<Break> breaks = first_breaks(from, to, kinks);
   while (true) {
-    const JointSpline spline = sector.on(breaks);
+    const SplineBundle spline = sector.fit_on(breaks);
     const std::vector<std::size_t> coarse = sector.coarse_spans(spline, breaks);
-    if (coarse.empty()) return sector.on(thinned(sector, breaks));
+    if (coarse.empty()) return sector.fit_on(thinned(sector, breaks));
     if (breaks.size() + coarse.size() > k_most_spans) return std::nullopt;
     std::vector<Break> finer;
     auto next = coarse.begin();
@@ -325,22 +338,22 @@ std::optional<JointSpline> fit(const SplineWish& wish, double from, double to, c
 
 std::optional<NormalSpline> fit(const SupportCurve& curve, double from, double to, const std::vector<double>& kinks,
                                 double tolerance, double reach) {
-  const auto beside = [](const Vec2& point, const Vec2& normal) {
+  const auto row_of = [](const Vec2& point, const Vec2& normal) {
     return Eigen::RowVectorXd(Eigen::RowVector4d(point.x(), point.y(), normal.x(), normal.y()));
   };
-  SplineWish wish;
-  wish.at = [&](double psi) { return beside(curve.at(psi), unit(psi)); };
-  wish.slope = [&](double psi) {
+  SplineTarget target;
+  target.at = [&](double psi) { return row_of(curve.at(psi), unit(psi)); };
+  target.slope = [&](double psi) {
     const Vec2 tangent = turned_left(unit(psi));
-    return beside(curve.radius_at(psi) * tangent, tangent);
+    return row_of(curve.radius_at(psi) * tangent, tangent);
   };
-  wish.off = [&](const Eigen::RowVectorXd& found, double psi) {
-    return std::max((Vec2(found(0), found(1)) - curve.at(psi)).norm() / tolerance,
-                    reach * (Vec2(found(2), found(3)) - unit(psi)).norm() / k_circle_tolerance);
+  target.error = [&](const Eigen::RowVectorXd& fitted, double psi) {
+    return std::max((Vec2(fitted(0), fitted(1)) - curve.at(psi)).norm() / tolerance,
+                    reach * (Vec2(fitted(2), fitted(3)) - unit(psi)).norm() / k_circle_tolerance);
   };
-  std::vector<double> known = kinks;
-  known.insert(known.end(), curve.kinks().begin(), curve.kinks().end());
-  const auto fitted = fit(wish, from, to, known);
+  std::vector<double> all_kinks = kinks;
+  all_kinks.insert(all_kinks.end(), curve.kinks().begin(), curve.kinks().end());
+  const auto fitted = fit(target, from, to, all_kinks);
   if (!fitted) return std::nullopt;
   NormalSpline spline{fitted->knots, {}, {}};
   for (Eigen::Index i = 0; i < fitted->poles.rows(); ++i) {

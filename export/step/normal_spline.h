@@ -14,6 +14,10 @@
 
 namespace fusee::formats {
 
+/// Powers of u, from 0 to 1, of the Hermite polynomial of degree 5 with h, h' and h''/2 (derivatives by u): `h0`, `d0`,
+/// `e0` at 0 and `h1`, `d1`, `e1` at 1.
+std::array<double, 6> hermite_powers(double h0, double d0, double e0, double h1, double d1, double e1);
+
 /// A curve by its support function h(ψ): its point with the normal n is h n + h' t. Between samples h is a polynomial
 /// with the values h, h' and h'' of both ends. A straight between two samples turns by 0.005° about its own direction.
 class SupportCurve {
@@ -51,25 +55,25 @@ class SupportCurve {
   std::vector<double> kinks_;
 };
 
-/// Several curves on one knot vector, with their coordinates side by side.
-struct JointSpline {
+/// Several curves on one knot vector. A row holds the coordinates of all curves.
+struct SplineBundle {
   std::vector<double> knots;
-  Eigen::MatrixXd poles;  ///< one row each
+  Eigen::MatrixXd poles;  ///< one row for each pole
 
   Eigen::RowVectorXd at(double psi) const;
 };
 
-/// The function over ψ to be fitted by such a spline.
-struct SplineWish {
+/// The function over ψ that such a spline approximates.
+struct SplineTarget {
   std::function<Eigen::RowVectorXd(double psi)> at;
   std::function<Eigen::RowVectorXd(double psi)> slope;  ///< evaluated at both ends, from inside
-  /// Error of the fit at ψ in units of the tolerance.
-  std::function<double(const Eigen::RowVectorXd& found, double psi)> off;
+  /// Error of the fitted values at ψ per tolerance.
+  std::function<double(const Eigen::RowVectorXd& fitted, double psi)> error;
 };
 
 /// Inserts knots until the tolerance is met. `kinks`: directions with tangent continuity only. Empty if too many knots
 /// would be needed.
-std::optional<JointSpline> fit(const SplineWish& wish, double from, double to, const std::vector<double>& kinks);
+std::optional<SplineBundle> fit(const SplineTarget& target, double from, double to, const std::vector<double>& kinks);
 
 /// The curve over one sector and its normals on the same knots. The poles of a parallel curve are position + distance ·
 /// normal.

@@ -26,25 +26,28 @@
 namespace fusee::formats {
 namespace {
 
-constexpr double k_floor_tolerance = 6e-5;
-constexpr double k_other_tolerance = 2e-3;
+constexpr double k_floor_tolerance = 6e-5;  // of grooves, mm
+constexpr double k_other_tolerance = 2e-3;  // of rings, and of groove edges beyond their groove, mm
 /// Largest error of offsets by the normals, mm.
 constexpr double k_normal_tolerance = 1e-5;
-constexpr double k_inside = 1e-4;  // rad, step of one-sided slopes
-constexpr double k_same_mark = 1e-6;
+constexpr double k_slope_step = 1e-4;  // of one-sided differences, rad
+constexpr double k_same_mark = 1e-6;   // rad
 /// Approximate turn from the end of a groove's fill to the end of its edges.
 constexpr double k_run = radians(45), k_shortest_run = radians(25), k_longest_run = radians(75);
 /// Groove edges end before they reach their groove again.
 constexpr double k_furthest_end = radians(340);
 constexpr double k_widest_face = radians(190);
+/// A wide face is divided at a mark that is this close to its middle, if there is one.
 constexpr double k_near_middle = radians(30);
-constexpr double k_bent = 4e-6;  // mm, the effect of rounding to the resolution
+/// Largest effect of rounding poles to the resolution, mm.
+constexpr double k_bent = 4e-6;
 
 /// A corner of the section, relative to the tendon's centre line, and the curve to the next one.
 struct SectionCorner {
-  double outward = 0, dz = 0;
-  bool arc = false;
-  double arc_outward = 0, arc_dz = 0, weight = 1;
+  double outward = 0, dz = 0;          ///< along the normal and along the axis, mm
+  bool arc = false;                    ///< false: a straight to the next corner
+  double arc_outward = 0, arc_dz = 0;  ///< where the arc's end tangents meet: its middle pole
+  double weight = 1;                   ///< of that pole
 };
 
 std::vector<SectionCorner> section_corners(const helical_solid::HelicalSection& section, const Mechanism& mechanism) {
@@ -80,16 +83,17 @@ std::vector<SectionCorner> section_corners(const helical_solid::HelicalSection& 
   return corners;
 }
 
+/// A closed ring at the height z about a groove's lowest or highest turn, at the distance `outward` from its centre line.
 struct RimRing {
   std::size_t groove = 0;
   bool lowest = true;
-  double outward = 0;
-  double z = 0;
+  double outward = 0;  ///< mm
+  double z = 0;        ///< mm
 };
 
 /// A ring, or a corner of a groove's section.
 struct Strand {
-  int groove = -1;
+  int groove = -1;          ///< 0 or 1; −1: a ring
   std::size_t number = 0;   ///< number of the ring or of the corner
   int first = 0, last = 0;  ///< first and last place
 };
@@ -97,35 +101,37 @@ struct Strand {
 /// A place of a strand, and its piece from there to the next one.
 struct Place {
   std::size_t strand = 0;
-  int at = 0;
+  int at = 0;  ///< place number
 
   bool operator<(const Place& other) const { return std::pair(strand, at) < std::pair(other.strand, other.at); }
   bool operator==(const Place& other) const { return strand == other.strand && at == other.at; }
 };
 
 /// The positions of a groove's ends and edges.
-struct Wound {
-  int begin = 0, end = 0;                          ///< places of its ends
-  int groove_edges_from = 0, groove_edges_to = 0;  ///< places of its edges' ends
-  double groove_edges_first = 0, groove_edges_last = 0;
-  double held_first = 0, held_last = 0;  ///< turns up to which the edges follow the groove
-  std::size_t strand = 0;                ///< first strand of its section
-  std::size_t ring_below = 0, ring_above = 0;
-  std::vector<double> cuts;  ///< directions at which adjacent faces end
+struct GrooveExtent {
+  int begin = 0, end = 0;                                ///< places of its ends
+  int groove_edges_from = 0, groove_edges_to = 0;        ///< places of its edges' ends
+  double groove_edges_first = 0, groove_edges_last = 0;  ///< turns of its edges' ends
+  double follow_first = 0, follow_last = 0;              ///< turns up to which the edges follow the groove
+  std::size_t strand = 0;                                ///< first strand of its section
+  std::size_t ring_below = 0, ring_above = 0;            ///< strands
+  std::vector<double> cuts;                              ///< directions at which adjacent faces end
 };
 
+/// The range between two marks, with the curves of all strands there.
 struct Sector {
-  double from = 0, to = 0;
-  JointSpline spline;
+  double from = 0, to = 0;  ///< directions, rad
+  SplineBundle spline;
   /// Columns of `spline` by strand and place: groove edges past their ends, rings, and grooves' curves (strand of the
   /// first corner).
   std::map<Place, Eigen::Index> columns;
 };
 
+/// The surface between two adjacent strands in one sector.
 struct Cell {
   std::size_t sector = 0;
   Place low, high;
-  bool ends_before = true, ends_after = true;
+  bool ends_before = true, ends_after = true;  ///< false: its face continues across that mark
 };
 
 class SkinBuilder {
@@ -146,8 +152,8 @@ class SkinBuilder {
     find_corners();
     add_faces();
     for (std::size_t g = 0; g < 2; ++g) {
-      add_end_wall(g, wound_[g].begin, 1.0);
-      add_end_wall(g, wound_[g].end, -1.0);
+      add_end_wall(g, extents_[g].begin, 1.0);
+      add_end_wall(g, extents_[g].end, -1.0);
     }
     add_caps();
     return std::move(skin_);
@@ -158,12 +164,15 @@ class SkinBuilder {
 
   // ---- marks and strands ----
 
+  /// The turn without whole turns, counted from the begin of groove P1.
   double direction_of(double turn) const {
     const double base = grooves_[0].begin();
     return turn - k_two_pi * std::floor((turn - base + k_same_mark) / k_two_pi);
   }
+  /// Number of marks, and of sectors.
   int count() const { return static_cast<int>(marks_.size()); }
   std::size_t sector_of(int place) const { return static_cast<std::size_t>(((place % count()) + count()) % count()); }
+  /// Whole turns before a place.
   int turns_of(int place) const { return (place - static_cast<int>(sector_of(place))) / count(); }
   double turn_at(int place) const { return marks_[sector_of(place)] + k_two_pi * turns_of(place); }
 
@@ -175,6 +184,7 @@ class SkinBuilder {
     return static_cast<int>(near - marks_.begin()) + count() * static_cast<int>(std::lround((turn - *near) / k_two_pi));
   }
 
+  /// Adds a mark, unless one is there. Returns its direction.
   double mark(double turn) {
     const double direction = direction_of(turn);
     for (const double known : marks_) {
@@ -184,7 +194,7 @@ class SkinBuilder {
     return direction;
   }
 
-  /// A turn at which groove edges end, past `from` in the direction `onwards`.
+  /// A turn at which groove edges end, past `from`. `onwards`: +1 beyond the last end of the groove, −1 before the first.
   double groove_edges_end(double end, double from, double onwards) {
     const double furthest = end + onwards * k_furthest_end;
     for (const double known : marks_) {
@@ -198,12 +208,12 @@ class SkinBuilder {
     return turn;
   }
 
-  void add_cuts(Wound& wound, const HelicalGroove& groove) {
-    wound.cuts = {mark(groove.begin())};
-    for (std::size_t i = 0; i < wound.cuts.size();) {
-      std::sort(wound.cuts.begin(), wound.cuts.end());
-      const double from = wound.cuts[i];
-      const double to = i + 1 < wound.cuts.size() ? wound.cuts[i + 1] : wound.cuts.front() + k_two_pi;
+  void add_cuts(GrooveExtent& extent, const HelicalGroove& groove) {
+    extent.cuts = {mark(groove.begin())};
+    for (std::size_t i = 0; i < extent.cuts.size();) {
+      std::sort(extent.cuts.begin(), extent.cuts.end());
+      const double from = extent.cuts[i];
+      const double to = i + 1 < extent.cuts.size() ? extent.cuts[i + 1] : extent.cuts.front() + k_two_pi;
       if (to - from < k_widest_face) {
         ++i;
         continue;
@@ -217,7 +227,7 @@ class SkinBuilder {
         best = away;
         cut = known;
       }
-      wound.cuts.push_back(mark(cut));
+      extent.cuts.push_back(mark(cut));
     }
   }
 
@@ -227,25 +237,25 @@ class SkinBuilder {
       mark(groove.end());
     }
     for (std::size_t g = 0; g < 2; ++g) {
-      Wound& wound = wound_[g];
+      GrooveExtent& extent = extents_[g];
       const HelicalGroove& groove = grooves_[g];
-      const double most = k_furthest_end - k_shortest_run;
-      wound.held_last = std::min(groove.filled_to(), groove.end() + most);
-      wound.held_first = std::max(groove.filled_from(), groove.begin() - most);
-      wound.groove_edges_last = groove_edges_end(groove.end(), wound.held_last, 1.0);
-      wound.groove_edges_first = groove_edges_end(groove.begin(), wound.held_first, -1.0);
+      const double longest = k_furthest_end - k_shortest_run;
+      extent.follow_last = std::min(groove.filled_to(), groove.end() + longest);
+      extent.follow_first = std::max(groove.filled_from(), groove.begin() - longest);
+      extent.groove_edges_last = groove_edges_end(groove.end(), extent.follow_last, 1.0);
+      extent.groove_edges_first = groove_edges_end(groove.begin(), extent.follow_first, -1.0);
     }
-    for (std::size_t g = 0; g < 2; ++g) add_cuts(wound_[g], grooves_[g]);
+    for (std::size_t g = 0; g < 2; ++g) add_cuts(extents_[g], grooves_[g]);
     std::sort(marks_.begin(), marks_.end());
 
     const double foot = layout_.elephant_foot;
     if (foot > 0) add_ring({0, true, groove_edge_ - foot, 0});
-    wound_[0].ring_below = add_ring({0, true, groove_edge_, foot > 0 ? solid::rise_of(layout_, foot) : 0.0});
+    extents_[0].ring_below = add_ring({0, true, groove_edge_, foot > 0 ? solid::rise_of(layout_, foot) : 0.0});
     add_groove(0);
-    wound_[0].ring_above = add_ring({0, false, groove_edge_, plan_.heights.lower});
-    wound_[1].ring_below = add_ring({1, true, groove_edge_, plan_.heights.upper});
+    extents_[0].ring_above = add_ring({0, false, groove_edge_, plan_.heights.lower});
+    extents_[1].ring_below = add_ring({1, true, groove_edge_, plan_.heights.upper});
     add_groove(1);
-    wound_[1].ring_above = add_ring({1, false, groove_edge_, plan_.heights.top});
+    extents_[1].ring_above = add_ring({1, false, groove_edge_, plan_.heights.top});
   }
 
   std::size_t add_ring(const RimRing& ring) {
@@ -255,23 +265,23 @@ class SkinBuilder {
   }
 
   void add_groove(std::size_t g) {
-    Wound& wound = wound_[g];
-    wound.begin = place_of(grooves_[g].begin());
-    wound.end = place_of(grooves_[g].end());
-    wound.groove_edges_from = place_of(wound.groove_edges_first);
-    wound.groove_edges_to = place_of(wound.groove_edges_last);
-    wound.strand = strands_.size();
+    GrooveExtent& extent = extents_[g];
+    extent.begin = place_of(grooves_[g].begin());
+    extent.end = place_of(grooves_[g].end());
+    extent.groove_edges_from = place_of(extent.groove_edges_first);
+    extent.groove_edges_to = place_of(extent.groove_edges_last);
+    extent.strand = strands_.size();
     for (std::size_t k = 0; k < corners_.size(); ++k) {
       const bool is_groove_edge = k == 0 || k + 1 == corners_.size();
-      strands_.push_back({static_cast<int>(g), k, is_groove_edge ? wound.groove_edges_from : wound.begin,
-                          is_groove_edge ? wound.groove_edges_to : wound.end});
+      strands_.push_back({static_cast<int>(g), k, is_groove_edge ? extent.groove_edges_from : extent.begin,
+                          is_groove_edge ? extent.groove_edges_to : extent.end});
     }
   }
 
   bool is_ring(std::size_t strand) const { return strands_[strand].groove < 0; }
-  bool in_groove(std::size_t g, int place) const { return place >= wound_[g].begin && place < wound_[g].end; }
-  std::size_t low_groove_edge(std::size_t g) const { return wound_[g].strand; }
-  std::size_t high_groove_edge(std::size_t g) const { return wound_[g].strand + corners_.size() - 1; }
+  bool in_groove(std::size_t g, int place) const { return place >= extents_[g].begin && place < extents_[g].end; }
+  std::size_t low_groove_edge(std::size_t g) const { return extents_[g].strand; }
+  std::size_t high_groove_edge(std::size_t g) const { return extents_[g].strand + corners_.size() - 1; }
 
   Place place(std::size_t strand, int at) const {
     return {strand, is_ring(strand) ? static_cast<int>(sector_of(at)) : at};
@@ -288,7 +298,7 @@ class SkinBuilder {
       }
       const auto g = static_cast<std::size_t>(strands_[strand].groove);
       if (strand != low_groove_edge(g)) continue;
-      for (int at = wound_[g].groove_edges_to - 1; at >= wound_[g].groove_edges_from; --at) {
+      for (int at = extents_[g].groove_edges_to - 1; at >= extents_[g].groove_edges_from; --at) {
         if (sector_of(at) != sector) continue;
         for (std::size_t k = 0; k < corners_.size(); ++k) {
           const bool is_groove_edge = k == 0 || k + 1 == corners_.size();
@@ -313,29 +323,31 @@ class SkinBuilder {
     return grooves_[g].at(turn) + Vec3(out.x(), out.y(), corner.dz);
   }
 
-  /// The strands below and above the groove edges beyond their groove's end.
-  std::pair<Vec3, Vec3> around(std::size_t g, double turn, bool back) const {
-    if (back) return {ring_at(wound_[g].ring_below, turn), groove_edge_at(g, turn - k_two_pi, true)};
-    return {groove_edge_at(g, turn + k_two_pi, false), ring_at(wound_[g].ring_above, turn)};
+  /// Points of the strands below and above the groove edges beyond their groove's end. `back`: beyond the last end,
+  /// otherwise before the first.
+  std::pair<Vec3, Vec3> neighbours(std::size_t g, double turn, bool back) const {
+    if (back) return {ring_at(extents_[g].ring_below, turn), groove_edge_at(g, turn - k_two_pi, true)};
+    return {groove_edge_at(g, turn + k_two_pi, false), ring_at(extents_[g].ring_above, turn)};
   }
 
   /// The relative height between the two at which a groove edge ends.
-  double share_of(std::size_t g, bool low, bool back) const {
-    const double turn = back ? wound_[g].held_last : wound_[g].held_first;
-    const auto [below, above] = around(g, turn, back);
+  double height_share(std::size_t g, bool low, bool back) const {
+    const double turn = back ? extents_[g].follow_last : extents_[g].follow_first;
+    const auto [below, above] = neighbours(g, turn, back);
     return (groove_edge_at(g, turn, low).z() - below.z()) / (above.z() - below.z());
   }
 
+  /// A groove edge beyond its groove's end: it moves from the groove's course to the straight between both neighbours.
   Vec3 free_groove_edge(std::size_t g, double turn, bool low) const {
     const HelicalGroove& groove = grooves_[g];
     const bool back = turn > 0.5 * (groove.begin() + groove.end());
-    const double from = back ? wound_[g].held_last : wound_[g].held_first;
-    const double to = back ? wound_[g].groove_edges_last : wound_[g].groove_edges_first;
-    const double gone = smooth_step((turn - from) / (to - from));
-    const auto [below, above] = around(g, turn, back);
-    const double share = share_of(g, low, back);
-    return (1.0 - gone) * groove_edge_at(g, turn, low, groove.bulge(turn, low)) +
-           gone * ((1.0 - share) * below + share * above);
+    const double from = back ? extents_[g].follow_last : extents_[g].follow_first;
+    const double to = back ? extents_[g].groove_edges_last : extents_[g].groove_edges_first;
+    const double transition = smooth_step((turn - from) / (to - from));
+    const auto [below, above] = neighbours(g, turn, back);
+    const double share = height_share(g, low, back);
+    return (1.0 - transition) * groove_edge_at(g, turn, low, groove.bulge(turn, low)) +
+           transition * ((1.0 - share) * below + share * above);
   }
 
   void fit_sector(std::size_t s) {
@@ -347,34 +359,35 @@ class SkinBuilder {
     std::vector<Column> columns;
     for (const Place& here : stack_in(s)) {
       const Strand& strand = strands_[here.strand];
-      const bool wound = strand.groove >= 0 && in_groove(static_cast<std::size_t>(strand.groove), here.at);
-      if (wound && strand.number > 0) continue;
-      columns.push_back({here, wound ? k_floor_tolerance : k_other_tolerance});
+      const bool is_in_groove = strand.groove >= 0 && in_groove(static_cast<std::size_t>(strand.groove), here.at);
+      if (is_in_groove && strand.number > 0) continue;
+      columns.push_back({here, is_in_groove ? k_floor_tolerance : k_other_tolerance});
       sector.columns[here] = 2 + 3 * static_cast<Eigen::Index>(columns.size() - 1);
     }
-    SplineWish wish;
-    wish.at = [&](double psi) {
+    SplineTarget target;
+    target.at = [&](double psi) {
       Row row(2 + 3 * static_cast<Eigen::Index>(columns.size()));
       row.head<2>() = unit(psi).transpose();
       for (std::size_t k = 0; k < columns.size(); ++k)
         row.segment<3>(2 + 3 * static_cast<Eigen::Index>(k)) = base_at(columns[k].place, psi).transpose();
       return row;
     };
-    wish.slope = [&](double psi) -> Row {
-      const double step = std::abs(psi - sector.from) < std::abs(psi - sector.to) ? k_inside : -k_inside;
-      return (4.0 * wish.at(psi + step) - 3.0 * wish.at(psi) - wish.at(psi + 2.0 * step)) / (2.0 * step);
+    target.slope = [&](double psi) -> Row {
+      const double step = std::abs(psi - sector.from) < std::abs(psi - sector.to) ? k_slope_step : -k_slope_step;
+      // The one-sided difference of second order.
+      return (4.0 * target.at(psi + step) - 3.0 * target.at(psi) - target.at(psi + 2.0 * step)) / (2.0 * step);
     };
     const double reach = std::max(std::abs(groove_edge_), 0.5 * mechanism_.tendon.diameter);
-    wish.off = [&](const Row& found, double psi) {
-      const Row wanted = wish.at(psi);
-      double worst = reach * (found - wanted).head<2>().norm() / k_normal_tolerance;
+    target.error = [&](const Row& fitted_row, double psi) {
+      const Row wanted = target.at(psi);
+      double worst = reach * (fitted_row - wanted).head<2>().norm() / k_normal_tolerance;
       for (std::size_t k = 0; k < columns.size(); ++k) {
         const auto column = 2 + 3 * static_cast<Eigen::Index>(k);
-        worst = std::max(worst, (found - wanted).segment<3>(column).norm() / columns[k].tolerance);
+        worst = std::max(worst, (fitted_row - wanted).segment<3>(column).norm() / columns[k].tolerance);
       }
       return worst;
     };
-    auto fitted = fit(wish, sector.from, sector.to, {});
+    auto fitted = fit(target, sector.from, sector.to, {});
     if (!fitted)
       throw InputError("", "too large for STEP: its curves take more pieces than a part for CAD may have",
                        "build it without --step: the meshes have it");
@@ -395,13 +408,13 @@ class SkinBuilder {
   std::vector<Vec3> poles_of(const Place& here, double outward, double dz) const {
     const Sector& sector = sectors_[sector_of(here.at)];
     const Strand& strand = strands_[here.strand];
-    const bool wound = strand.groove >= 0 && in_groove(static_cast<std::size_t>(strand.groove), here.at);
-    const Place base = wound ? Place{low_groove_edge(static_cast<std::size_t>(strand.groove)), here.at} : here;
+    const bool is_in_groove = strand.groove >= 0 && in_groove(static_cast<std::size_t>(strand.groove), here.at);
+    const Place base = is_in_groove ? Place{low_groove_edge(static_cast<std::size_t>(strand.groove)), here.at} : here;
     const Eigen::Index column = sector.columns.at(base);
     std::vector<Vec3> poles;
     for (Eigen::Index i = 0; i < sector.spline.poles.rows(); ++i) {
       Vec3 pole = sector.spline.poles.row(i).segment<3>(column).transpose();
-      if (wound) {
+      if (is_in_groove) {
         pole.head<2>() += outward * sector.spline.poles.row(i).head<2>().transpose();
         pole.z() += dz;
       } else if (strand.groove < 0) {
@@ -425,7 +438,7 @@ class SkinBuilder {
     for (const Place& side : {cell.low, cell.high}) {
       const Strand& strand = strands_[side.strand];
       const auto g = strand.groove >= 0 ? static_cast<std::size_t>(strand.groove) : rings_[strand.number].groove;
-      for (const double cut : wound_[g].cuts) {
+      for (const double cut : extents_[g].cuts) {
         if (std::abs(cut - direction) < k_same_mark) return true;
       }
       if (is_bent_after(side)) return true;
@@ -440,6 +453,7 @@ class SkinBuilder {
     const std::vector<double>& later = sectors_[sector_of(here.at + 1)].spline.knots;
     const double step = knots.back() - knots[knots.size() - k_step_degree - 2];
     const double next_step = later[k_step_degree + 1] - later.front();
+    // With equal speeds on both sides, the pole at the join divides its neighbours' distance like the knot spans.
     const Vec3 smooth = (next_step * before[before.size() - 2] + step * after[1]) / (step + next_step);
     return (smooth - before.back()).norm() > k_bent;
   }
@@ -498,12 +512,12 @@ class SkinBuilder {
   }
 
   void put_groove_edges_on_straight(std::size_t g, bool back) {
-    const int end = back ? wound_[g].groove_edges_to : wound_[g].groove_edges_from;
-    const Place below = back ? place(wound_[g].ring_below, end) : Place{high_groove_edge(g), end + count()};
-    const Place above = back ? Place{low_groove_edge(g), end - count()} : place(wound_[g].ring_above, end);
+    const int end = back ? extents_[g].groove_edges_to : extents_[g].groove_edges_from;
+    const Place below = back ? place(extents_[g].ring_below, end) : Place{high_groove_edge(g), end + count()};
+    const Place above = back ? Place{low_groove_edge(g), end - count()} : place(extents_[g].ring_above, end);
     const Vec3 from = skin_.corners[corner_of_.at(below)], to = skin_.corners[corner_of_.at(above)];
     for (const bool low : {true, false}) {
-      const double share = share_of(g, low, back);
+      const double share = height_share(g, low, back);
       const Place groove_edge{low ? low_groove_edge(g) : high_groove_edge(g), end};
       skin_.corners[corner_of_.at(groove_edge)] = (1.0 - share) * from + share * to;
     }
@@ -513,7 +527,7 @@ class SkinBuilder {
 
   /// A strand's pieces from one place to another as one curve. Their tangents are equal at the joins, so the pole there
   /// lies between its neighbours and is removed.
-  StepSkin::Curve joined(const Place& from, int pieces, double outward, double dz, bool is_edge) const {
+  StepSkin::Curve joined_curve(const Place& from, int pieces, double outward, double dz, bool is_edge) const {
     StepSkin::Curve curve;
     double shift = 0;
     for (int k = 0; k < pieces; ++k) {
@@ -540,11 +554,11 @@ class SkinBuilder {
     }
     return curve;
   }
-  StepSkin::Curve joined(const Place& from, int pieces) const {
+  StepSkin::Curve joined_curve(const Place& from, int pieces) const {
     const Strand& strand = strands_[from.strand];
-    if (strand.groove < 0) return joined(from, pieces, 0, 0, true);
+    if (strand.groove < 0) return joined_curve(from, pieces, 0, 0, true);
     const SectionCorner& corner = corners_[strand.number];
-    return joined(from, pieces, corner.outward, corner.dz, true);
+    return joined_curve(from, pieces, corner.outward, corner.dz, true);
   }
   void set_end(Vec3& pole, const Place& here) const {
     const auto corner = corner_of_.find(here);
@@ -556,7 +570,8 @@ class SkinBuilder {
     int pieces = 0;
   };
 
-  /// Edges along a run of a strand, between corners; `param`: of its beginning on the face.
+  /// Edges along a run of a strand, between corners. On the face they begin at the parameter `param` and have the
+  /// parameter `v`: 0 on the lower side, 1 on the upper one.
   std::vector<StepSkin::Use> edges_along(const Run& run, double param, double v) {
     std::vector<StepSkin::Use> uses;
     double at = param;
@@ -572,7 +587,7 @@ class SkinBuilder {
       auto [known, is_new] = edge_from_.emplace(from, skin_.edges.size());
       if (is_new) {
         const Place to = place(from.strand, from.at + pieces);
-        skin_.edges.push_back({corner_of_.at(from), corner_of_.at(to), joined(from, pieces)});
+        skin_.edges.push_back({corner_of_.at(from), corner_of_.at(to), joined_curve(from, pieces)});
       }
       uses.push_back({known->second, false, Vec2(at, v), Vec2(at + width, v)});
       at += width;
@@ -662,13 +677,13 @@ class SkinBuilder {
       patch.knots = std::move(curve.knots);
       patch.rows.push_back(std::move(curve.poles));
     };
-    add_row(joined(first.low, pieces));
+    add_row(joined_curve(first.low, pieces));
     if (is_arc(first)) {
       const SectionCorner& corner = corners_[strands_[first.low.strand].number];
-      add_row(joined(first.low, pieces, corner.arc_outward, corner.arc_dz, false));
+      add_row(joined_curve(first.low, pieces, corner.arc_outward, corner.arc_dz, false));
       patch.weight = corner.weight;
     }
-    add_row(joined(first.high, pieces));
+    add_row(joined_curve(first.high, pieces));
     const double from = patch.knots.front(), to = patch.knots.back();
     std::vector<StepSkin::Use> loop;
     append(loop, edges_along({first.low, pieces}, from, 0), false);
@@ -682,7 +697,7 @@ class SkinBuilder {
   void add_end_wall(std::size_t g, int at, double along) {
     std::vector<StepSkin::Use> loop;
     for (std::size_t k = 0; k + 1 < corners_.size(); ++k) {
-      const Place low{wound_[g].strand + k, at}, high{wound_[g].strand + k + 1, at};
+      const Place low{extents_[g].strand + k, at}, high{extents_[g].strand + k + 1, at};
       loop.push_back(corners_[k].arc ? arc(low, high) : straight(corner_of_.at(low), corner_of_.at(high)));
     }
     loop.push_back(straight(corner_of_.at({high_groove_edge(g), at}), corner_of_.at({low_groove_edge(g), at})));
@@ -754,7 +769,7 @@ class SkinBuilder {
   std::vector<SectionCorner> corners_;
   double groove_edge_;
   std::array<HelicalGroove, 2> grooves_;
-  std::array<Wound, 2> wound_;
+  std::array<GrooveExtent, 2> extents_;
   std::vector<double> marks_;
   std::vector<RimRing> rings_;
   std::vector<Strand> strands_;

@@ -54,19 +54,19 @@ double floor_error(const profile::Outline& outline, double tendon_diameter, doub
   return worst;
 }
 
-/// Places on the floors of helical grooves under the tendons: half a tendon inside every row of the spirals.
-std::vector<Vec3> floor_places(const HelixProduct& helix, double tendon_diameter, double scale) {
-  std::vector<Vec3> places;
+/// Points on the floors of helical grooves under the tendons: half a tendon inside every row of the spirals.
+std::vector<Vec3> floor_points(const HelixProduct& helix, double tendon_diameter, double scale) {
+  std::vector<Vec3> points;
   const helical_solid::SpiralPlace* const spirals[] = {&helix.pulley.p1, &helix.pulley.p2};
   for (std::size_t k = 0; k < 2; ++k) {
     const helix::Spiral& spiral = helix.synthesis.sides[k].spiral;
     for (std::size_t i = spiral.first_used; i <= spiral.last_used; ++i) {
       const helix::SpiralRow& row = spiral.rows[i];
       const Vec2 floor = Vec2(row.x, row.y) - 0.5 * tendon_diameter * unit(row.turn);
-      places.push_back(scale * Vec3(floor.x(), floor.y(), spirals[k]->height(row.z)));
+      points.push_back(scale * Vec3(floor.x(), floor.y(), spirals[k]->height(row.z)));
     }
   }
-  return places;
+  return points;
 }
 
 }  // namespace
@@ -85,18 +85,18 @@ StepFile step_file(const Product& product) {
 
 StepInspection inspect_step(const fs::path& path, const Product& product, double tolerance) {
   const solid::BodyLayout& layout = product.pulley.layout;
-  const double d = product.joint.mechanism.tendon.diameter, scale = layout.scale;
+  const double tendon_diameter = product.joint.mechanism.tendon.diameter, scale = layout.scale;
   StepQuestion question;
   StepInspection inspection;
   if (product.helix) {
-    question.places = floor_places(*product.helix, d, scale);
-    question.grounds = [&inspection, scale](const solid::TriangleMesh& mesh) {
+    question.points = floor_points(*product.helix, tendon_diameter, scale);
+    question.floors = [&inspection, scale](const solid::TriangleMesh& mesh) {
       inspection.helical = helical_solid::helical_floors(mesh, scale);
-      std::vector<Vec3> places;
+      std::vector<Vec3> points;
       for (const helical_solid::FloorLine& line : inspection.helical) {
-        for (const Vec3& place : line) places.push_back(scale * place);
+        for (const Vec3& point : line) points.push_back(scale * point);
       }
-      return places;
+      return points;
     };
   } else {
     question.planes = {scale * layout.z_p1, scale * layout.z_p2};
@@ -111,19 +111,19 @@ StepInspection inspect_step(const fs::path& path, const Product& product, double
   inspection.checks.push_back(
       at_most("volume_difference", std::abs(found.volume - expected), tolerance * found.area, "mm3"));
   double error = std::numeric_limits<double>::infinity();
-  if (product.helix && found.distances.size() == question.places.size()) {
+  if (product.helix && found.distances.size() == question.points.size()) {
     error = *std::max_element(found.distances.begin(), found.distances.end());
   } else if (found.sections.size() == 2) {
-    error = std::max(floor_error(product.synthesis.p1, d, scale, found.sections[0]),
-                     floor_error(product.synthesis.p2, d, scale, found.sections[1]));
+    error = std::max(floor_error(product.synthesis.p1, tendon_diameter, scale, found.sections[0]),
+                     floor_error(product.synthesis.p2, tendon_diameter, scale, found.sections[1]));
     inspection.floor1 = found.sections[0];
     inspection.floor2 = found.sections[1];
   }
   inspection.checks.push_back(at_most("floor_error", error, k_floor_limit, "mm"));
-  auto ground = found.grounds.begin();
+  auto floor = found.floors.begin();
   for (helical_solid::FloorLine& line : inspection.helical) {
-    for (Vec3& place : line) {
-      if (ground != found.grounds.end()) place = *ground++ / scale;
+    for (Vec3& point : line) {
+      if (floor != found.floors.end()) point = *floor++ / scale;
     }
   }
   return inspection;

@@ -25,12 +25,11 @@ struct StepFile {
 /// may have ("too large for STEP: …"). The same part gives the same bytes.
 StepFile step_file(const Product& product);
 
-/// Result of reading a written file back: its checks and its groove floors, as printed at the part's heights, or, for
-/// several turns, all helical floors as finished.
+/// Result of reading a written file back.
 struct StepInspection {
   std::vector<Check> checks;
-  Polygon floor1, floor2;
-  std::vector<helical_solid::FloorLine> helical;
+  Polygon floor1, floor2;  ///< one turn: groove floors of P1 and P2, with shrinkage compensation, mm
+  std::vector<helical_solid::FloorLine> helical;  ///< several turns: helical floors, without that compensation, mm
 };
 /// `tolerance`: of the mesh that the volume is compared with, mm.
 StepInspection inspect_step(const std::filesystem::path& path, const Product& product, double tolerance);

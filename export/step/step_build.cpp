@@ -21,30 +21,30 @@ namespace {
 constexpr double k_groove_tolerance = 6e-5;
 constexpr double k_rim_tolerance = 1e-3;
 // Tolerance for recognising rows among the body's rings, which were computed in the same way.
-constexpr double k_same = 1e-7;
+constexpr double k_same = 1e-7;  // mm
 // Least distance of sector cuts, rad.
 constexpr double k_narrowest_sector = radians(75);
 // The kernel's time for a cut grows with the ratio of part size to smallest feature: a radius of 0.4 m takes a minute.
 constexpr double k_largest_radius = 400;
 
-/// A family of parallel curves.
-struct Base {
-  std::vector<Vec2> points;        ///< at the outlines' normals
-  std::vector<double> radii = {};  ///< of curvature, if known
-  std::vector<std::size_t> kinks = {};
+/// A curve whose parallels are rings of the body.
+struct BaseCurve {
+  std::vector<Vec2> points;             ///< at the outlines' normals
+  std::vector<double> radii = {};       ///< of curvature, if known
+  std::vector<std::size_t> kinks = {};  ///< points with tangent continuity only
   double tolerance = k_groove_tolerance;
   std::vector<NormalSpline> fits = {};  ///< one for each sector
 };
 
 /// A ring of the body as a parallel of a base curve; base null: a circle about the axis, of the radius `distance`.
 struct ParallelRing {
-  Base* base = nullptr;
+  BaseCurve* base = nullptr;
   double distance = 0;
   double z = 0;
 };
 
-Base base_of(const profile::Outline& outline) {
-  Base base;
+BaseCurve base_of(const profile::Outline& outline) {
+  BaseCurve base;
   for (const profile::OutlinePoint& point : outline.points) {
     base.points.push_back(point.position);
     base.radii.push_back(point.curvature_radius);
@@ -63,7 +63,7 @@ void refuse_beyond(double reach) {
                                     rounded(k_largest_radius)));
 }
 
-void name_zones(StepPart& part, const Product& product) {
+void set_name_and_zones(StepPart& part, const Product& product) {
   const solid::BodyLayout& layout = product.pulley.layout;
   part.name = product.joint.mechanism.name;
   part.z_mate = layout.scale * layout.z_mate;
@@ -84,7 +84,7 @@ class StepBuilder {
                            mechanism_.body.flange);
     middle_.points = rims.middle;
     middle_.tolerance = k_rim_tolerance;
-    name_zones(part_, product);
+    set_name_and_zones(part_, product);
   }
 
   StepPart build() {
@@ -108,27 +108,28 @@ class StepBuilder {
   // Sector cuts are as far from tie-offs as possible, so that they cross no cut feature.
   void choose_sectors() {
     constexpr int k_samples = 360;
-    const auto room_at = [&](double psi) {
-      double room = k_pi;
+    const auto clearance_at = [&](double psi) {
+      double clearance = k_pi;
       for (const solid::Anchor& anchor : product_.pulley.anchors) {
         for (const Vec2& place : {anchor.exit, anchor.pocket})
-          room = std::min(room, std::abs(std::remainder(psi - elementary::atan2(place.y(), place.x()), k_two_pi)));
+          clearance =
+              std::min(clearance, std::abs(std::remainder(psi - elementary::atan2(place.y(), place.x()), k_two_pi)));
       }
-      return room;
+      return clearance;
     };
     double first = 0, second = 0, best = -1;
     for (int i = 0; i < k_samples; ++i) {
       const double psi = k_two_pi * (i + 0.37) / k_samples;
-      if (room_at(psi) > best + 1e-9) {
-        best = room_at(psi);
+      if (clearance_at(psi) > best + 1e-9) {
+        best = clearance_at(psi);
         first = psi;
       }
     }
     best = -1;
     for (int i = 0; i < k_samples; ++i) {
       const double psi = first + k_narrowest_sector + (k_two_pi - 2 * k_narrowest_sector) * (i + 0.37) / k_samples;
-      if (room_at(psi) > best + 1e-9) {
-        best = room_at(psi);
+      if (clearance_at(psi) > best + 1e-9) {
+        best = clearance_at(psi);
         second = psi;
       }
     }
@@ -137,7 +138,7 @@ class StepBuilder {
 
   std::size_t sectors() const { return part_.sectors.size() - 1; }
 
-  const std::vector<NormalSpline>& fits_of(Base& base) {
+  const std::vector<NormalSpline>& fits_of(BaseCurve& base) {
     if (!base.fits.empty()) return base.fits;
     std::vector<Vec2> points;
     std::vector<double> radii, kinks;
@@ -164,7 +165,7 @@ class StepBuilder {
     };
     const double from_axis = ring.points.front().dot(reference.front().normal);
     if (is_parallel(nullptr, from_axis)) return {nullptr, from_axis, ring.z};
-    for (Base* base : {&p1_, &p2_, &middle_}) {
+    for (BaseCurve* base : {&p1_, &p2_, &middle_}) {
       const double distance = (ring.points.front() - base->points.front()).dot(reference.front().normal);
       if (is_parallel(&base->points, distance)) return {base, distance, ring.z};
     }
@@ -226,7 +227,7 @@ class StepBuilder {
   }
 
   /// A circle over another row's knots.
-  std::vector<StepSpline> circle_like(Base& base, double radius) {
+  std::vector<StepSpline> circle_like(BaseCurve& base, double radius) {
     std::vector<StepSpline> pieces;
     for (const NormalSpline& fitted : fits_of(base)) {
       pieces.push_back({fitted.knots, fitted.normal});
@@ -257,10 +258,10 @@ class StepBuilder {
   const Product& product_;
   const Mechanism& mechanism_;
   const solid::BodyLayout& layout_;
-  Base p1_, p2_, middle_;
+  BaseCurve p1_, p2_, middle_;
   std::vector<double> psi_;
   double reach_ = 0;
-  ParallelRing last_;
+  ParallelRing last_;  ///< of the last row
   StepPart part_;
 };
 
@@ -271,56 +272,56 @@ StepPart helical_part(const Product& product) {
   }
   refuse_beyond(reach);
   StepPart part;
-  name_zones(part, product);
+  set_name_and_zones(part, product);
   part.skin = helical_skin(product);
   return part;
 }
 
 // ---- scaling to the printed size ------------------------------------------------------------------------------------
 
-void scale(StepContour& contour, double by) {
-  contour.start *= by;
+void scale(StepContour& contour, double factor) {
+  contour.start *= factor;
   for (StepContour::Piece& piece : contour.pieces) {
-    piece.to *= by;
-    if (piece.via) *piece.via *= by;
+    piece.to *= factor;
+    if (piece.via) *piece.via *= factor;
   }
 }
 
-void scale(StepPrism& prism, double by) {
-  prism.origin *= by;
-  prism.low *= by;
-  prism.high *= by;
-  scale(prism.outer, by);
-  for (StepContour& loop : prism.inner) scale(loop, by);
-  if (prism.ceiling) prism.ceiling->point *= by;
+void scale(StepPrism& prism, double factor) {
+  prism.origin *= factor;
+  prism.low *= factor;
+  prism.high *= factor;
+  scale(prism.outer, factor);
+  for (StepContour& loop : prism.inner) scale(loop, factor);
+  if (prism.ceiling) prism.ceiling->point *= factor;
 }
 
-void scale(StepFrustum& frustum, double by) {
-  frustum.low_centre *= by;
-  frustum.high_centre *= by;
-  for (double* value : {&frustum.low, &frustum.high, &frustum.low_radius, &frustum.high_radius}) *value *= by;
+void scale(StepFrustum& frustum, double factor) {
+  frustum.low_centre *= factor;
+  frustum.high_centre *= factor;
+  for (double* value : {&frustum.low, &frustum.high, &frustum.low_radius, &frustum.high_radius}) *value *= factor;
 }
 
-void scale(StepTurned& turned_section, double by) {
-  turned_section.centre *= by;
-  for (Vec2& corner : turned_section.section) corner *= by;
+void scale(StepTurned& turned_section, double factor) {
+  turned_section.centre *= factor;
+  for (Vec2& corner : turned_section.section) corner *= factor;
 }
 
-void scale(StepChannel& channel, double by) {
+void scale(StepChannel& channel, double factor) {
   for (StepRing& ring : channel.rings) {
-    ring.middle *= by;
-    ring.radius *= by;
-    ring.ridge *= by;
+    ring.middle *= factor;
+    ring.radius *= factor;
+    ring.ridge *= factor;
   }
 }
 
-void scale(solid::TriangleMesh& mesh, double by) {
-  for (Vec3& vertex : mesh.vertices) vertex *= by;
+void scale(solid::TriangleMesh& mesh, double factor) {
+  for (Vec3& vertex : mesh.vertices) vertex *= factor;
 }
 
-std::vector<StepTool> scaled(std::vector<StepTool> tools, double by) {
+std::vector<StepTool> scaled(std::vector<StepTool> tools, double factor) {
   for (StepTool& tool : tools) {
-    for (StepSolid& solid : tool.common) std::visit([by](auto& shape) { scale(shape, by); }, solid);
+    for (StepSolid& solid : tool.common) std::visit([factor](auto& shape) { scale(shape, factor); }, solid);
   }
   return tools;
 }
@@ -330,11 +331,11 @@ std::vector<StepTool> scaled(std::vector<StepTool> tools, double by) {
 StepPart step_part(const Product& product) {
   StepPart part = product.helix ? helical_part(product) : StepBuilder(product).build();
   const Mechanism& mechanism = product.joint.mechanism;
-  const double by = product.pulley.layout.scale;
-  part.cuts = scaled(step_cuts(mechanism, product.pulley), by);
-  part.raised = scaled(step_raised(mechanism, product.pulley), by);
+  const double factor = product.pulley.layout.scale;
+  part.cuts = scaled(step_cuts(mechanism, product.pulley), factor);
+  part.raised = scaled(step_raised(mechanism, product.pulley), factor);
   if (!product.helix) return part;
-  for (StepTool& tool : scaled(run_out_cuts(product), by)) part.cuts.push_back(std::move(tool));
+  for (StepTool& tool : scaled(run_out_cuts(product), factor)) part.cuts.push_back(std::move(tool));
   return part;
 }
 

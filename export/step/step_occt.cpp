@@ -90,7 +90,7 @@ namespace {
 
 // Tolerance of sewing nearly equal rows: a circle, and the spline over another row's knots that represents it.
 constexpr double k_sewn = 1e-5;
-// Sagitta of a file's floors, mm, and angle, rad.
+// Sagitta, mm, and turn between points, rad, of the floors that are read from a file.
 constexpr double k_floor_sagitta = 1e-5;
 constexpr double k_floor_turn = 0.02;
 constexpr double k_same_height = 1e-9;
@@ -142,6 +142,7 @@ Handle(Geom_BSplineCurve) curve_of(const std::vector<double>& flat_knots, const 
   return new Geom_BSplineCurve(poles, knots.values, knots.times, k_step_degree);
 }
 
+/// Inserts the knots of `other` that `curve` lacks. The curve stays as it is.
 void take_knots_of(const Handle(Geom_BSplineCurve) & curve, const Handle(Geom_BSplineCurve) & other) {
   TColStd_Array1OfReal values(1, other->NbKnots());
   TColStd_Array1OfInteger times(1, other->NbKnots());
@@ -266,8 +267,8 @@ class BodyMaker {
 
   TopoDS_Face flat_face(const StepRow& low, const StepRow& high, std::size_t s) const {
     const TopoDS_Edge inner = edge(low, s), outer = edge(high, s);
-    const auto end = [](const TopoDS_Edge& of, bool last) {
-      return BRep_Tool::Pnt(last ? TopExp::LastVertex(of) : TopExp::FirstVertex(of));
+    const auto end = [](const TopoDS_Edge& edge, bool last) {
+      return BRep_Tool::Pnt(last ? TopExp::LastVertex(edge) : TopExp::FirstVertex(edge));
     };
     BRepBuilderAPI_MakeWire wire(inner);
     wire.Add(BRepBuilderAPI_MakeEdge(end(inner, true), end(outer, true)));
@@ -475,8 +476,8 @@ class ToolMaker {
           BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakeWire(edges.right, edges.left, edges.chord).Wire(), true));
     }
     loft.Build();
-    for (TopExp_Explorer each(loft.Shape(), TopAbs_FACE); each.More(); each.Next())
-      faces.push_back(TopoDS::Face(each.Current()));
+    for (TopExp_Explorer side(loft.Shape(), TopAbs_FACE); side.More(); side.Next())
+      faces.push_back(TopoDS::Face(side.Current()));
     return solid_of(sewn(faces));
   }
 
@@ -578,8 +579,8 @@ TopoDS_Solid only_solid(const TopoDS_Shape& shape) {
   return TopoDS::Solid(solids(1));
 }
 
-/// Replaces curves of many poles by equal ones with fewer poles, except isoparametric ones. The kernel makes them where
-/// a cut meets a face with an uneven parameter, because it steps by microns there.
+/// Replaces curves of many poles by equal ones with fewer poles. The kernel makes such curves where a cut meets a face
+/// with an uneven parameter, because it steps by microns there. Curves of the body's own degree are left.
 void shorten_curves(const TopoDS_Shape& shape) {
   constexpr int k_many_poles = 30, k_most_pieces = 20;
   constexpr double k_near = 1e-6;
@@ -589,15 +590,15 @@ void shorten_curves(const TopoDS_Shape& shape) {
     const TopoDS_Edge edge = TopoDS::Edge(edges(i));
     if (BRep_Tool::Degenerated(edge)) continue;
     double from = 0, to = 0;
-    TopLoc_Location place;
-    const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, place, from, to);
+    TopLoc_Location location;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, location, from, to);
     const Handle(Geom_BSplineCurve) spline = Handle(Geom_BSplineCurve)::DownCast(curve);
     if (spline.IsNull() || spline->Degree() == k_step_degree || spline->NbPoles() <= k_many_poles) continue;
     const Handle(Geom_Curve) piece = new Geom_TrimmedCurve(spline, from, to);
     const GeomConvert_ApproxCurve shorter(piece, k_near, GeomAbs_C1, k_most_pieces, k_step_degree);
     if (!shorter.HasResult() || shorter.MaxError() > 2 * k_near) continue;
     if (shorter.Curve()->NbPoles() < spline->NbPoles())
-      BRep_Builder().UpdateEdge(edge, shorter.Curve(), place, BRep_Tool::Tolerance(edge));
+      BRep_Builder().UpdateEdge(edge, shorter.Curve(), location, BRep_Tool::Tolerance(edge));
   }
 }
 
@@ -622,7 +623,7 @@ const Zone& zone_of(const TopoDS_Face& face, const StepPart& part) {
 }
 
 /// The STEP file of a solid, with the name and colour of each face.
-std::string written(const TopoDS_Solid& solid, const StepPart& part) {
+std::string step_bytes(const TopoDS_Solid& solid, const StepPart& part) {
   const Handle(TDocStd_Document) document = new TDocStd_Document("XmlXCAF");
   const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
   const Handle(XCAFDoc_ColorTool) colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
@@ -678,7 +679,7 @@ std::string write(const StepPart& part, std::string& complaint) {
     shape = combined<BRepAlgoAPI_Fuse>(shape, part.raised);
     const TopoDS_Solid solid = only_solid(shape);
     shorten_curves(solid);
-    return written(solid, part);
+    return step_bytes(solid, part);
   } catch (const Standard_Failure& failure) {
     complaint = std::string(failure.DynamicType()->Name()) + " " + failure.GetMessageString();
   } catch (const std::runtime_error& error) {
@@ -709,8 +710,8 @@ int unpaired_edges(const TopoDS_Shape& shape) {
 bool mesh_closes(const TopoDS_Face& face) {
   using Link = std::pair<int, int>;
   const auto link = [](int a, int b) { return Link(std::min(a, b), std::max(a, b)); };
-  TopLoc_Location place;
-  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
+  TopLoc_Location location;
+  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, location);
   if (mesh.IsNull() || mesh->NbTriangles() == 0) return false;
   std::map<Link, int> uses;
   for (int i = 1; i <= mesh->NbTriangles(); ++i) {
@@ -725,7 +726,7 @@ bool mesh_closes(const TopoDS_Face& face) {
   }
   for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
     const Handle(Poly_PolygonOnTriangulation) polygon =
-        BRep_Tool::PolygonOnTriangulation(TopoDS::Edge(edges.Current()), mesh, place);
+        BRep_Tool::PolygonOnTriangulation(TopoDS::Edge(edges.Current()), mesh, location);
     if (polygon.IsNull()) return false;
     for (int i = 1; i < polygon->NbNodes(); ++i) along_edges.insert(link(polygon->Node(i), polygon->Node(i + 1)));
   }
@@ -786,8 +787,8 @@ Polygon floor_at(const TopoDS_Shape& shape, double z, bool smooth) {
   return largest;
 }
 
-/// The floor with smooth curves. The kernel finds none between the halves of elbow_idlers; for a part of that size
-/// chords are accurate enough.
+/// The floor with smooth curves. The kernel finds none between the halves of profiles/elbow_idlers.toml. For a part
+/// of that size chords are accurate enough.
 Polygon floor_at(const TopoDS_Shape& shape, double z) {
   Polygon floor = floor_at(shape, z, true);
   return floor.empty() ? floor_at(shape, z, false) : floor;
@@ -798,12 +799,12 @@ solid::TriangleMesh mesh_of(const TopoDS_Shape& shape) {
   solid::TriangleMesh mesh;
   for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
     const TopoDS_Face face = TopoDS::Face(faces.Current());
-    TopLoc_Location place;
-    const Handle(Poly_Triangulation) of_face = BRep_Tool::Triangulation(face, place);
+    TopLoc_Location location;
+    const Handle(Poly_Triangulation) of_face = BRep_Tool::Triangulation(face, location);
     if (of_face.IsNull()) continue;
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     for (int i = 1; i <= of_face->NbNodes(); ++i) {
-      const gp_Pnt node = of_face->Node(i).Transformed(place.Transformation());
+      const gp_Pnt node = of_face->Node(i).Transformed(location.Transformation());
       mesh.vertices.emplace_back(node.X(), node.Y(), node.Z());
     }
     const bool turned = face.Orientation() == TopAbs_REVERSED;
@@ -824,8 +825,8 @@ class SurfaceSamples {
   explicit SurfaceSamples(const TopoDS_Shape& shape) {
     for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
       const TopoDS_Face face = TopoDS::Face(faces.Current());
-      TopLoc_Location place;
-      const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
+      TopLoc_Location location;
+      const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, location);
       if (mesh.IsNull() || !mesh->HasUVNodes()) continue;
       surfaces_.push_back(BRep_Tool::Surface(face));
       for (int i = 1; i <= mesh->NbNodes(); ++i) {
@@ -845,8 +846,8 @@ class SurfaceSamples {
 
   /// The lowest point of the groove near `point`: of the surface points nearby in its half-plane through the axis, that
   /// with the smallest radius. For a level floor, its middle. `point` itself if there is none.
-  gp_Pnt ground(const gp_Pnt& point) const {
-    // The ends of walls are as low as the level ground between them.
+  gp_Pnt floor_near(const gp_Pnt& point) const {
+    // The ends of walls are as low as the level floor between them, which is preferred.
     constexpr double k_level = 1e-5;
     // Points further away belong to another turn.
     constexpr double k_near = 0.25;
@@ -854,11 +855,11 @@ class SurfaceSamples {
     double least = std::numeric_limits<double>::infinity();
     for (const auto& [surface, start] : near(point)) {
       const auto found = lowest_on(*surfaces_[surface], point, *start.second);
-      if (!found || found->first.Distance(point) > k_near) continue;
-      const double radius = radius_of(found->first) - (found->second ? k_level : 0.0);
+      if (!found || found->place.Distance(point) > k_near) continue;
+      const double radius = radius_of(found->place) - (found->is_level ? k_level : 0.0);
       if (radius >= least) continue;
       least = radius;
-      best = found->first;
+      best = found->place;
     }
     return best;
   }
@@ -904,9 +905,13 @@ class SurfaceSamples {
     bool inside = false;  ///< inside the patch
   };
 
-  /// The lowest place of a patch along u in the point's half-plane, and true if it is level across the patch.
-  static std::optional<std::pair<gp_Pnt, bool>> lowest_on(const Geom_Surface& surface, const gp_Pnt& point,
-                                                          const Node& start) {
+  struct LowestPoint {
+    gp_Pnt place;
+    bool is_level = false;  ///< the patch has the same radius all across the groove
+  };
+
+  /// The lowest point of a patch in the point's half-plane, searched over the rows v.
+  static std::optional<LowestPoint> lowest_on(const Geom_Surface& surface, const gp_Pnt& point, const Node& start) {
     constexpr int k_narrowings = 24;
     // No patch across a groove is wider.
     constexpr double k_far = 3;
@@ -924,10 +929,10 @@ class SurfaceSamples {
     if (!halfway || halfway->place.Distance(point) > k_far) return std::nullopt;
     const double first = radius_at(v1), last = radius_at(v2), level = radius_at(0.5 * (v1 + v2));
     const bool is_level = std::abs(first - level) < k_level && std::abs(last - level) < k_level;
-    const Bracket across_it{v1, v2};
-    const auto lowest = at(is_level ? across_it.middle() : golden_section(across_it, k_narrowings, radius_at).middle());
+    const Bracket rows{v1, v2};
+    const auto lowest = at(is_level ? rows.middle() : golden_section(rows, k_narrowings, radius_at).middle());
     if (!lowest || !lowest->inside) return std::nullopt;
-    return std::pair(lowest->place, is_level);
+    return LowestPoint{lowest->place, is_level};
   }
 
   /// The crossing of row v with the point's half-plane, by Newton's method from u. A half-plane may cross some rows
@@ -943,15 +948,15 @@ class SurfaceSamples {
       gp_Pnt here;
       gp_Vec along, up;
       surface.D1(u, v, here, along, up);
-      const double off = (point.X() * here.Y() - point.Y() * here.X()) / radius_of(point);
+      const double distance = (point.X() * here.Y() - point.Y() * here.X()) / radius_of(point);
       const double slope = (point.X() * along.Y() - point.Y() * along.X()) / radius_of(point);
-      if (std::abs(off) < k_near) {
+      if (std::abs(distance) < k_near) {
         const bool is_ahead = point.X() * here.X() + point.Y() * here.Y() > 0;
         if (!is_ahead) return std::nullopt;
         return Crossing{here, u > u1 - k_at_end && u < u2 + k_at_end};
       }
       if (slope == 0) break;
-      u = std::clamp(u - off / slope, u1 - past, u2 + past);
+      u = std::clamp(u - distance / slope, u1 - past, u2 + past);
     }
     return std::nullopt;
   }
@@ -966,12 +971,12 @@ class SurfaceSamples {
       gp_Pnt at;
       gp_Vec along, across;
       surface.D1(u, v, at, along, across);
-      const gp_Vec left(at, point);
-      best = std::min(best, left.Magnitude());
+      const gp_Vec residual(at, point);
+      best = std::min(best, residual.Magnitude());
       const double aa = along.SquareMagnitude(), ab = along.Dot(across), bb = across.SquareMagnitude();
       const double determinant = aa * bb - ab * ab;
       if (!(determinant > 0)) break;
-      const double a = along.Dot(left), b = across.Dot(left);
+      const double a = along.Dot(residual), b = across.Dot(residual);
       u = std::clamp(u + (bb * a - ab * b) / determinant, u1, u2);
       v = std::clamp(v + (aa * b - ab * a) / determinant, v1, v2);
     }
@@ -1011,13 +1016,13 @@ StepReading read(const std::string& path, const StepQuestion& question) {
     reading.volume = volume.Mass();
     reading.area = area.Mass();
     for (const double z : question.planes) reading.sections.push_back(floor_at(shape, z));
-    reading.open_faces = open_faces(shape, question.grounds != nullptr);
-    if (question.grounds) {
+    reading.open_faces = open_faces(shape, question.floors != nullptr);
+    if (question.floors) {
       const SurfaceSamples nearest(shape);
-      for (const Vec3& place : question.places) reading.distances.push_back(nearest.distance(point_at(place)));
-      for (const Vec3& place : question.grounds(mesh_of(shape))) {
-        const gp_Pnt found = nearest.ground(point_at(place));
-        reading.grounds.emplace_back(found.X(), found.Y(), found.Z());
+      for (const Vec3& place : question.points) reading.distances.push_back(nearest.distance(point_at(place)));
+      for (const Vec3& place : question.floors(mesh_of(shape))) {
+        const gp_Pnt found = nearest.floor_near(point_at(place));
+        reading.floors.emplace_back(found.X(), found.Y(), found.Z());
       }
     }
   } catch (const Standard_Failure&) {

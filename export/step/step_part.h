@@ -27,13 +27,12 @@ struct StepSpline {
   std::vector<Vec2> poles;
 };
 
+/// A closed curve of the body at one height.
 struct StepRow {
   double z = 0;
   double radius = 0;                    ///< > 0: a circle about the axis
   std::vector<StepSpline> pieces = {};  ///< of a row that is no circle, one for each sector
 };
-
-enum class StepZone { p1, p2, hub };
 
 /// The surface between a row and the next one.
 struct StepBand {
@@ -76,10 +75,10 @@ struct StepPrism {
   std::optional<Ceiling> ceiling = {};
 };
 
-/// A frustum between two horizontal circles.
+/// A frustum between two horizontal circles, of which one may be offset.
 struct StepFrustum {
   Vec2 low_centre = Vec2::Zero(), high_centre = Vec2::Zero();
-  double low = 0, high = 0;
+  double low = 0, high = 0;  ///< heights
   double low_radius = 0, high_radius = 0;
 };
 
@@ -106,13 +105,14 @@ struct StepChannel {
 
 /// Any of these solids.
 using StepSolid = std::variant<StepPrism, StepFrustum, StepTurned, StepChannel, solid::TriangleMesh>;
+/// A feature to cut or to add: the intersection of its solids.
 struct StepTool {
   std::vector<StepSolid> common;
 };
 
 struct StepHub {
   double radius = 0;
-  double high = 0;
+  double high = 0;  ///< z of its upper face
 };
 
 /// A body with helical rows: faces with corners and edges, each edge between two faces.
@@ -174,17 +174,17 @@ struct StepPart {
   std::optional<StepHub> hub = {};
   std::optional<StepSkin> skin = {};  ///< replaces rows, bands and hub
   std::vector<StepTool> cuts = {};
-  std::vector<StepTool> raised = {};
-  double z_mate = 0;  ///< boundary of P1 and P2
-  double z_top = 0;   ///< upper end of P2
+  std::vector<StepTool> raised = {};  ///< features to add
+  double z_mate = 0;                  ///< boundary of P1 and P2
+  double z_top = 0;                   ///< upper end of P2
 };
 
 /// Measurements requested of a written file.
 struct StepQuestion {
   std::vector<double> planes = {};  ///< heights of sections
-  std::vector<Vec3> places = {};    ///< places whose distance from the surface is measured
-  /// Approximate places of groove grounds in the file's mesh; null: none.
-  std::function<std::vector<Vec3>(const solid::TriangleMesh& mesh)> grounds = {};
+  std::vector<Vec3> points = {};    ///< points whose distance from the surface is measured
+  /// Gives approximate points of helical groove floors in the file's mesh; null: none.
+  std::function<std::vector<Vec3>(const solid::TriangleMesh& mesh)> floors = {};
 };
 
 /// Properties of a written file after reading it back.
@@ -198,9 +198,10 @@ struct StepReading {
   double volume = 0;
   double area = 0;
   std::vector<Polygon> sections;  ///< the outermost loops at the planes, within some 1e-5 mm; empty: none
-  std::vector<double> distances;  ///< of the places from the surface
-  /// The lowest places of the surface in the half-planes of the grounds; the middle of a level ground.
-  std::vector<Vec3> grounds;
+  std::vector<double> distances;  ///< of the points from the surface
+  /// For each approximate floor point: the lowest point of the surface in its half-plane through the axis. The middle of
+  /// a level floor.
+  std::vector<Vec3> floors;
 };
 
 /// The symbol exported by the module `fusee-step`.

@@ -80,7 +80,7 @@ void add_bore(std::vector<StepTool>& tools, const solid::BodyLayout& layout) {
 }
 
 void add_dowels(std::vector<StepTool>& tools, const solid::DowelLayout& dowels) {
-  constexpr double k_tip = 0.05;
+  constexpr double k_tip = 0.05;  // radius at the cone's end per radius of the hole
   const double radius = 0.5 * dowels.hole_diameter;
   for (const Vec2& place : dowels.places) {
     tools.push_back(cylinder(place, radius, -solid::k_overshoot, dowels.z_end));
@@ -116,16 +116,16 @@ void add_set_screw(std::vector<StepTool>& tools, const solid::BodyLayout& layout
 /// Heights above the groove's plane in print orientation, as z in the part.
 struct HeightAxis {
   double plane = 0;
-  double up = 1;
+  double up = 1;  ///< −1: the part is printed upside down
   double at(double height) const { return plane + up * height; }
 };
 
 /// Appends points of a channel's edge as lines and, on the arc about its bend, as arcs.
 void append_edge(StepContour& contour, const Polygon& edge, const solid::ChannelBend& bend, double radius) {
-  constexpr double k_on_it = 1e-7;
-  const auto on_arc = [&](const Vec2& point) { return std::abs((point - bend.centre).norm() - radius) < k_on_it; };
+  constexpr double k_on_curve = 1e-7;  // mm
+  const auto on_arc = [&](const Vec2& point) { return std::abs((point - bend.centre).norm() - radius) < k_on_curve; };
   const auto is_straight = [&](const Vec2& a, const Vec2& b, const Vec2& c) {
-    return std::abs(cross(b - a, c - a)) < k_on_it * (c - a).norm();
+    return std::abs(cross(b - a, c - a)) < k_on_curve * (c - a).norm();
   };
   for (std::size_t i = 1; i < edge.size();) {
     std::size_t end = i;
@@ -175,7 +175,7 @@ ChannelPlan plan_of(const solid::Anchor& anchor, double half_width) {
 }
 
 /// Direction across the straight, away from the bend's centre.
-Vec2 outer_of(const solid::Anchor& anchor) {
+Vec2 away_from_bend(const solid::Anchor& anchor) {
   return (anchor.pocket - anchor.bend->straight * anchor.bend->heading - anchor.bend->centre).normalized();
 }
 
@@ -205,7 +205,7 @@ void add_channel(std::vector<StepTool>& tools, const solid::Anchor& anchor, cons
   if (plan.straight.pieces.empty()) return;
   StepTool straight = prism_between(plan.straight, z.at(-half), z.at(slope > 0 ? highest : half));
   if (slope > 0) {
-    const Vec2 outer = outer_of(anchor), on_wall = bend.centre + inner * outer;
+    const Vec2 outer = away_from_bend(anchor), on_wall = bend.centre + inner * outer;
     const Vec3 point(on_wall.x(), on_wall.y(), z.at(half));
     std::get<StepPrism>(straight.common.front()).ceiling =
         StepPrism::Ceiling{point, Vec3(-slope * outer.x(), -slope * outer.y(), z.up)};
@@ -217,7 +217,7 @@ void add_channel(std::vector<StepTool>& tools, const solid::Anchor& anchor, cons
 StepContour pocket_contour(const solid::Anchor& anchor, const solid::BodyLayout& layout) {
   const solid::ChannelBend& bend = *anchor.bend;
   const double radius = layout.pocket_radius;
-  const Vec2 outer = outer_of(anchor);
+  const Vec2 outer = away_from_bend(anchor);
   const auto place = [&](double along, double across) -> Vec2 {
     return anchor.pocket + along * bend.heading + across * outer;
   };
@@ -243,7 +243,7 @@ void add_pocket(std::vector<StepTool>& tools, const solid::Anchor& anchor, const
   StepTool tool = prism_between(pocket_contour(anchor, layout), z.at(-layout.z_p1 - solid::k_overshoot),
                                 z.at(closed + layout.pocket_ceiling + 1));
   const double slope = 0.5 * layout.pocket_ceiling / layout.pocket_radius;
-  const Vec2 outer = outer_of(anchor);
+  const Vec2 outer = away_from_bend(anchor);
   auto& prism = std::get<StepPrism>(tool.common.front());
   if (slope > 0)
     prism.ceiling =
@@ -257,7 +257,7 @@ void add_pocket(std::vector<StepTool>& tools, const solid::Anchor& anchor, const
 /// Depths below a face, as z in the part.
 struct DepthAxis {
   double face = 0;
-  double in = 1;
+  double in = 1;  ///< +1: depths grow upwards; −1: downwards
   double at(double depth) const { return face + in * depth; }
 };
 
@@ -266,6 +266,8 @@ DepthAxis from_face(transmission::Side side, const solid::BodyLayout& layout) {
 }
 
 void add_face_hole(std::vector<StepTool>& tools, const solid::Anchor& anchor, const solid::BodyLayout& layout) {
+  // The slot ends past the groove's plane, mm. The countersink ends within the slot's round end, at this share of its
+  // radius. Both avoid faces that coincide.
   constexpr double k_past_plane = 0.03, k_share = 0.9;
   const solid::FaceSeat& seat = *anchor.seat;
   const bool left = anchor.side == transmission::Side::left;

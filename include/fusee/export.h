@@ -341,8 +341,9 @@ std::string comparison_manifest_json(const ComparisonProduct& product, const std
 
 /// The answer in at most 60 words, without identifiers: the change, its size and the remedy.
 std::string comparison_words(const ComparisonProduct& product);
-/// The largest of the smallest detectable changes, rms at the joint, rad; 0 if none was computed.
-double least_seen(const calibration::Comparison& comparison);
+/// The change that these runs detect, whatever its cause: the largest of the smallest detectable changes, rms at the
+/// joint, rad; 0 if none was computed.
+double certainly_detected(const calibration::Comparison& comparison);
 
 /// A row of the table of changes.
 struct ChangeRow {

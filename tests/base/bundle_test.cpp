@@ -169,7 +169,7 @@ TEST(Bundles, RejectTooMuchContent) {
 }
 
 TEST(Bundles, ReadFuzzingCorpus) {
-  int read = 0;
+  int read = 0;  // all other files of the corpus must be refused
   for (const auto& entry : fs::directory_iterator(fs::path(FUSEE_SOURCE_DIR) / "tests/fuzz/corpus/bundle"))
     read += refusal(read_file(entry.path(), k_any_size)).empty() ? 1 : 0;
   EXPECT_EQ(read, 4);

@@ -116,6 +116,7 @@ std::uint64_t hash(const Function& function) {
 }
 
 TEST(Elementary, BitsAreThoseOfEveryMachine) {
+  // Recorded once. Every compiler and machine must give these bits.
   constexpr std::array<std::uint64_t, k_functions.size()> k_hashes{
       0x9127086a98c9991cu, 0xb55667e3032a159fu, 0x1f30623cfaeae055u, 0xcc01bfeecc13d30fu, 0xca952184cc261cf0u,
       0x1faf0a122c192ceau, 0x6e7f0344a1f689ebu, 0xbdd1ec8c960a48du,  0x343da766776b670cu, 0x78f7d09325c48ab9u,

@@ -89,7 +89,8 @@ class Files : public testing::Test {
   std::vector<Diagnostic> notes_;  ///< notes of the last run
 };
 
-/// Makes `folder` the current folder while the object lives, so that no other folder can replace it.
+/// Makes `folder` the current folder while the object lives, so that no other folder can replace it. Tests with a
+/// variable `whole` run twice: a run replaces the folder as a whole, or, as the current folder, file by file.
 class CurrentFolder {
  public:
   explicit CurrentFolder(const fs::path& folder) : before_(fs::current_path()) { fs::current_path(folder); }
@@ -170,10 +171,10 @@ TEST_F(Files, StopRemovesStagedFiles) {
   std::stop_source source;
   OutputFolder output(root_ / "a" / "b", false, {.stop = source.get_token()});
   output.stage({"x.stl", "xyz"});
-  const fs::path there = output.staged_path("x.stl");
+  const fs::path staged = output.staged_path("x.stl");
   source.request_stop();
   EXPECT_THAT(names_in(root_), IsEmpty());
-  EXPECT_EQ(output.staged_path("x.stl"), there);
+  EXPECT_EQ(output.staged_path("x.stl"), staged);
   EXPECT_THROW(output.stage({"y.stl", "xyz"}), Stopped);
   std::vector<Diagnostic> notes;
   EXPECT_THROW(output.publish(notes), Stopped);

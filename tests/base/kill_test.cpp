@@ -130,7 +130,7 @@ struct Ground {
   bool earlier_run;  ///< fusee has published here before
   bool others;       ///< the folder holds a foreign file and a foreign folder
   bool exchange;     ///< the file system can exchange folders
-  bool stood_in;     ///< it is the run's current folder, which cannot be replaced
+  bool is_current;   ///< it is the run's current folder, which cannot be replaced
 };
 
 class Kill : public testing::TestWithParam<Ground> {
@@ -150,7 +150,7 @@ class Kill : public testing::TestWithParam<Ground> {
   fs::path prepared(int call) const {
     const Ground& ground = GetParam();
     fs::path folder = root_ / std::to_string(call) / "out";
-    fs::create_directories(ground.stood_in ? folder : folder.parent_path());
+    fs::create_directories(ground.is_current ? folder : folder.parent_path());
     if (ground.earlier_run) publish_set(folder, older_);
     if (ground.others) {
       std::ofstream(folder / "notes.txt") << "mine";
@@ -164,7 +164,7 @@ class Kill : public testing::TestWithParam<Ground> {
     return folder;
   }
   void run_in(const fs::path& folder) const {
-    if (GetParam().stood_in) fs::current_path(folder);
+    if (GetParam().is_current) fs::current_path(folder);
     publish_set(folder, newer_);
   }
   Folder with_others(Folder files) const {
@@ -216,12 +216,13 @@ TEST_P(Kill, LeavesOldOrNewSet) {
   }
   EXPECT_GT(old_sets, 4);
   EXPECT_GT(new_sets, 0);
-  const bool by_one_call = GetParam().exchange && !GetParam().stood_in;
-  EXPECT_EQ(put_back > 0, GetParam().earlier_run && !by_one_call);
+  const bool by_one_exchange = GetParam().exchange && !GetParam().is_current;
+  EXPECT_EQ(put_back > 0, GetParam().earlier_run && !by_one_exchange);
 }
 
 TEST_P(Kill, FailedCallLeavesOldOrNewSet) {
-  constexpr int k_no_such_call = 7;
+  // Exit codes of the child: the call was not reached, and the run refused to publish.
+  constexpr int k_no_such_call = 7, k_refused = 6;
   const Folder before = with_others(GetParam().earlier_run ? older_ : Folder{}), after = with_others(newer_);
   kills = false;
   int refused = 0;
@@ -233,7 +234,7 @@ TEST_P(Kill, FailedCallLeavesOldOrNewSet) {
       try {
         run_in(folder);
       } catch (const OutputError&) {
-        ::_exit(6);
+        ::_exit(k_refused);
       }
       ::_exit(calls_left > 0 ? k_no_such_call : 0);
     }
@@ -241,12 +242,12 @@ TEST_P(Kill, FailedCallLeavesOldOrNewSet) {
     ::waitpid(child, &status, 0);
     ASSERT_TRUE(WIFEXITED(status));
     code = WEXITSTATUS(status);
-    refused += code == 6 ? 1 : 0;
+    refused += code == k_refused ? 1 : 0;
     // Files that could not be moved back stay aside until the next run.
     publish_set(folder, {{"other.csv", "next"}}, {});
     Folder next = files_in(folder);
     next.erase("other.csv");
-    ASSERT_EQ(next, code == 6 ? before : after) << "call " << call;
+    ASSERT_EQ(next, code == k_refused ? before : after) << "call " << call;
   }
   kills = true;
   EXPECT_GT(refused, 4);

@@ -44,10 +44,12 @@ TEST(Catalogue, KeysOfHornsAndShaftsAreKnown) {
   const std::vector<std::string> words{"name", "description", "source"};
   for (const std::string& key : lines("horns.toml"))
     EXPECT_TRUE(find_field("horn." + key) != nullptr || testing::Value(words, Contains(key))) << key;
-  const std::vector<std::string> of_motors{"fits", "travel_deg", "stall_torque_Nmm", "speed_deg_per_s", "holds"};
+  const std::vector<std::string> of_models{"fits", "travel_deg", "stall_torque_Nmm", "speed_deg_per_s", "holds"};
   const std::vector<std::string> motors = lines("motors.toml");
-  for (auto key = std::find(motors.rbegin(), motors.rend(), "head_mm").base(); key != motors.end(); ++key)
-    EXPECT_TRUE(testing::Value(words, Contains(*key)) || testing::Value(of_motors, Contains(*key))) << *key;
+  // The models follow the plate patterns, whose last key is head_mm.
+  const auto first_of_models = std::find(motors.rbegin(), motors.rend(), "head_mm").base();
+  for (auto key = first_of_models; key != motors.end(); ++key)
+    EXPECT_TRUE(testing::Value(words, Contains(*key)) || testing::Value(of_models, Contains(*key))) << *key;
   for (const std::string& key : lines("shafts.toml"))
     EXPECT_TRUE(key == "diameter_mm" || key == "flat_mm" || testing::Value(words, Contains(key))) << key;
 }
@@ -65,12 +67,12 @@ TEST(Catalogue, ShaftsAreRoundOrFlat) {
 // Parts of a test rig fit together: a bearing on its screw, a board's holes on the board, screws clear of the parts
 // they hold.
 TEST(Catalogue, BearingsBoardsAndMotorsAreConsistent) {
-  double outer = 1e9;
+  double outer_before = 1e9;
   for (const BearingType& type : bearing_types()) {
     EXPECT_LT(type.bore, type.spacer) << type.name;
     EXPECT_LT(type.spacer, type.outer) << type.name;
-    EXPECT_LT(type.outer, outer) << type.name << ": the largest first";
-    outer = type.outer;
+    EXPECT_LT(type.outer, outer_before) << type.name << ": the largest first";
+    outer_before = type.outer;
   }
   for (const BoardType& type : board_types()) {
     EXPECT_TRUE(((type.pitch.array() + type.hole) < type.size.array()).all()) << type.name;
@@ -91,7 +93,8 @@ TEST(Catalogue, BearingsBoardsAndMotorsAreConsistent) {
   }
 }
 
-// Torque times speed is at most four times the power of a motor of this size, and a misspelt key would be no limit.
+// A motor's largest power, a quarter of stall torque times free speed, is below 200 W. A misspelt key would be read as
+// no limit.
 TEST(Catalogue, MotorModelsHaveFiguresAndSources) {
   ASSERT_GT(motor_models().size(), 20u);
   for (const MotorModel& model : motor_models()) {

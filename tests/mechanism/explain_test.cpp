@@ -143,12 +143,12 @@ TEST(Templates, AreReadableProfiles) {
 }
 
 TEST(Templates, HaveOneSentenceInOneGroup) {
-  constexpr std::size_t longest = 62;  // a line of the list has 80 columns
+  constexpr std::size_t k_longest = 62;  // a line of the list has 80 columns, 18 of them before the description
   std::vector<std::string> groups;
   for (const Template& known : templates()) {
     EXPECT_TRUE(known.description.ends_with('.')) << known.name;
     EXPECT_EQ(known.description.find(". "), std::string::npos) << known.name;
-    EXPECT_LE(known.description.size(), longest) << known.name;
+    EXPECT_LE(known.description.size(), k_longest) << known.name;
     if (groups.empty() || groups.back() != known.group) groups.push_back(known.group);
   }
   EXPECT_EQ(std::set<std::string>(groups.begin(), groups.end()).size(), groups.size());

@@ -1,5 +1,5 @@
-// A model in MuJoCo itself (npm @mujoco/mujoco): its motor is sent home → top → bottom → top → bottom, and what both
-// hinges show on the way is printed. node follow_model.mjs <mujoco.js> <model.xml>
+// A model in MuJoCo itself (npm @mujoco/mujoco): its motor is sent home → top → bottom → top → bottom, and the
+// angles of both hinges on the way are printed. node follow_model.mjs <mujoco.js> <model.xml>
 import { readFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
 
@@ -12,16 +12,16 @@ const [low, high] = model.actuator_ctrlrange;
 const k_stroke_seconds = 3;
 const steps = Math.round(k_stroke_seconds / model.opt.timestep);
 const rows = [];
-let at = 0;
+let command = 0;
 for (const end of [high, low, high, low]) {
-  const from = at;
+  const from = command;
   for (let i = 1; i <= steps; ++i) {
-    at = from + (end - from) * Math.min(1, (1.1 * i) / steps);  // and rests a tenth of the time
-    data.ctrl[0] = at;
+    command = from + (end - from) * Math.min(1, (1.1 * i) / steps);  // the last tenth of the time is a dwell
+    data.ctrl[0] = command;
     mujoco.mj_step(model, data);
     if (i % 10 === 0) {
-      mujoco.mj_forward(model, data);  // lengths and places of this very moment
-      rows.push([data.time, at, data.qpos[0], data.qpos[1], ...(data.ten_length ?? [])]);
+      mujoco.mj_forward(model, data);  // updates lengths and positions to this time
+      rows.push([data.time, command, data.qpos[0], data.qpos[1], ...(data.ten_length ?? [])]);
     }
   }
 }

@@ -51,7 +51,7 @@ def drawing_faults(document):
 # Round features ------------------------------------------------------------------------------------------------------
 
 def vertices(entity):
-    """Converts a vertex of a polyline to (point, bulge)."""
+    """The vertices of a polyline: (point, bulge). The bulge is the tangent of a quarter of the arc's angle."""
     if entity.dxftype() == "LWPOLYLINE":
         return [(Vec2(x, y), bulge) for x, y, bulge in entity.get_points("xyb")]
     return [(Vec2(v.dxf.location), v.dxf.bulge) for v in entity.vertices]
@@ -69,8 +69,9 @@ class Expected:
 
         self.shape = value("bore_shape")
         self.bore = value("bore")
+        # The highest straight edge above the axis: the flat, or the ground of the key.
         self.top = {"d": lambda: value("bore_flat") - self.bore / 2, "keyway": lambda: self.bore / 2 + value("key_depth")}.get(self.shape, float)()
-        self.key = value("key_width") if self.shape == "keyway" else 0
+        self.key_width = value("key_width") if self.shape == "keyway" else 0
         self.screws = [(Vec2(x, y), d) for x, y, d in value("horn_holes")]
         self.tie_offs = [Vec2(*map(float, pair)) for pair in re.findall(r"^\s*\[[12], \[([-0-9.]+), ([-0-9.]+)\]", text, re.M)]
         self.kerf = mechanism["cut"]["kerf_mm"]
@@ -99,8 +100,8 @@ class Expected:
         if self.shape in ("d", "keyway") and abs(highest - (self.top - kerf / 2)) > NEAR:
             yield f"has the flat or the key's ground at {highest} mm, expected {self.top - kerf / 2}"
         width = max(place.x for place, _ in points[-2:]) - min(place.x for place, _ in points[-2:])
-        if self.shape == "keyway" and abs(width - (self.key - kerf)) > NEAR:
-            yield f"has a keyway of {width} mm, expected {self.key - kerf}"
+        if self.shape == "keyway" and abs(width - (self.key_width - kerf)) > NEAR:
+            yield f"has a keyway of {width} mm, expected {self.key_width - kerf}"
 
 
 def circle_of(entity):
@@ -112,7 +113,7 @@ def same(a, b):
 
 
 def without(circles, expected):
-    """`circles` without the expected ones, and the number of missing ones."""
+    """`circles` without the expected ones, and the expected ones that are missing."""
     missing = [e for e in expected if not any(same(c, e) for c in circles)]
     return [c for c in circles if not any(same(c, e) for e in expected)], missing
 
@@ -121,9 +122,9 @@ def profile_faults(document, expected):
     bores = document.modelspace().query('*[layer=="BORE"]')
     yield from expected.bore_faults(bores[0], Vec2(0, 0), 0)
     screws = [circle_of(e) for e in bores[1:] if e.dxftype() == "CIRCLE"]
-    more, missing = without(screws, expected.screws)
-    if more or missing or len(screws) != len(bores) - 1:
-        yield f"has {len(bores) - 1} further holes, {len(more)} of them unexpected, {len(missing)} missing"
+    unexpected, missing = without(screws, expected.screws)
+    if unexpected or missing or len(screws) != len(bores) - 1:
+        yield f"has {len(bores) - 1} further holes, {len(unexpected)} of them unexpected, {len(missing)} missing"
 
 
 def distance_to_curve(point, entity):
@@ -187,10 +188,10 @@ def plates_faults(document, expected, pockets):
         if polygons:
             yield f"has {len(polygons)} holes that are no circles"
         circles = [(centre - axis, d + kerf) for centre, d in (circle_of(e) for e in inside[1:] if e.dxftype() == "CIRCLE")]
-        rest, missing = without(circles, expected.screws)
+        others, missing = without(circles, expected.screws)
         if missing:
             yield f"lacks {len(missing)} of the horn's holes"
-        dowels, _ = without(rest, [p for p in pockets if any(p[0].distance(t) <= NEAR for t in expected.tie_offs)])
+        dowels, _ = without(others, [p for p in pockets if any(p[0].distance(t) <= NEAR for t in expected.tie_offs)])
         common = dowels if common is None else common
         if len(dowels) not in (0, 2) or any(without(dowels, common)):
             yield f"has dowel holes {dowels} in one plate and {common} in another"
@@ -240,10 +241,10 @@ def self_test(folder):
         circle.dxf.center += (0.01, 0, 0)
 
     for spoil in (polygon, wider, shifted):
-        for which, layer in ((0, "BORE"), (1, "CUT_INNER")):
+        for drawing, layer in ((0, "BORE"), (1, "CUT_INNER")):
             documents = read(folder)
             # The last circle: holes are measured from the one around the axis.
-            spoil(documents[which], list(documents[which].modelspace().query(f'CIRCLE[layer=="{layer}"]'))[-1])
+            spoil(documents[drawing], list(documents[drawing].modelspace().query(f'CIRCLE[layer=="{layer}"]'))[-1])
             if not list(round_faults(*documents, expected)):
                 yield f"the judge accepts a {spoil.__name__} circle on {layer}"
     profile, _ = read(folder)

@@ -48,6 +48,7 @@ def printed_by(program, *arguments):
 
 
 def facets_of(stl):
+    """Number of facets in the header of a binary STL."""
     with open(stl, "rb") as file:
         return struct.unpack("<I", file.read(84)[80:])[0]
 
@@ -65,11 +66,11 @@ def judge_by_admesh(mesh, like=None):
     if "Results produced by ADMesh" not in text:
         return ["admesh gave no results: " + text.strip()[-300:]]
     faults = []
-    for what in ("Total disconnected facets", "Degenerate facets", "Edges fixed", "Facets removed", "Facets added",
+    for label in ("Total disconnected facets", "Degenerate facets", "Edges fixed", "Facets removed", "Facets added",
                  "Facets reversed", "Backwards edges", "Normals fixed"):
-        count = int(re.search(re.escape(what) + r"\s*:\s*(\d+)", text)[1])
+        count = int(re.search(re.escape(label) + r"\s*:\s*(\d+)", text)[1])
         if count:
-            faults.append(f"admesh: {what}: {count}")
+            faults.append(f"admesh: {label}: {count}")
     volume = float(re.search(r"Volume\s*:\s*(\S+)", text)[1])
     if "volume is negative" in text or not volume > 0:
         faults.append(f"admesh: the volume is {volume} mm³ or was negative")
@@ -187,7 +188,7 @@ def write_drc(path, vertices, faces):
 
 WRITERS = {"admesh": write_stl, "prusa-slicer": write_stl, "openscad": write_stl, "draco": write_drc, "assimp": write_obj}
 
-BREAK = {
+BREAKS = {
     "a missing facet": lambda faces: faces[1:],
     "a flipped facet": lambda faces: [faces[0][::-1]] + faces[1:],
     "an inverted mesh": lambda faces: [face[::-1] for face in faces],
@@ -212,7 +213,7 @@ def self_test(judge):
         complaints = verdict("a good mesh", faces)
         if complaints:
             faults.append(f"{judge} rejects a good mesh: {complaints}")
-        for name, break_it in BREAK.items():
+        for name, break_it in BREAKS.items():
             if name not in UNDETECTED.get(judge, []) and not verdict(name, break_it(faces)):
                 faults.append(f"{judge} accepts {name}")
     return faults

@@ -22,8 +22,8 @@ import tempfile
 import xml.etree.ElementTree as ET
 
 HERE = pathlib.Path(__file__).resolve().parent
-# MuJoCo's constraints are slightly compliant, and the law is interpolated between rows of the CSV.
-SOFT_DEG = 0.001
+# Added to the stated error: MuJoCo's constraints are slightly compliant, and the law is interpolated between rows.
+TOLERANCE_DEG = 0.001
 
 
 def not_installed(what):
@@ -48,8 +48,8 @@ def law_of(path):
 
     def theta(alpha):
         i = min(max(sum(row[0] < alpha for row in rows) - 2, 0), len(rows) - 4)
-        near = rows[i:i + 4]
-        return sum(y * math.prod((alpha - other) / (x - other) for other, _ in near if other != x) for x, y in near)
+        four = rows[i:i + 4]
+        return sum(y * math.prod((alpha - other) / (x - other) for other, _ in four if other != x) for x, y in four)
 
     return theta, rows[0][0], rows[-1][0]
 
@@ -66,32 +66,34 @@ def follow(library, path):
     return json.loads(script.stdout)
 
 
-def taut(a, b, cylinder):
-    """Path from a over the outer side of a cylinder (centre, radius and side point) to b: two tangents and an arc."""
+def taut_length(a, b, cylinder):
+    """Length of the path from a over the outer side of a cylinder (centre, radius and side point) to b: two tangents and an arc."""
     x, y, rho, beside = cylinder
     side = math.copysign(1, (b[0] - a[0]) * (beside[1] - y) - (b[1] - a[1]) * (beside[0] - x))
 
     def tangent(px, py, turn):
+        """Direction of the tangent point from the centre, and length of the tangent."""
         distance = math.hypot(px - x, py - y)
         return math.atan2(py - y, px - x) + turn * math.acos(min(1, rho / distance)), math.sqrt(distance**2 - rho**2)
-    come, free = tangent(*a, -side)
-    go, held = tangent(*b, side)
-    arc = (side * (come - go)) % (2 * math.pi)
-    return free + held + rho * (arc if arc < 1.9 * math.pi else 0)
+
+    first_angle, first_length = tangent(*a, -side)
+    last_angle, last_length = tangent(*b, side)
+    arc = (side * (first_angle - last_angle)) % (2 * math.pi)  # almost a whole turn: the cylinder is not touched
+    return first_length + last_length + rho * (arc if arc < 1.9 * math.pi else 0)
 
 
 def path_faults(path, motion):
     """Compares tendon lengths with a taut string from site to site, around the geometry in between."""
     root = ET.parse(path).getroot()
-    place = lambda node: [float(x) for x in node.get("pos").split()][:2]
+    position = lambda node: [float(x) for x in node.get("pos").split()][:2]
     link = next(body for body in root.iter("body") if body.get("name") == "link")
 
     def at(kind, name, theta):
         """In the world's frame, or rotated with the link, which turns clockwise."""
         own = next((node for node in link.findall(kind) if node.get("name") == name), None)
         if own is None:
-            return place(next(node for node in root.find("worldbody").findall(kind) if node.get("name") == name))
-        x, y = place(own)
+            return position(next(node for node in root.find("worldbody").findall(kind) if node.get("name") == name))
+        x, y = position(own)
         return [x * math.cos(theta) + y * math.sin(theta), y * math.cos(theta) - x * math.sin(theta)]
 
     for i, tendon in enumerate(root.find("tendon").findall("spatial")):
@@ -105,7 +107,7 @@ def path_faults(path, motion):
                 if geom is not None:
                     cylinder = next(g for g in root.iter("geom") if g.get("name") == geom.get("geom"))
                     around = (*at("geom", geom.get("geom"), theta), float(cylinder.get("size").split()[0]), at("site", geom.get("sidesite"), theta))
-                    total += taut(last, here, around)
+                    total += taut_length(last, here, around)
                 elif last is not None:
                     total += math.dist(last, here)
                 last, geom = here, None
@@ -118,14 +120,14 @@ def path_faults(path, motion):
 
 def following_faults(library, path, law, low, high):
     text = path.read_text()
-    limit = stated_error(text) + SOFT_DEG
+    limit = stated_error(text) + TOLERANCE_DEG
     motion = follow(library, path)
-    seen = [(math.degrees(row[2]), math.degrees(row[3])) for row in motion["rows"]]
+    shown = [(math.degrees(row[2]), math.degrees(row[3])) for row in motion["rows"]]
     span = high - low
-    if min(a for a, _ in seen) > low + 0.01 * span or max(a for a, _ in seen) < high - 0.01 * span:
-        yield f"the motor came from {min(a for a, _ in seen):.3f} to {max(a for a, _ in seen):.3f} deg only, of {low:.3f} to {high:.3f}"
-    worst = max((abs(theta - law(alpha)), alpha) for alpha, theta in seen if low <= alpha <= high)
-    print(f"{path.name}: MuJoCo {motion['version']}, {len(seen)} places, off by {worst[0]:.6f} deg at most (stated: {limit - SOFT_DEG:g})")
+    if min(a for a, _ in shown) > low + 0.01 * span or max(a for a, _ in shown) < high - 0.01 * span:
+        yield f"the motor came from {min(a for a, _ in shown):.3f} to {max(a for a, _ in shown):.3f} deg only, of {low:.3f} to {high:.3f}"
+    worst = max((abs(theta - law(alpha)), alpha) for alpha, theta in shown if low <= alpha <= high)
+    print(f"{path.name}: MuJoCo {motion['version']}, {len(shown)} places, off by {worst[0]:.6f} deg at most (stated: {limit - TOLERANCE_DEG:g})")
     if worst[0] > limit:
         yield f"off by {worst[0]:.6f} deg at alpha = {worst[1]:.2f}, more than the {limit:.6f} that is stated"
     if path.name == "joint_tendons.xml":
@@ -177,10 +179,10 @@ def broken_copies(judge, folder, scratch):
         change(target)
         return target
 
-    def replace(file, pattern, by):
+    def replace(file, pattern, replacement):
         def change(target):
             text = (target / file).read_text()
-            changed = re.sub(pattern, by, text, count=1)
+            changed = re.sub(pattern, replacement, text, count=1)
             assert changed != text, f"{file}: nothing to change"
             (target / file).write_text(changed)
         return change

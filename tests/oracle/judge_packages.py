@@ -29,7 +29,7 @@ def packages_of(build, folder):
 
 
 def lintian_faults(packages):
-    # As root it warns only of that.
+    # Without --allow-root, lintian warns about running as root.
     code, output = run("lintian", "--allow-root", "--fail-on", "error,warning", *packages.values())
     if code:
         yield f"lintian:\n{output}"

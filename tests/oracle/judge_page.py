@@ -67,7 +67,7 @@ HELIX = """
   const mm = (px, py) => [(px - axis) / scale, (low[1] - py) / scale];
   const drawn = () => ({
     scale,
-    offs: [...scene.querySelectorAll(".take-off")].map(off => mm(Number(off.getAttribute("cx")), Number(off.getAttribute("cy")))),
+    takeOffs: [...scene.querySelectorAll(".take-off")].map(off => mm(Number(off.getAttribute("cx")), Number(off.getAttribute("cy")))),
     free: [1, 2].map(k => path([...scene.querySelectorAll(".whole.p" + k)].pop()).map(p => mm(...p))),
   });
 """
@@ -116,7 +116,8 @@ AFTER = """
     found.side = look();  // a still picture has one side only
   }
   const effects = [...document.querySelectorAll(".effect-share input")];
-  found.off = effects.map(input => [0, 1, 2].map(share => {
+  // Largest angle between the drawn true lever and the declared one, with each effect at 0, 1 and 2 times its size.
+  found.deviations = effects.map(input => [0, 1, 2].map(share => {
     for (const other of effects) other.value = 0;
     input.value = share;
     input.dispatchEvent(new Event("input"));
@@ -276,7 +277,7 @@ class Helix:
             alpha = float(row["alpha_deg"])
             yield from faults_of_words(place, row)
             c, s = math.cos(math.radians(alpha)), math.sin(math.radians(alpha))
-            for k, (right, z) in enumerate(place["offs"]):
+            for k, (right, z) in enumerate(place["takeOffs"]):
                 at = self.take_off(k, z)
                 if at is None:
                     yield f"at alpha = {alpha} tendon {k + 1} leaves at the height {z:.2f} mm, where there is no groove"
@@ -310,41 +311,42 @@ def faults_of_view(found):
 
 
 # Name, width in px, options of Chromium.
-WAYS = [("wide", 1200, ()), ("phone", 320, ()), ("no WebGL", 800, ("--disable-3d-apis",))]
+WINDOWS = [("wide", 1200, ()), ("phone", 320, ()), ("no WebGL", 800, ("--disable-3d-apis",))]
 
 
 def faults_of_effects(found):
-    for k, (none, once, twice) in enumerate(found["off"]):
+    for k, (none, once, twice) in enumerate(found["deviations"]):
         if not none < once < twice:
             yield f"effect {k + 1} turned up to 0, 1 and 2 moves the joint by {none:.4f}, {once:.4f} and {twice:.4f} rad as drawn"
 
 
-def faults(page, rows, lever, ways=WAYS):
+def faults(page, rows, joint, windows=WINDOWS):
+    """`joint`: a Lever or a Helix."""
     alphas = [float(row["alpha_deg"]) for row in rows]
-    is_helical = isinstance(lever, Helix)
-    after = AFTER.replace("DRAWN", lever.drawn() if is_helical else LEVER)
+    is_helical = isinstance(joint, Helix)
+    after = AFTER.replace("DRAWN", joint.drawn() if is_helical else LEVER)
     if len(page.encode()) > MOST_BYTES:
         yield f"{len(page.encode())} bytes"
-    for name, width, options in ways:
+    for name, width, options in windows:
         found = seen_in(page, alphas, width, options, after)
         if found is None:
             yield f"{name}: the page's scripts did not end"
             continue
         if found["part"] and found["webgl"] == (name == "no WebGL"):
             yield f"{name}: WebGL {found['webgl']}"
-        motion = lever.faults(found, rows) if is_helical else faults_of_motion(found, rows, lever)
-        looks = [*found["noted"], *motion, *faults_of_view(found), *faults_of_effects(found)]
+        motion = joint.faults(found, rows) if is_helical else faults_of_motion(found, rows, joint)
+        observed = [*found["noted"], *motion, *faults_of_view(found), *faults_of_effects(found)]
         if found["requests"]:
-            looks.append(f"{found['requests']} requests")
+            observed.append(f"{found['requests']} requests")
         if found["wide"] > found["room"]:
-            looks.append(f"{found['wide']} px wide in a window of {found['room']}")
+            observed.append(f"{found['wide']} px wide in a window of {found['room']}")
         if not found["label"]:
-            looks.append("the slider has no label for screen readers")
-        quick = sorted(found["times"])[len(found["times"]) // 4]  # other repaints wait for other load on the machine
-        if quick > MOST_FRAME_MS:
-            looks.append(f"a frame takes {quick:.1f} ms")
-        print(f"  {name}: {quick:.2f} ms a frame" + (f", part on {100 * found['home']['part']:.0f} % of the view" if found["part"] else ""))
-        yield from (f"{name}: {look}" for look in looks)
+            observed.append("the slider has no label for screen readers")
+        lower_quartile = sorted(found["times"])[len(found["times"]) // 4]  # slower repaints wait for other load on the machine
+        if lower_quartile > MOST_FRAME_MS:
+            observed.append(f"a frame takes {lower_quartile:.1f} ms")
+        print(f"  {name}: {lower_quartile:.2f} ms a frame" + (f", part on {100 * found['home']['part']:.0f} % of the view" if found["part"] else ""))
+        yield from (f"{name}: {fault}" for fault in observed)
 
 
 def still_faults(page):
@@ -421,7 +423,7 @@ def read(folder):
     return page, rows, helix_of(folder, mechanism, page) if 'id="helix">' in page else lever_of(mechanism)
 
 
-# Changes that break a page, with a word of the expected fault.
+# Changes that break a page: text, its replacement, and words of the expected fault.
 BREAKS = {
     "angle": ("place = place_of(alpha), theta = theta_at(place)", "place = place_of(alpha), theta = 0.9 * theta_at(place)", "the lever is drawn at"),
     "tendon": ("turned(points[k], -alpha)", "turned(points[k], alpha)", "mm long over the stroke"),
@@ -438,6 +440,7 @@ NARROW_BREAKS = {
     "wide": ("<main>", "<main><div style=\"width:2500px\">x</div>", "px wide"),
     "broken word": ("<main>", "<main><p style=\"width:30px;word-break:break-all\">unbroken</p>", "is broken"),
 }
+# Breaks of pages without a helix only.
 LEVER_ALONE = ("angle", "tendon", "error")
 HELIX_BREAKS = {
     "turned back": ("px(row[1] * c - row[0] * s, row[2])", "px(row[1] * c + row[0] * s, row[2])", "to the right, not"),
@@ -448,12 +451,12 @@ HELIX_BREAKS = {
 
 
 def self_test(folder):
-    page, rows, lever = read(folder)
+    page, rows, joint = read(folder)
     failed = 0
-    breaks = {name: fault for name, fault in BREAKS.items() if name not in LEVER_ALONE} | HELIX_BREAKS if isinstance(lever, Helix) else BREAKS
+    breaks = {name: fault for name, fault in BREAKS.items() if name not in LEVER_ALONE} | HELIX_BREAKS if isinstance(joint, Helix) else BREAKS
     for name, (old, new, word) in breaks.items():
         assert old in page, f"{name}: the page has no {old!r}"
-        seen = list(faults(page.replace(old, new, 1), rows[::6], lever, WAYS[:1]))
+        seen = list(faults(page.replace(old, new, 1), rows[::6], joint, WINDOWS[:1]))
         if not any(word in fault for fault in seen):
             failed += 1
             print(f"{name}: not detected; found {seen}")
@@ -481,10 +484,10 @@ def main():
     folder, *pages = [argument for argument in sys.argv[1:] if not argument.startswith("-")]
     if "--self-test" in sys.argv:
         return self_test(folder)
-    page, rows, lever = read(folder)
-    found = [f"{folder}: {fault}" for fault in faults(page, rows, lever)]
+    page, rows, joint = read(folder)
+    found = [f"{folder}: {fault}" for fault in faults(page, rows, joint)]
     for other in pages:
-        found += [f"{other}: {fault}" for fault in faults(pathlib.Path(other).read_text(encoding="utf-8"), rows, lever)]
+        found += [f"{other}: {fault}" for fault in faults(pathlib.Path(other).read_text(encoding="utf-8"), rows, joint)]
     print("\n".join(found))
     return 1 if found else 0
 

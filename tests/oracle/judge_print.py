@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""PrusaSlicer judges if the parts of fusee print without supports.
+"""PrusaSlicer judges whether the parts of fusee print without supports.
 
     judge_print.py build/forearm …          folders of `fusee build`: each file of the manifest's "print", else pulley.stl
     judge_print.py part.stl …               or files in print orientation
@@ -177,18 +177,18 @@ def cone(slope_deg):
     return [(5, 0), (5, 2), (5 + 6 / math.tan(math.radians(slope_deg)), 8)]
 
 
-PRINTS = {"a cylinder": [(10, 0), (10, 5)], "a cone of 47°": cone(47), "a step of 0.15 mm": [(10, 0), (10, 4), (10.15, 4), (10.15, 6)]}
-DOES_NOT = {"a mushroom": [(4, 0), (4, 5), (9, 5), (9, 7)], "a cone of 44°": cone(44),
+PRINTABLE = {"a cylinder": [(10, 0), (10, 5)], "a cone of 47°": cone(47), "a step of 0.15 mm": [(10, 0), (10, 4), (10.15, 4), (10.15, 6)]}
+NEEDS_SUPPORTS = {"a mushroom": [(4, 0), (4, 5), (9, 5), (9, 7)], "a cone of 44°": cone(44),
             "a step of 0.4 mm": [(10, 0), (10, 4), (10.4, 4), (10.4, 6)]}
 
 
 def self_test():
     faults = 0
     with tempfile.TemporaryDirectory() as folder:
-        for name, profile in {**PRINTS, **DOES_NOT}.items():
+        for name, profile in {**PRINTABLE, **NEEDS_SUPPORTS}.items():
             path = pathlib.Path(folder, "part.stl")
             write_stl(path, *turned(profile))
-            if report(name, path) == (name in PRINTS):
+            if report(name, path) == (name in PRINTABLE):
                 print(f"the judge is wrong about {name}")
                 faults += 1
     return faults

@@ -72,15 +72,15 @@ def number(scad, name):
 BETWEEN_PARTS = 5.0  # mm, distance on the printer
 
 
-def unlike(what, found, made, nearest=0.01):
-    """Describes how volume and box differ from their expected values."""
-    (volume, box), (made_volume, made_box) = found, made
-    off = max(abs(a - b) for a, b in zip(box, made_box))
-    print(f"{what}: volume {volume:.1f} mm³, {100 * (volume / made_volume - 1):+.3f} % of the mesh's; box off by {off:.4f} mm")
-    if off > nearest:
+def size_faults(what, found, expected, tolerance=0.01):
+    """Compares volume and box with the expected ones. `tolerance`: of the box, mm."""
+    (volume, box), (expected_volume, expected_box) = found, expected
+    off = max(abs(a - b) for a, b in zip(box, expected_box))
+    print(f"{what}: volume {volume:.1f} mm³, {100 * (volume / expected_volume - 1):+.3f} % of the mesh's; box off by {off:.4f} mm")
+    if off > tolerance:
         yield f"{what}: the box is off by {off:.4f} mm"
-    if abs(volume / made_volume - 1) > 0.005:
-        yield f"{what}: the volume is {volume:.1f} mm³ and should be {made_volume:.1f}"
+    if abs(volume / expected_volume - 1) > 0.005:
+        yield f"{what}: the volume is {volume:.1f} mm³ and should be {expected_volume:.1f}"
 
 
 def side_by_side(first, second):
@@ -102,15 +102,15 @@ def printed_faults(folder, scratch):
         return
     made = [measure(folder / piece["file"]) for piece in pieces]
     for show, expected in zip(shows[1:], [side_by_side(*made), *made]):
-        yield from unlike(show, render(folder / "pulley.scad", scratch / f"{show}.stl", show=f'"{show}"'), expected)
+        yield from size_faults(show, render(folder / "pulley.scad", scratch / f"{show}.stl", show=f'"{show}"'), expected)
 
 
 def part_faults(folder, scratch):
     scad = folder / "pulley.scad"
-    volume, box = render(scad, scratch / "as_it_is.stl")
+    volume, box = render(scad, scratch / "assembled.stl")
     is_helical = "\ncolumns = " in scad.read_text()
     # A helix has no fixed extreme points: its corners are within the program's sagitta of the mesh's.
-    yield from unlike("assembled", (volume, box), measure(folder / "pulley.stl"), 0.025 if is_helical else 0.01)
+    yield from size_faults("assembled", (volume, box), measure(folder / "pulley.stl"), 0.025 if is_helical else 0.01)
     if not is_helical:
         yield from printed_faults(folder, scratch)
     if 'bore_shape = "round"' in scad.read_text():
@@ -121,7 +121,7 @@ def part_faults(folder, scratch):
         yield "a shallower groove does not make a smaller part"
 
 
-# For a pulley in two parts: faults, and the words by which they must be detected.
+# For a pulley in two parts: the fault, the text and its faulty replacement, and the view in which it must be detected.
 BROKEN = (("a ceiling of another slope", "slope = supports ? 0 : overhang_deg + 2.5", "slope = overhang_deg - 10", "assembled"),
           ("P1 not turned over", "rotate([piece == 1 ? 180 : 0, 0, 0])", "", "P1"),
           ("a part without its pockets", "if (knot_pocket > 0) pocket(t)", "", "P2"),
@@ -132,12 +132,12 @@ def part_self_test(folder, scratch):
     for name in ("manifest.json", "pulley.stl", "pulley_p1.stl", "pulley_p2.stl"):
         shutil.copy(folder / name, scratch)
     text = (folder / "pulley.scad").read_text()
-    for what, right, wrong, seen in BROKEN:
+    for what, right, wrong, view in BROKEN:
         if text.count(right) != 1:
             yield f"pulley.scad no longer contains {right!r}"
             continue
         (scratch / "pulley.scad").write_text(text.replace(right, wrong))
-        if not any(fault.startswith(seen + ": ") for fault in part_faults(scratch, scratch)):
+        if not any(fault.startswith(view + ": ") for fault in part_faults(scratch, scratch)):
             yield f"{what} was accepted"
 
 
@@ -149,9 +149,9 @@ def changed_bore(scad, scratch, volume):
         sides = max(8, math.floor(2 * diameter + 0.5))
         return sides * (scale * diameter / 2) ** 2 * math.tan(math.pi / sides)
 
-    plain = {"channels": "[]", "face_holes": "[]", "tail_slots": "[]", "clamp_pilots": "[]", "set_screw": "false"}
-    before, box = render(scad, scratch / "plain.stl", **plain)
-    after, _ = render(scad, scratch / "bored.stl", bore=bore + 1, **plain)
+    without_cuts = {"channels": "[]", "face_holes": "[]", "tail_slots": "[]", "clamp_pilots": "[]", "set_screw": "false"}
+    before, box = render(scad, scratch / "plain.stl", **without_cuts)
+    after, _ = render(scad, scratch / "bored.stl", bore=bore + 1, **without_cuts)
     expected = (area(bore + 1 + clearance) - area(bore + clearance)) * (box[5] - box[2])
     if abs((before - after) / expected - 1) > 0.01:
         yield f"a bore 1 mm wider takes {before - after:.2f} mm³ and should take {expected:.2f}"
@@ -183,7 +183,8 @@ def display():
         server.wait()
 
 
-def look(scad, side, mode, scratch, environment):
+def picture(scad, side, mode, scratch, environment):
+    """An image of one side. `mode`: "preview" or "render"."""
     from PIL import Image
 
     png = scratch / f"{mode}.png"
@@ -205,7 +206,7 @@ def different_pixels(a, b):
 def preview_difference(scad, scratch):
     """The largest share over all views, and the view."""
     with display() as environment:
-        return max((different_pixels(*(look(scad, side, mode, scratch, environment) for mode in ("preview", "render"))), side) for side in SIDES)
+        return max((different_pixels(*(picture(scad, side, mode, scratch, environment) for mode in ("preview", "render"))), side) for side in SIDES)
 
 
 def preview_faults(folder, scratch):
@@ -271,18 +272,18 @@ def choices(value, behind):
 
 def customizer_faults(folder, scratch):
     scad = folder / "pulley.scad"
-    tries = []
+    renders = []  # parameter and value
     for name, value, behind, words in customizer(scad):
         if not words:
             yield f"{name} has no description"
         try:
-            tries += [(name, choice) for choice in choices(value, behind) if choice != value]
+            renders += [(name, choice) for choice in choices(value, behind) if choice != value]
         except ValueError as fault:
             yield f"{name}: {fault}"
-    print(f"{folder}: {len(tries)} renders")
+    print(f"{folder}: {len(renders)} renders")
 
     def complaint(number):
-        name, choice = tries[number]
+        name, choice = renders[number]
         try:
             printed_by_openscad(scad, "-o", scratch / f"{number}.off", f"-D{name}={choice}")
         except ValueError as fault:
@@ -290,7 +291,7 @@ def customizer_faults(folder, scratch):
         return None
 
     with concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
-        yield from filter(None, pool.map(complaint, range(len(tries))))
+        yield from filter(None, pool.map(complaint, range(len(renders))))
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -299,10 +300,10 @@ FAULTS = {"part": part_faults, "preview": preview_faults, "customizer": customiz
 SELF_TESTS = {"part": part_self_test, "preview": preview_self_test}
 
 
-def missing(what):
+def missing_program(aspect):
     if not shutil.which("openscad"):
         return "openscad"
-    if what == "preview":
+    if aspect == "preview":
         if not shutil.which("Xvfb"):
             return "Xvfb"
         try:
@@ -314,27 +315,27 @@ def missing(what):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=FAULTS)
+    parser.add_argument("aspect", choices=FAULTS)
     parser.add_argument("folder", nargs="?", type=pathlib.Path)
     parser.add_argument("--self-test", action="store_true")
     arguments = parser.parse_args()
-    needs_folder = not arguments.self_test or arguments.what == "part"
-    if (arguments.folder is None) == needs_folder or (arguments.self_test and arguments.what == "customizer"):
+    needs_folder = not arguments.self_test or arguments.aspect == "part"
+    if (arguments.folder is None) == needs_folder or (arguments.self_test and arguments.aspect == "customizer"):
         parser.error("a folder, or preview --self-test, or part FOLDER --self-test")
-    if program := missing(arguments.what):
+    if program := missing_program(arguments.aspect):
         print(f"{program} is not installed")
         return SKIPPED
-    wrong = []
+    found = []
     with tempfile.TemporaryDirectory() as scratch:
         try:
-            judge = (SELF_TESTS if arguments.self_test else FAULTS)[arguments.what]
+            judge = (SELF_TESTS if arguments.self_test else FAULTS)[arguments.aspect]
             for fault in judge(arguments.folder, pathlib.Path(scratch)):
-                wrong.append(fault)
+                found.append(fault)
         except (ValueError, OSError, subprocess.TimeoutExpired) as error:
-            wrong.append(error)
-    for fault in wrong:
+            found.append(error)
+    for fault in found:
         print(f"{arguments.folder or 'self-test'}: {fault}")
-    return 1 if wrong else 0
+    return 1 if found else 0
 
 
 sys.exit(main())

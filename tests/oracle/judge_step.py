@@ -13,11 +13,11 @@ import sys
 import tempfile
 
 SKIPPED = 77
-PLACES = ["/usr/lib/freecad-python3/lib", "/usr/lib/freecad/lib"]
+FREECAD_FOLDERS = ["/usr/lib/freecad-python3/lib", "/usr/lib/freecad/lib"]
 SAGITTA = 0.004  # mm, of the triangles that FreeCAD makes of the faces
 SAGITTA_OF_TURNS = 0.012  # for several turns: FreeCAD would take minutes for their seats
 NEAR = 0.02  # mm: two tolerances of the mesh
-COLOURS = 3
+LEAST_COLOURS = 2  # of P1 and P2; a hub has a third
 
 
 def triangles_of_stl(path):
@@ -41,10 +41,10 @@ def volume_of(triangles):
 
 
 def area_of(triangles):
-    def double(a, b, c):
+    def twice_area(a, b, c):
         u, v = [b[k] - a[k] for k in range(3)], [c[k] - a[k] for k in range(3)]
         return math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
-    return sum(double(*t) for t in triangles) / 2
+    return sum(twice_area(*t) for t in triangles) / 2
 
 
 def section_area(triangles, z):
@@ -86,27 +86,27 @@ def faults_of(step, folder, part_module):
     if not shape.isClosed():
         yield "it is not closed"
     is_helical = not (folder / "plates.dxf").exists()
-    mine = list(triangles_of_shape(shape, SAGITTA_OF_TURNS if is_helical else SAGITTA))
+    facets = list(triangles_of_shape(shape, SAGITTA_OF_TURNS if is_helical else SAGITTA))
     surface = area_of(mesh)
-    difference = abs(volume_of(mine) - volume_of(mesh))
+    difference = abs(volume_of(facets) - volume_of(mesh))
     # A print's holes are circumscribed polygons, and circles in CAD.
     if difference > NEAR * surface:
         yield f"its volume is {difference:.1f} mm3 off that of pulley.stl"
     for k, name in enumerate("xyz"):
-        for far, words in ((max, "most"), (min, "least")):
-            a, b = (far(p[k] for t in triangles for p in t) for triangles in (mesh, mine))
+        for extreme, words in ((max, "most"), (min, "least")):
+            a, b = (extreme(p[k] for t in triangles for p in t) for triangles in (mesh, facets))
             if abs(a - b) > NEAR:
                 yield f"its {words} {name} is {b:.3f} mm, and {a:.3f} in pulley.stl"
     manifest = json.loads((folder / "manifest.json").read_text())
     for groove in manifest["grooves"]:
-        a, b = (section_area(triangles, groove["z_mm"] + 1e-6) for triangles in (mesh, mine))
+        a, b = (section_area(triangles, groove["z_mm"] + 1e-6) for triangles in (mesh, facets))
         if abs(a - b) > 0.005 * a:
             yield f"at groove {groove['pulley']} its section has {b:.2f} mm2, and {a:.2f} in pulley.stl"
     text = step.read_text()
     for name in ("P1", "P2"):
         if f"ADVANCED_FACE('{name}'" not in text:
             yield f"no face is named {name}"
-    if len(re.findall(r"COLOUR_RGB\(", text)) < COLOURS - 1:
+    if len(re.findall(r"COLOUR_RGB\(", text)) < LEAST_COLOURS:
         yield "its faces have no colours"
     if "AUTOMOTIVE_DESIGN" not in text:
         yield "it is not AP214"
@@ -139,9 +139,9 @@ def main():
     if not (folder / "pulley.step").exists():
         print("there is no pulley.step: this fusee was built without")
         return SKIPPED
-    sys.path += [place for place in PLACES if pathlib.Path(place).is_dir()]
+    sys.path += [place for place in FREECAD_FOLDERS if pathlib.Path(place).is_dir()]
     try:
-        import FreeCAD  # noqa: F401  it has to be there before its modules
+        import FreeCAD  # noqa: F401  must be imported before its modules
         import Part
     except ImportError as error:
         print("FreeCAD is not installed:", error)

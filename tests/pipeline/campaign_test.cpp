@@ -2,6 +2,8 @@
 // checks, or refused with a reason. FUSEE_LAW_CASES: number of designs (24); FUSEE_LAW_SEED: seed (1). Also the options
 // in [body] and [print] on three mechanisms: every pair of words of two keys, FUSEE_LAW_CASES further combinations, and
 // with FUSEE_LONG_TESTS all distinct combinations (7560 a mechanism, a quarter of an hour of one core each).
+#include "support/campaign.h"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -11,7 +13,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <random>
 #include <set>
 
 #include "base/text.h"
@@ -24,28 +25,15 @@
 namespace {
 
 using namespace fusee;
-
-/// A random number generator with equal results on every machine.
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : bits_(seed) {}
-  double between(double low, double high) { return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53; }
-  double log_between(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
-  bool happens(double probability) { return between(0, 1) < probability; }
-  template <std::size_t count>
-  const char* one_of(const std::array<const char*, count>& words) {
-    return words[static_cast<std::size_t>(between(0, static_cast<double>(count)))];
-  }
-
- private:
-  std::mt19937_64 bits_;
-};
+using fusee::testing::BuildEnd;
+using fusee::testing::Dice;
+using fusee::testing::number_in;
 
 struct Number {
   const char* key;
   double low, high;
 };
-/// Plausible values of users.
+/// Values that users may plausibly write.
 constexpr std::array k_numbers{Number{"guides.friction", 0, 0.5},
                                Number{"tendon.modulus_MPa", 500, 2e5},
                                Number{"tendon.pretension_N", 0, 60},
@@ -77,10 +65,10 @@ constexpr std::array k_numbers{Number{"guides.friction", 0, 0.5},
                                Number{"identified.profile_sin_mm", -0.1, 0.1},
                                Number{"identified.guide1_outward_mm", -0.5, 0.5}};
 
-std::vector<Setting> body_choices(Draw& draw) {
+std::vector<Setting> body_choices(Dice& dice) {
   std::vector<Setting> settings;
   const auto choose = [&](double probability, const char* key, const auto& words) {
-    if (draw.happens(probability)) settings.push_back({key, draw.one_of(words)});
+    if (dice.happens(probability)) settings.push_back({key, dice.one_of(words)});
   };
   choose(0.15, "body.groove", std::array{"u", "v", "flat"});
   choose(0.15, "body.flange", std::array{"follow", "round"});
@@ -90,10 +78,10 @@ std::vector<Setting> body_choices(Draw& draw) {
   choose(0.4, "body.bore", std::array{"round", "d", "hex", "square", "keyway", "horn"});
   choose(0.15, "print.parts", std::array{"one", "two"});
   choose(0.1, "print.supports", std::array{"true", "false"});
-  const bool horned = !settings.empty() &&
-                      std::any_of(settings.begin(), settings.end(), [](const Setting& s) { return s.value == "horn"; });
-  if (horned)
-    settings.push_back({"body.horn", draw.one_of(std::array{"lynxmotion-ses", "actobotics-0.770", "disc-25T-M3"})});
+  const bool has_horn = !settings.empty() && std::any_of(settings.begin(), settings.end(),
+                                                         [](const Setting& s) { return s.value == "horn"; });
+  if (has_horn)
+    settings.push_back({"body.horn", dice.one_of(std::array{"lynxmotion-ses", "actobotics-0.770", "disc-25T-M3"})});
   return settings;
 }
 
@@ -103,53 +91,46 @@ struct Design {
 };
 
 Design draw_design(std::uint64_t seed) {
-  Draw draw(seed);
-  const bool nasty = draw.happens(0.2);
-  const double R = nasty ? draw.log_between(2, 1500) : draw.log_between(15, 400);
+  Dice dice(seed);
+  const bool is_extreme = dice.happens(0.2);
+  const double R = is_extreme ? dice.log_between(2, 1500) : dice.log_between(15, 400);
   const auto share = [&](double low, double high, double wide_low, double wide_high) {
-    return fmt::format("{}", R * (nasty ? draw.between(wide_low, wide_high) : draw.between(low, high)));
+    return fmt::format("{}", R * (is_extreme ? dice.between(wide_low, wide_high) : dice.between(low, high)));
   };
   std::map<std::string, std::vector<Setting>> tables;
   const auto add = [&tables](const std::string& key, const std::string& value) {
     tables[key.substr(0, key.find('.'))].push_back({key.substr(key.find('.') + 1), value});
   };
   add("joint.length_mm", fmt::format("{}", R));
-  const double half = nasty ? draw.log_between(0.5, 80) : draw.between(8, 36);
-  add("joint.range_deg", fmt::format("[{}, {}]", draw.happens(0.6) ? -half : -half * draw.between(0.1, 1), half));
+  const double half = is_extreme ? dice.log_between(0.5, 80) : dice.between(8, 36);
+  add("joint.range_deg", fmt::format("[{}, {}]", dice.happens(0.6) ? -half : -half * dice.between(0.1, 1), half));
   const std::string EB = share(0.2, 0.9, 0.05, 2);
   add("guides.EB_mm", EB);
-  add("guides.ED_mm", draw.happens(0.6) ? EB : share(0.2, 0.9, 0.05, 2));
+  add("guides.ED_mm", dice.happens(0.6) ? EB : share(0.2, 0.9, 0.05, 2));
   add("guides.OE_mm", share(-0.45, 0.05, -2, 2));
   add("guides.radius_mm",
-      fmt::format("{}", draw.happens(0.3) ? 0.0 : std::min(10.0, R * draw.log_between(0.004, 0.05))));
+      fmt::format("{}", dice.happens(0.3) ? 0.0 : std::min(10.0, R * dice.log_between(0.004, 0.05))));
   add("pulley.EF_mm", share(0.75, 1.5, 0.1, 4));
-  if (draw.happens(0.7)) {
+  if (dice.happens(0.7)) {
     add("pulley.r1_mm", share(0.1, 0.2, 0.02, 1));
   } else {
     add("pulley.law", "\"linear\"");
-    add("pulley.ratio", fmt::format("{}", draw.between(2, 6)));
+    add("pulley.ratio", fmt::format("{}", dice.between(2, 6)));
   }
-  if (draw.happens(0.2)) add("pulley.method", "\"paper\"");
-  add("tendon.diameter_mm", fmt::format("{}", std::clamp(R * draw.log_between(0.004, 0.03), 0.2, 8.0)));
-  for (const Setting& choice : body_choices(draw))
+  if (dice.happens(0.2)) add("pulley.method", "\"paper\"");
+  add("tendon.diameter_mm", fmt::format("{}", std::clamp(R * dice.log_between(0.004, 0.03), 0.2, 8.0)));
+  for (const Setting& choice : body_choices(dice))
     add(choice.key, choice.value == "true" || choice.value == "false" ? choice.value : "\"" + choice.value + "\"");
-  const double often = 0.25 * draw.between(0, 1);
+  const double probability = 0.25 * dice.between(0, 1);
   for (const Number& number : k_numbers)
-    if (draw.happens(often)) add(number.key, fmt::format("{:.6g}", draw.between(number.low, number.high)));
-  Design design{"schema = 1\nname = \"random\"\n", draw.happens(0.2) ? draw.log_between(0.002, 0.1) : 0.01};
+    if (dice.happens(probability)) add(number.key, fmt::format("{:.6g}", dice.between(number.low, number.high)));
+  Design design{"schema = 1\nname = \"random\"\n", dice.happens(0.2) ? dice.log_between(0.002, 0.1) : 0.01};
   for (const auto& [table, keys] : tables) {
     design.text += "\n[" + table + "]\n";
     for (const Setting& key : keys) design.text += key.key + " = " + key.value + "\n";
   }
   return design;
 }
-
-int number_from(const char* variable, int otherwise) {
-  const char* text = std::getenv(variable);
-  return text == nullptr ? otherwise : std::atoi(text);
-}
-
-enum class End { made, refused, bad_input };
 
 /// The test rig is designed, or refused with the reason.
 void expect_kit_or_reasons(const formats::Product& product) {
@@ -166,9 +147,9 @@ void expect_kit_or_reasons(const formats::Product& product) {
   }
 }
 
-/// `read` returns the mechanism; bad input is a valid outcome.
+/// Builds the mechanism that `read` returns.
 template <typename Read>
-End end_of(Read read, double tolerance) {
+BuildEnd build_end(Read read, double tolerance) {
   pipeline::BuildOptions options;
   options.chord_error_mm = tolerance;
   options.dry_run = true;
@@ -177,11 +158,11 @@ End end_of(Read read, double tolerance) {
     const pipeline::BuildResult built = pipeline::build(read(), options);
     for (const Check& check : built.product.checks)
       EXPECT_TRUE(check.ok) << check.name << " " << check.value << ", limit " << check.limit << "; " << check.where;
-    if (built.status == pipeline::BuildStatus::infeasible) return End::refused;
+    if (built.status == pipeline::BuildStatus::infeasible) return BuildEnd::refused;
     expect_kit_or_reasons(built.product);
-    return End::made;
+    return BuildEnd::made;
   } catch (const InputError&) {
-    return End::bad_input;
+    return BuildEnd::bad_input;
   }
 }
 
@@ -190,7 +171,7 @@ constexpr int k_shards = 8;  // so that ctest can run them in parallel
 class Campaign : public ::testing::TestWithParam<int> {};
 
 TEST_P(Campaign, DesignsAreBuiltOrRefused) {
-  const int cases = number_from("FUSEE_LAW_CASES", 24), seed = number_from("FUSEE_LAW_SEED", 1);
+  const int cases = number_in("FUSEE_LAW_CASES", 24), seed = number_in("FUSEE_LAW_SEED", 1);
   int made = 0, refused = 0, bad = 0;
   for (int i = GetParam(); i < cases; i += k_shards) {
     const Design design = draw_design(static_cast<std::uint64_t>(seed) * 1000003 + static_cast<std::uint64_t>(i));
@@ -203,8 +184,8 @@ TEST_P(Campaign, DesignsAreBuiltOrRefused) {
             fusee::testing::with_motor_and_units(design.text, static_cast<std::uint64_t>(i), "random.toml");
         return file;
       };
-      const End end = end_of(read, design.tolerance);
-      ++(end == End::made ? made : end == End::refused ? refused : bad);
+      const BuildEnd end = build_end(read, design.tolerance);
+      ++(end == BuildEnd::made ? made : end == BuildEnd::refused ? refused : bad);
     } catch (const std::exception& bug) {
       ADD_FAILURE() << bug.what();
     }
@@ -254,8 +235,8 @@ Combination combination_of(std::size_t number, const std::vector<Choice>& choice
   return combination;
 }
 
-/// A key that another key makes irrelevant has its first word.
-bool says_something_new(const Combination& combination, const std::vector<Choice>& choices) {
+/// False if a key that another key makes irrelevant has another than its first word: the design occurs elsewhere.
+bool is_distinct(const Combination& combination, const std::vector<Choice>& choices) {
   const auto at = [&](const std::string& key) {
     return static_cast<std::size_t>(
         std::find_if(choices.begin(), choices.end(), [&](const Choice& choice) { return choice.key == key; }) -
@@ -275,7 +256,7 @@ std::vector<Combination> all_combinations(const std::vector<Choice>& choices) {
   std::vector<Combination> all;
   for (std::size_t n = 0; n < count; ++n) {
     const Combination combination = combination_of(n * k_stride % count, choices);
-    if (says_something_new(combination, choices)) all.push_back(combination);
+    if (is_distinct(combination, choices)) all.push_back(combination);
   }
   return all;
 }
@@ -290,19 +271,19 @@ Pairs pairs_in(const Combination& combination) {
   return pairs;
 }
 
-/// First a set that contains every pair of words of two keys, then the others.
+/// First a set that contains every pair of words of two keys, then the others. `needed`: size of that set.
 std::vector<Combination> pairs_first(std::vector<Combination> all, std::size_t& needed) {
   Pairs missing;
   for (const Combination& combination : all) missing.merge(pairs_in(combination));
   constexpr std::size_t k_candidates = 300;
   for (needed = 0; !missing.empty(); ++needed) {
-    const auto news = [&missing](const Combination& combination) {
+    const auto new_pairs = [&missing](const Combination& combination) {
       const Pairs pairs = pairs_in(combination);
       return std::count_if(pairs.begin(), pairs.end(), [&](const auto& pair) { return missing.count(pair) != 0; });
     };
     std::size_t best = needed;
-    for (std::size_t n = needed; n < all.size() && (n < needed + k_candidates || news(all[best]) == 0); ++n)
-      if (news(all[n]) > news(all[best])) best = n;
+    for (std::size_t n = needed; n < all.size() && (n < needed + k_candidates || new_pairs(all[best]) == 0); ++n)
+      if (new_pairs(all[n]) > new_pairs(all[best])) best = n;
     std::swap(all[needed], all[best]);
     for (const auto& pair : pairs_in(all[needed])) missing.erase(pair);
   }
@@ -311,7 +292,7 @@ std::vector<Combination> pairs_first(std::vector<Combination> all, std::size_t& 
 
 class Choices : public ::testing::TestWithParam<const char*> {
  protected:
-  End end_of_combination(const Combination& combination, const std::vector<Choice>& choices) {
+  BuildEnd end_of_combination(const Combination& combination, const std::vector<Choice>& choices) {
     std::vector<Setting> settings{{"body.horn", "disc-25T-M3"}};
     std::string words;
     for (std::size_t i = 0; i < choices.size(); ++i) {
@@ -326,10 +307,10 @@ class Choices : public ::testing::TestWithParam<const char*> {
       return read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / GetParam(), settings);
     };
     try {
-      return end_of(read, 0.01);
+      return build_end(read, 0.01);
     } catch (const std::exception& bug) {
       ADD_FAILURE() << bug.what();
-      return End::bad_input;
+      return BuildEnd::bad_input;
     }
   }
 };
@@ -339,14 +320,14 @@ TEST_P(Choices, AreBuiltOrRefused) {
   ASSERT_GE(choices.size(), 10u);
   std::size_t needed = 0;
   std::vector<Combination> combinations = pairs_first(all_combinations(choices), needed);
-  const auto more = static_cast<std::size_t>(number_from("FUSEE_LAW_CASES", 0));
+  const auto more = static_cast<std::size_t>(number_in("FUSEE_LAW_CASES", 0));
   if (std::getenv("FUSEE_LONG_TESTS") == nullptr) combinations.resize(std::min(combinations.size(), needed + more));
-  std::map<End, int> ends;
+  std::map<BuildEnd, int> ends;
   for (const Combination& combination : combinations) ++ends[end_of_combination(combination, choices)];
-  EXPECT_GT(ends[End::made], 0);
-  EXPECT_EQ(ends[End::bad_input], 0);
-  std::printf("%s: %zu combinations, %d made, %d refused\n", GetParam(), combinations.size(), ends[End::made],
-              ends[End::refused]);
+  EXPECT_GT(ends[BuildEnd::made], 0);
+  EXPECT_EQ(ends[BuildEnd::bad_input], 0);
+  std::printf("%s: %zu combinations, %d made, %d refused\n", GetParam(), combinations.size(), ends[BuildEnd::made],
+              ends[BuildEnd::refused]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Profiles, Choices, ::testing::Values("forearm.toml", "gripper.toml", "wrist_exo.toml"));

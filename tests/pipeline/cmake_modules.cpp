@@ -16,8 +16,8 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
-/// All first groups of a pattern's matches.
-std::vector<std::string> found(std::string_view text, const std::string& pattern) {
+/// The first group of each match of a pattern.
+std::vector<std::string> first_groups(std::string_view text, const std::string& pattern) {
   const std::regex regex(pattern);
   std::vector<std::string> words;
   const std::string copy(text);
@@ -57,8 +57,8 @@ std::set<std::string> modules_linked(const std::string& call, const std::vector<
 
 std::vector<std::string> modules_in_flow() {
   std::vector<std::string> modules;
-  for (const std::string& line : found(text_of("CMakeLists.txt"), "#([^\n]*<-[^\n]*)")) {
-    for (const std::string& module : found(line, "([a-z_]+)")) modules.push_back(module);
+  for (const std::string& line : first_groups(text_of("CMakeLists.txt"), "#([^\n]*<-[^\n]*)")) {
+    for (const std::string& module : first_groups(line, "([a-z_]+)")) modules.push_back(module);
   }
   return modules;
 }
@@ -70,7 +70,7 @@ std::map<std::string, int> flow() {
 }
 
 std::vector<std::string> arguments_of(std::string_view text, const std::string& command) {
-  return found(without_comments(text), "\\b" + command + "\\(([^)]*)\\)");
+  return first_groups(without_comments(text), "\\b" + command + "\\(([^)]*)\\)");
 }
 
 std::vector<std::string> list_in(std::string_view text, const std::string& command, const std::string& name) {

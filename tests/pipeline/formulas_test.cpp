@@ -46,7 +46,7 @@ std::vector<std::string> places_of(const std::string& pattern, const std::vector
   return places;
 }
 
-const std::vector<Source>& house() {
+const std::vector<Source>& searched_sources() {
   static const std::vector<Source> sources = sources_under({"include", "src", "export"});
   return sources;
 }
@@ -54,7 +54,7 @@ const std::vector<Source>& house() {
 class Formulas : public ::testing::TestWithParam<Formula> {};
 
 TEST_P(Formulas, OccurOnce) {
-  const std::vector<std::string> places = places_of(GetParam().pattern, house());
+  const std::vector<std::string> places = places_of(GetParam().pattern, searched_sources());
   ASSERT_THAT(places, ::testing::SizeIs(1));
   EXPECT_THAT(places.front(), ::testing::StartsWith(GetParam().home));
 }

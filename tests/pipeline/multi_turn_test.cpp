@@ -28,7 +28,7 @@ MechanismFile read_profile(const std::string& name, const std::vector<Setting>& 
   return read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (name + ".toml"), settings);
 }
 
-pipeline::BuildResult made(const MechanismFile& file) {
+pipeline::BuildResult dry_build(const MechanismFile& file) {
   pipeline::BuildOptions options;
   options.folder = std::filesystem::temp_directory_path() / "fusee-multi-turn";
   options.dry_run = true;
@@ -63,7 +63,7 @@ std::string text_of(const pipeline::BuildResult& built, const std::string& name)
 class MultiTurn : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(MultiTurn, FollowTargetMotion) {
-  const pipeline::BuildResult built = made(read_profile(GetParam()));
+  const pipeline::BuildResult built = dry_build(read_profile(GetParam()));
   ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   ASSERT_TRUE(built.product.helix);
   EXPECT_GT(built.product.helix->synthesis.sides[0].turns, 2.5);
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Profiles, MultiTurn, ::testing::Values("wrist_turns", "
 
 /// Largest error of θ, deg, of the declared pulley on the identified joint.
 double uncorrected_error(const std::string& profile, const joint::IdentifiedJoint& joint) {
-  const formats::Product product = made(read_profile(profile)).product;
+  const formats::Product product = dry_build(read_profile(profile)).product;
   const std::vector<helical_solid::FloorLine> floors =
       helical_solid::helical_floors(product.pulley.mesh, product.pulley.layout.scale);
   const helical_solid::HelicalRewind wound = helical_solid::rewind_floors(
@@ -98,17 +98,17 @@ class IdentifiedTurns : public ::testing::TestWithParam<IdentifiedCase> {};
 TEST_P(IdentifiedTurns, AreCorrectedByPulley) {
   const IdentifiedCase& found = GetParam();
   const pipeline::BuildResult built =
-      made(read_profile(found.profile, {{std::string("identified.") + found.key, found.value}}));
+      dry_build(read_profile(found.profile, {{std::string("identified.") + found.key, found.value}}));
   ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   ASSERT_TRUE(built.product.helix);
-  const pipeline::BuildResult declared = made(read_profile(found.profile));
+  const pipeline::BuildResult declared = dry_build(read_profile(found.profile));
   const transmission::Transmission law(declared.product.joint.mechanism);
-  double off = 0;
+  double error = 0;
   for (const profile::RewindPoint& point : built.product.as_built.points) {
     if (point.alpha > law.alpha_min() && point.alpha < law.alpha_max())
-      off = std::max(off, std::abs(degrees(point.theta - law.theta(point.alpha))));
+      error = std::max(error, std::abs(degrees(point.theta - law.theta(point.alpha))));
   }
-  EXPECT_LT(off, std::string(found.key) == "profile_sin_mm" ? 0.01 : 0.001);
+  EXPECT_LT(error, std::string(found.key) == "profile_sin_mm" ? 0.01 : 0.001);
   if (found.without > 0) {
     EXPECT_GT(uncorrected_error(found.profile, built.product.joint), found.without);
   }
@@ -125,15 +125,17 @@ INSTANTIATE_TEST_SUITE_P(Profiles, IdentifiedTurns,
                                            IdentifiedCase{"elbow_capstan", "pulley_scale_percent", "1", 0}),
                          [](const auto& which) { return std::string(which.param.profile) + "_" + which.param.key; });
 
-/// A point of a pitch curve in profile.csv, within the range.
-struct Place {
+/// A point of a pitch curve in profile.csv, within the range: mm, and the direction of its normal, rad, over all turns.
+struct CurvePoint {
   double x = 0, y = 0, turn = 0;
+  /// Distance of the tendon's line from the axis.
   double radius() const { return x * std::cos(turn) + y * std::sin(turn); }
+  /// Distance of the point from the foot of the perpendicular, along the tendon's line.
   double along() const { return y * std::cos(turn) - x * std::sin(turn); }
 };
 
-std::map<std::string, std::vector<Place>> curves_in(const std::string& table) {
-  std::map<std::string, std::vector<Place>> curves;
+std::map<std::string, std::vector<CurvePoint>> curves_in(const std::string& table) {
+  std::map<std::string, std::vector<CurvePoint>> curves;
   std::istringstream lines(table);
   std::string line;
   std::getline(lines, line);
@@ -147,35 +149,42 @@ std::map<std::string, std::vector<Place>> curves_in(const std::string& table) {
   return curves;
 }
 
-// A string runs from a barrel of pitch radius 50.3 mm over a pin of 8 mm onto the curves in the file. The wound length
-// gives the barrel's angle, and that the spring's torque. By the clockmaker's rule the chain's pull times the fusee's
-// radius is constant. (For level strings; the slope adds 0.02 %.)
+// The joint of profiles/fusee_proper.toml: a barrel and pins, with a tendon of 0.6 mm; lengths in mm, torques in N·mm.
+constexpr double k_barrel = 50.0 + 0.3, k_pin = 8.0 + 0.3;         // pitch radii
+constexpr double k_ED = 70.0, k_EF = 180.0;                        // the pin from the pulley's axis
+constexpr double k_motor_torque = 66.6667;                         // constant
+constexpr double k_spring_at_home = 400.0, k_spring_rate = 50.93;  // rate per rad
+
+// A string runs from the barrel over a pin onto the curves in the file. The wound length gives the barrel's angle, and
+// that the spring's torque. By the clockmaker's rule the chain's pull times the fusee's radius is constant. (For level
+// strings; the slope adds 0.02 %.)
 TEST(ClockFusee, PullTimesRadiusIsConstant) {
-  constexpr double k_barrel = 50.3, k_pin = 8.3, k_torque = 66.6667;
-  const double to_pin = std::hypot(70.0, 180.0);
-  const pipeline::BuildResult built = made(read_profile("fusee_proper"));
+  const double to_pin = std::hypot(k_ED, k_EF);
+  const pipeline::BuildResult built = dry_build(read_profile("fusee_proper"));
   ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   for (const auto& [pulley, curve] : curves_in(text_of(built, "profile.csv"))) {
-    const double hand = pulley == "P2" ? 1.0 : -1.0;
+    const double winding_sign = pulley == "P2" ? 1.0 : -1.0;
     std::vector<double> paid_out;
     double wound = 0;
     for (std::size_t i = 0; i < curve.size(); ++i) {
       if (i > 0) wound += std::hypot(curve[i].x - curve[i - 1].x, curve[i].y - curve[i - 1].y);
       const double out = curve[i].radius() - k_pin;
-      paid_out.push_back(wound + hand * (std::sqrt(to_pin * to_pin - out * out) - k_pin * std::asin(out / to_pin)) -
+      paid_out.push_back(wound +
+                         winding_sign * (std::sqrt(to_pin * to_pin - out * out) - k_pin * std::asin(out / to_pin)) -
                          curve[i].along());
     }
-    // The spring's torque at home is 400 N mm.
-    const double home = k_torque * k_barrel / 400.0;
-    const auto at_home = std::min_element(curve.begin(), curve.end(), [home](const Place& a, const Place& b) {
-      return std::abs(a.radius() - home) < std::abs(b.radius() - home);
-    });
-    const double from = paid_out[static_cast<std::size_t>(at_home - curve.begin())];
+    const double home_radius = k_motor_torque * k_barrel / k_spring_at_home;
+    const auto at_home =
+        std::min_element(curve.begin(), curve.end(), [home_radius](const CurvePoint& a, const CurvePoint& b) {
+          return std::abs(a.radius() - home_radius) < std::abs(b.radius() - home_radius);
+        });
+    const double paid_out_at_home = paid_out[static_cast<std::size_t>(at_home - curve.begin())];
     for (std::size_t i = 0; i < curve.size(); ++i) {
-      const double turned = (paid_out[i] - from) / k_barrel;
-      const double pull = (400.0 + 50.93 * turned) / k_barrel;
-      ASSERT_NEAR(pull * curve[i].radius() / k_torque, 1.0, 5e-4) << pulley << " at " << degrees(turned);
+      const double theta = (paid_out[i] - paid_out_at_home) / k_barrel;
+      const double pull = (k_spring_at_home + k_spring_rate * theta) / k_barrel;
+      ASSERT_NEAR(pull * curve[i].radius() / k_motor_torque, 1.0, 5e-4) << pulley << " at " << degrees(theta);
     }
+    // The torque doubles over the barrel's 300°, and the fusee makes five turns.
     EXPECT_NEAR(std::max(curve.front().radius(), curve.back().radius()) /
                     std::min(curve.front().radius(), curve.back().radius()),
                 2.0, 1e-3);
@@ -183,19 +192,22 @@ TEST(ClockFusee, PullTimesRadiusIsConstant) {
   }
 }
 
-// The work that turns the wound mesh equals the energy in the spring: 66.67 alpha = 400 theta + 50.93 theta²/2.
+// The work that turns the wound mesh equals the energy in the spring: 66.67 α = 400 θ + 50.93 θ²/2.
 TEST(ClockFusee, SpringStoresWork) {
-  const pipeline::BuildResult built = made(read_profile("fusee_proper"));
+  const pipeline::BuildResult built = dry_build(read_profile("fusee_proper"));
   ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   ASSERT_GT(built.product.as_built.points.size(), 50U);
   for (const profile::RewindPoint& point : built.product.as_built.points) {
-    const double theta = (std::sqrt(400.0 * 400.0 + 2.0 * 50.93 * 66.6667 * point.alpha) - 400.0) / 50.93;
+    const double theta =
+        (std::sqrt(k_spring_at_home * k_spring_at_home + 2.0 * k_spring_rate * k_motor_torque * point.alpha) -
+         k_spring_at_home) /
+        k_spring_rate;
     EXPECT_NEAR(degrees(point.theta), degrees(theta), 0.0005) << degrees(point.alpha);
   }
 }
 
 TEST(MultiTurnFiles, ListHelicalCurves) {
-  const pipeline::BuildResult built = made(read_profile("wrist_turns"));
+  const pipeline::BuildResult built = dry_build(read_profile("wrist_turns"));
   ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   std::istringstream profile(text_of(built, "profile.csv"));
   std::string header, row;
@@ -232,14 +244,14 @@ TEST(MultiTurnFiles, DrawSpiralsInSpace) {
         EXPECT_NEAR(b.norm(), 7.0, 1e-6);
         turned += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
       }
-      // 110° at 12.9 turns of the pulley per turn of the joint: 1419°.
+      // The joint turns by 110°, on a drum of 90.3 mm pitch radius, and the pulley of 7 mm turns 12.9 times as far.
       EXPECT_NEAR(std::abs(degrees(turned)), 110.0 * 12.9, 1.0) << layer;
     }
   }
 }
 
 TEST(MultiTurnFiles, ScadHasBothGrooves) {
-  const pipeline::BuildResult built = made(read_profile("fusee_proper"));
+  const pipeline::BuildResult built = dry_build(read_profile("fusee_proper"));
   const std::string program = text_of(built, "pulley.scad");
   for (const char* has :
        {"\nedge_bulges1 = [", "\nP1 = [", "\nP2 = [", "module run_out", "module bore_hole", "module screw_hole"})
@@ -252,9 +264,11 @@ TEST(MultiTurnFiles, ScadHasBothGrooves) {
 TEST(MultiTurnPrint, FitEveryPrinter) {
   for (const char* profile : {"wrist_turns", "elbow_capstan"}) {
     for (const char* overhang : {"20", "35", "60", "70"})
-      EXPECT_EQ(made(read_profile(profile, {{"print.overhang_deg", overhang}})).status, pipeline::BuildStatus::done)
+      EXPECT_EQ(dry_build(read_profile(profile, {{"print.overhang_deg", overhang}})).status,
+                pipeline::BuildStatus::done)
           << profile << " at " << overhang;
-    EXPECT_EQ(made(read_profile(profile, {{"print.supports", "true"}})).status, pipeline::BuildStatus::done) << profile;
+    EXPECT_EQ(dry_build(read_profile(profile, {{"print.supports", "true"}})).status, pipeline::BuildStatus::done)
+        << profile;
   }
 }
 
@@ -271,14 +285,14 @@ TEST(MultiTurnWords, NoteErrorOfLevelTendons) {
 }
 
 TEST(MultiTurnWords, NameReasonForOneTurn) {
-  EXPECT_THAT(failures_of(made(read_profile("wrist_turns", {{"pulley.winding", "one_turn"}}))),
+  EXPECT_THAT(failures_of(dry_build(read_profile("wrist_turns", {{"pulley.winding", "one_turn"}}))),
               HasSubstr("more than one turn (pulley.winding = \"one_turn\")"));
 }
 
 TEST(MultiTurnWords, ReportUnusedKeys) {
   const auto words_with = [](const char* profile, const std::vector<Setting>& settings) {
     std::string text;
-    for (const Diagnostic& one : made(read_profile(profile, settings)).product.file.warnings)
+    for (const Diagnostic& one : dry_build(read_profile(profile, settings)).product.file.warnings)
       text += one.message + "\n";
     return text;
   };
@@ -295,21 +309,21 @@ TEST(MultiTurnWords, ReportUnusedKeys) {
 /// The message gives the required number of turns, and a value that builds.
 TEST(MultiTurnWords, ReportTooManyTurns) {
   const std::vector<Setting> many{{"pulley.r1_mm", "1.2"}};
-  const pipeline::BuildResult built = made(read_profile("elbow_capstan", many));
+  const pipeline::BuildResult built = dry_build(read_profile("elbow_capstan", many));
   ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built),
               HasSubstr("P1 would wind 23 turns over the range: at most 12 are supported, 52 % of this"));
   ASSERT_FALSE(built.advice.alone.empty());
   const profile::Change& change = built.advice.alone.front();
   EXPECT_EQ(change.key, "pulley.r1_mm");
-  EXPECT_EQ(made(read_profile("elbow_capstan", {{"pulley.r1_mm", std::to_string(change.to)}})).status,
+  EXPECT_EQ(dry_build(read_profile("elbow_capstan", {{"pulley.r1_mm", std::to_string(change.to)}})).status,
             pipeline::BuildStatus::done);
 }
 
 /// Multi-turn pulleys have no marks and no plates.dxf. Notes report it, whatever the file requests.
 TEST(MultiTurnWords, ListOmittedFeatures) {
   for (const char* marks : {"engraved", "raised"}) {
-    const pipeline::BuildResult built = made(read_profile("wrist_turns", {{"body.marks", marks}}));
+    const pipeline::BuildResult built = dry_build(read_profile("wrist_turns", {{"body.marks", marks}}));
     ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
     for (const std::string& text : {words_of(built), text_of(built, "manifest.json")}) {
       EXPECT_THAT(text, HasSubstr("multi-turn pulleys have no marks and no slots for the tails"));
@@ -319,18 +333,18 @@ TEST(MultiTurnWords, ListOmittedFeatures) {
   }
 }
 
-/// This joint has no other obstacle: the advised ratio builds.
+/// This joint has no other obstacle: it builds with a smaller ratio, and there is advice.
 TEST(MultiTurnWords, SheathsAdviseRatio) {
-  const pipeline::BuildResult built = made(read_profile("wrist_sheath", {{"pulley.ratio", "13"}}));
+  const pipeline::BuildResult built = dry_build(read_profile("wrist_sheath", {{"pulley.ratio", "13"}}));
   ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built),
               HasSubstr("more than one turn (a tendon out of a sheath is not wound several times yet)"));
   EXPECT_FALSE(built.advice.empty());
-  EXPECT_EQ(made(read_profile("wrist_sheath", {{"pulley.ratio", "4.55"}})).status, pipeline::BuildStatus::done);
+  EXPECT_EQ(dry_build(read_profile("wrist_sheath", {{"pulley.ratio", "4.55"}})).status, pipeline::BuildStatus::done);
 }
 
-TEST(MultiTurnWords, AdviceBuilds) {
-  const pipeline::BuildResult built = made(read_profile("wrist_turns", {{"body.lead_mm", "1.2"}}));
+TEST(MultiTurnWords, RejectSmallLeadWithAdvice) {
+  const pipeline::BuildResult built = dry_build(read_profile("wrist_turns", {{"body.lead_mm", "1.2"}}));
   ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built), HasSubstr("is too small"));
   EXPECT_FALSE(built.advice.empty());
@@ -342,17 +356,17 @@ std::vector<Setting> with_collars(double ef, double lead) {
 
 /// Without collars there is no fleet angle; with them the pulley's distance and the lead determine it.
 TEST(FleetAngles, GrowingAnglesAreReported) {
-  const pipeline::BuildResult none = made(read_profile("wrist_turns"));
+  const pipeline::BuildResult none = dry_build(read_profile("wrist_turns"));
   EXPECT_THAT(words_of(none), Not(HasSubstr("fleet angle of")));
-  const pipeline::BuildResult small = made(read_profile("wrist_turns", with_collars(300, 0)));
+  const pipeline::BuildResult small = dry_build(read_profile("wrist_turns", with_collars(300, 0)));
   ASSERT_EQ(small.status, pipeline::BuildStatus::done) << failures_of(small);
   EXPECT_THAT(words_of(small), Not(HasSubstr("fleet angle of")));
   EXPECT_THAT(words_of(small), Not(HasSubstr("leaves its groove")));
-  const pipeline::BuildResult noted = made(read_profile("wrist_turns", with_collars(170, 0)));
+  const pipeline::BuildResult noted = dry_build(read_profile("wrist_turns", with_collars(170, 0)));
   ASSERT_EQ(noted.status, pipeline::BuildStatus::done) << failures_of(noted);
   EXPECT_THAT(words_of(noted), HasSubstr("note: a fleet angle of 1.95° exceeds the 1.5° limit of smooth drums"));
   EXPECT_THAT(words_of(noted), Not(HasSubstr("leaves its groove")));
-  const pipeline::BuildResult warned = made(read_profile("wrist_turns", with_collars(60, 7)));
+  const pipeline::BuildResult warned = dry_build(read_profile("wrist_turns", with_collars(60, 7)));
   ASSERT_EQ(warned.status, pipeline::BuildStatus::done) << failures_of(warned);
   EXPECT_THAT(words_of(warned), HasSubstr("warning: tendon 1 leaves its groove at a fleet angle of up to 5.57° (α"));
   EXPECT_THAT(words_of(warned), Not(HasSubstr("note: a fleet angle of")));
@@ -361,7 +375,7 @@ TEST(FleetAngles, GrowingAnglesAreReported) {
 /// The default lower wall leans by 25°, at a largest radius of 10.2 mm and 1 mm deep: tan 25° √(1/20.4) is 5.9°. The
 /// seat is slightly wider than the tendon, which adds 0.24°.
 TEST(FleetAngles, LargeAnglesAreRefusedWithAdvice) {
-  const pipeline::BuildResult built = made(read_profile("wrist_turns", with_collars(60, 8)));
+  const pipeline::BuildResult built = dry_build(read_profile("wrist_turns", with_collars(60, 8)));
   ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built), HasSubstr("tendon 1 leaves its groove at a fleet angle of 6.29° at α = "));
   EXPECT_THAT(failures_of(built), HasSubstr("above 6.14° it touches the groove edge"));
@@ -369,7 +383,7 @@ TEST(FleetAngles, LargeAnglesAreRefusedWithAdvice) {
   for (const profile::Change& change : built.advice.alone) {
     std::vector<Setting> mended = with_collars(60, 8);
     mended.push_back({change.key, std::to_string(change.to)});
-    EXPECT_EQ(made(read_profile("wrist_turns", mended)).status, pipeline::BuildStatus::done) << change.text;
+    EXPECT_EQ(dry_build(read_profile("wrist_turns", mended)).status, pipeline::BuildStatus::done) << change.text;
   }
 }
 
@@ -378,15 +392,15 @@ TEST(FleetAngles, LeaningGroovesAllowLargerAngles) {
   std::vector<Setting> steep = with_collars(60, 0), leaning = with_collars(60, 8);
   steep.push_back({"body.groove_angle_deg", "5"});
   leaning.push_back({"body.groove_angle_deg", "80"});
-  EXPECT_THAT(failures_of(made(read_profile("wrist_turns", steep))),
+  EXPECT_THAT(failures_of(dry_build(read_profile("wrist_turns", steep))),
               HasSubstr("above 0.921° it touches the groove edge"));
-  EXPECT_EQ(made(read_profile("wrist_turns", leaning)).status, pipeline::BuildStatus::done);
+  EXPECT_EQ(dry_build(read_profile("wrist_turns", leaning)).status, pipeline::BuildStatus::done);
 }
 
 /// The number that the refusal of a body advises builds.
 TEST(MultiTurnWords, BodyAdviceBuilds) {
   const std::vector<Setting> pocket{{"tendon.diameter_mm", "1.07"}, {"body.knot_pocket_mm", "7"}};
-  const pipeline::BuildResult built = made(read_profile("elbow_capstan", pocket));
+  const pipeline::BuildResult built = dry_build(read_profile("elbow_capstan", pocket));
   ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built), HasSubstr("knot pocket"));
   const auto change = std::find_if(built.advice.alone.begin(), built.advice.alone.end(),
@@ -394,7 +408,7 @@ TEST(MultiTurnWords, BodyAdviceBuilds) {
   ASSERT_NE(change, built.advice.alone.end());
   std::vector<Setting> mended = pocket;
   mended.back().value = std::to_string(change->to);
-  EXPECT_EQ(made(read_profile("elbow_capstan", mended)).status, pipeline::BuildStatus::done);
+  EXPECT_EQ(dry_build(read_profile("elbow_capstan", mended)).status, pipeline::BuildStatus::done);
 }
 
 /// Regressions: each of these bodies once intersected itself or broke through its rim.
@@ -403,25 +417,25 @@ TEST(MultiTurnBodies, PassRegressions) {
       {{"tendon.diameter_mm", "0.72"}, {"pulley.r1_mm", "6.61"}, {"body.spare_turns", "1.7"}},
       {{"tendon.diameter_mm", "0.9"}, {"body.anchor_hole_mm", "2"}}};
   for (const std::vector<Setting>& settings : designs) {
-    const pipeline::BuildResult built = made(read_profile("elbow_capstan", settings));
+    const pipeline::BuildResult built = dry_build(read_profile("elbow_capstan", settings));
     EXPECT_EQ(built.status, pipeline::BuildStatus::done) << settings.front().value << "\n" << failures_of(built);
   }
   // Turns of the same normal are far apart in plan.
-  const pipeline::BuildResult aside = made(read_profile("wrist_turns", {{"pulley.ratio", "6.71"},
-                                                                        {"joint.length_mm", "246.3"},
-                                                                        {"guides.EB_mm", "136.6"},
-                                                                        {"guides.ED_mm", "159.3"},
-                                                                        {"pulley.EF_mm", "162.2"},
-                                                                        {"joint.range_deg", "[-35.3, 29.7]"},
-                                                                        {"body.groove", "u"}}));
+  const pipeline::BuildResult aside = dry_build(read_profile("wrist_turns", {{"pulley.ratio", "6.71"},
+                                                                             {"joint.length_mm", "246.3"},
+                                                                             {"guides.EB_mm", "136.6"},
+                                                                             {"guides.ED_mm", "159.3"},
+                                                                             {"pulley.EF_mm", "162.2"},
+                                                                             {"joint.range_deg", "[-35.3, 29.7]"},
+                                                                             {"body.groove", "u"}}));
   EXPECT_EQ(aside.status, pipeline::BuildStatus::done) << failures_of(aside);
 }
 
 TEST(MultiTurnWords, RejectWideHub) {
-  const pipeline::BuildResult wide = made(read_profile("wrist_turns", {{"body.hub_diameter_mm", "90"}}));
+  const pipeline::BuildResult wide = dry_build(read_profile("wrist_turns", {{"body.hub_diameter_mm", "90"}}));
   EXPECT_EQ(wide.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(wide), HasSubstr("the upper flange has space for a hub of"));
-  const pipeline::BuildResult thin = made(read_profile("wrist_turns", {{"body.hub_diameter_mm", "2"}}));
+  const pipeline::BuildResult thin = dry_build(read_profile("wrist_turns", {{"body.hub_diameter_mm", "2"}}));
   EXPECT_EQ(thin.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(thin), HasSubstr("body.hub_diameter_mm) leaves"));
 }
@@ -431,7 +445,7 @@ TEST(MultiTurnWords, RejectWideHub) {
 /// Each mesh file of a build, of a shrinking material printed larger, gives the error that the build reports.
 TEST_P(MultiTurn, RewindOnFiles) {
   const MechanismFile file = read_profile(GetParam(), {{"material.shrinkage_percent", "0.8"}});
-  const pipeline::BuildResult built = made(file);
+  const pipeline::BuildResult built = dry_build(file);
   ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   for (const char* name : {"pulley.stl", "pulley.3mf", "pulley.drc"}) {
     const solid::TriangleMesh mesh = formats::read_mesh(text_of(built, name), name);
@@ -484,20 +498,21 @@ TracedTendon trace_to_row(const formats::Product& product, transmission::Side si
   const auto trace = formats::trace_tendon(
       product.joint.mechanism, turn_about(helix.spiral, side, helix.spiral.rows[near].turn), at.alpha, at.theta);
   EXPECT_TRUE(trace.has_value());
-  const Vec2 left = turned(trace->take_off - formats::pulley_axis(product.joint.mechanism), at.alpha);
+  const Vec2 take_off = turned(trace->take_off - formats::pulley_axis(product.joint.mechanism), at.alpha);
   std::size_t row = near;
   double nearest = 1e9;
   for (std::size_t i = 0; i < helix.spiral.rows.size(); ++i) {
-    const helix::SpiralRow& own = helix.spiral.rows[i];
-    const double off = std::hypot(own.x - left.x(), own.y - left.y());
-    if (std::abs(own.turn - helix.spiral.rows[near].turn) > 3.0 || off >= nearest) continue;
-    nearest = off;
+    const helix::SpiralRow& candidate = helix.spiral.rows[i];
+    const double distance = std::hypot(candidate.x - take_off.x(), candidate.y - take_off.y());
+    if (std::abs(candidate.turn - helix.spiral.rows[near].turn) > 3.0 || distance >= nearest) continue;
+    nearest = distance;
     row = i;
   }
   return {*trace, row};
 }
 
-double planar(const std::vector<Vec2>& path, std::size_t last) {
+/// Length of the path up to its point `last`.
+double length_to(const std::vector<Vec2>& path, std::size_t last) {
   double length = 0;
   for (std::size_t i = 0; i < last; ++i) length += (path[i + 1] - path[i]).norm();
   return length;
@@ -550,16 +565,16 @@ TEST_P(MultiTurnKit, ReportsTendonHeights) {
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     const std::size_t i = side == transmission::Side::left ? 0 : 1;
     const helix::HelixSide& helix = product.helix->synthesis.sides.at(i);
-    const helical_solid::SpiralPlace& lies = i == 0 ? product.helix->pulley.p1 : product.helix->pulley.p2;
-    const double end = lies.height(helix.attachment_z);
+    const helical_solid::SpiralPlace& spiral_place = i == 0 ? product.helix->pulley.p1 : product.helix->pulley.p2;
+    const double end = spiral_place.height(helix.attachment_z);
     EXPECT_NEAR(heights.ends.at(i), end, 1e-9);
     on_drum.see(end);
     kit::TendonHeights::Span on_guide;
     for (std::size_t k = 0; k < product.synthesis.stroke.size(); k += 5) {
       const auto [trace, row] = trace_to_row(product, side, k);
-      const double off = lies.height(helix.spiral.rows[row].z);
+      const double take_off = spiral_place.height(helix.spiral.rows[row].z);
       const auto height = [&, &path = trace.free_path](std::size_t point) {
-        return end + (off - end) * planar(path, point) / planar(path, path.size() - 1);
+        return end + (take_off - end) * length_to(path, point) / length_to(path, path.size() - 1);
       };
       for (std::size_t point = 0; point < trace.free_path.size(); ++point) {
         const Vec2 at = trace.free_path[point];

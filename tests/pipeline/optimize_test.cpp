@@ -134,7 +134,7 @@ class Front : public Optimize {
   }
 };
 
-TEST_F(Front, HasValueAndFiles) {
+TEST_F(Front, FilesMatchItsPoints) {
   const pipeline::OptimizeResult result = front();
   const auto& points = std::get<optimize::ParetoResult>(result.search).front;
   ASSERT_GT(points.size(), 1u);
@@ -232,13 +232,13 @@ TEST(OptimizeTurns, FindsBuildablePulleys) {
   EXPECT_GT(gentle.design[0], 12.0);
   EXPECT_LT(gentle.design[0], 13.0);
 
-  const auto says_level = [](const pipeline::OptimizeResult& result) {
+  const auto warns_of_level_tendons = [](const pipeline::OptimizeResult& result) {
     return std::any_of(result.warnings.begin(), result.warnings.end(), [](const Diagnostic& warning) {
       return warning.message.find("level tendons") != std::string::npos;
     });
   };
-  EXPECT_TRUE(says_level(several));
-  EXPECT_FALSE(says_level(one));
+  EXPECT_TRUE(warns_of_level_tendons(several));
+  EXPECT_FALSE(warns_of_level_tendons(one));
 }
 
 }  // namespace

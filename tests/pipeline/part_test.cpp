@@ -95,7 +95,7 @@ TEST_F(MadePart, RejectsPartWithoutGrooves) {
 // ---- moved parts ----------------------------------------------------------------------------------------------------
 
 /// Turned over about x or not, then turned about its axis, then moved; rounded to floats as in an STL.
-solid::TriangleMesh put(solid::TriangleMesh mesh, bool over, double turn_deg, const Vec3& by) {
+solid::TriangleMesh placed(solid::TriangleMesh mesh, bool over, double turn_deg, const Vec3& by) {
   for (Vec3& v : mesh.vertices) {
     if (over) v = Vec3(v.x(), -v.y(), -v.z());
     v.head<2>() = turned(v.head<2>(), radians(turn_deg));
@@ -118,7 +118,7 @@ TEST_F(MadePart, MovedPartHasSameAngles) {
   for (const bool over : {false, true}) {
     for (const double turn : {0.0, 90.0, 213.4}) {
       const pipeline::RewoundPart part =
-          pipeline::rewind_moved_part({*mechanism_, {}}, put(*mesh_, over, turn, Vec3(125, 105, 30)));
+          pipeline::rewind_moved_part({*mechanism_, {}}, placed(*mesh_, over, turn, Vec3(125, 105, 30)));
       ASSERT_EQ(part.place, pipeline::PartPlace::found);
       ASSERT_EQ(part.placements.size(), 1u);
       EXPECT_EQ(part.placements[0].turned_over, over);
@@ -135,7 +135,7 @@ TEST_F(MadePart, FaultRemainsAfterMove) {
   const profile::RewindResult unmoved = pipeline::rewind_part({*mechanism_, {}}, small);
   EXPECT_EQ(pipeline::rewind_moved_part({*mechanism_, {}}, small).place, pipeline::PartPlace::as_made);
   const pipeline::RewoundPart moved =
-      pipeline::rewind_moved_part({*mechanism_, {}}, put(small, true, 40, Vec3(125, 105, 30)));
+      pipeline::rewind_moved_part({*mechanism_, {}}, placed(small, true, 40, Vec3(125, 105, 30)));
   EXPECT_EQ(moved.place, pipeline::PartPlace::found);
   EXPECT_NEAR(degrees(moved.as_built.max_theta_error), degrees(unmoved.max_theta_error), 0.02);
   EXPECT_GT(degrees(moved.as_built.max_theta_error), 0.05);
@@ -151,7 +151,7 @@ TEST_F(MadePart, RejectsMirroredOrScaledPart) {
     return std::string("taken");
   };
   EXPECT_THAT(message(changed([](Vec3& v) { v.x() = -v.x(); })), ::testing::HasSubstr("mirror image"));
-  EXPECT_THAT(message(put(changed([](Vec3& v) { v.z() = -v.z(); }), false, 30, Vec3(9, 9, 9))),
+  EXPECT_THAT(message(placed(changed([](Vec3& v) { v.z() = -v.z(); }), false, 30, Vec3(9, 9, 9))),
               ::testing::HasSubstr("mirror image"));
   EXPECT_THAT(message(changed([](Vec3& v) { v /= 25.4; })), ::testing::HasSubstr("inches: scale it by 25.4"));
   EXPECT_THAT(message(changed([](Vec3& v) { v *= 1.1; })), ::testing::HasSubstr("1.1 times the size"));
@@ -173,13 +173,13 @@ TEST_F(MadePart, FindsPulleysSideBySide) {
     if (above == 3) upper.triangles.push_back(triangle);
   }
   const pipeline::RewoundPart p2 =
-      pipeline::rewind_moved_part({*mechanism_, {}}, put(upper, true, 70, Vec3(60, 0, 20)));
+      pipeline::rewind_moved_part({*mechanism_, {}}, placed(upper, true, 70, Vec3(60, 0, 20)));
   EXPECT_EQ(p2.alone, transmission::Side::right);
   EXPECT_LT(degrees(p2.as_built.max_theta_error), 0.01);
   EXPECT_EQ(p2.as_built.max_excess, 0);
 
-  solid::TriangleMesh both = put(lower, false, 10, Vec3(-40, 7, 0));
-  const solid::TriangleMesh other = put(upper, true, 70, Vec3(60, 0, 20));
+  solid::TriangleMesh both = placed(lower, false, 10, Vec3(-40, 7, 0));
+  const solid::TriangleMesh other = placed(upper, true, 70, Vec3(60, 0, 20));
   const auto first = static_cast<std::uint32_t>(both.vertices.size());
   both.vertices.insert(both.vertices.end(), other.vertices.begin(), other.vertices.end());
   for (const auto& [a, b, c] : other.triangles) both.triangles.push_back({first + a, first + b, first + c});
@@ -196,7 +196,7 @@ TEST_F(MadePart, ReportsPartOfAnotherMechanism) {
   other.guides.OE = -25;
   EXPECT_EQ(pipeline::rewind_moved_part({other, {}}, *mesh_).place, pipeline::PartPlace::not_recognised);
   try {
-    pipeline::rewind_moved_part({other, {}}, put(*mesh_, false, 0, Vec3(0, 0, 500)));
+    pipeline::rewind_moved_part({other, {}}, placed(*mesh_, false, 0, Vec3(0, 0, 500)));
     ADD_FAILURE() << "taken";
   } catch (const InputError& error) {
     EXPECT_THAT(error.diagnostics().front().hint, ::testing::HasSubstr("nor do its grooves fit anywhere else"));
@@ -268,26 +268,24 @@ TEST_F(MadePart, RewindsAtShrunkSize) {
   EXPECT_GT(degrees(pipeline::rewind_part({*mechanism_, {}}, mesh).max_theta_error), 0.1);
 }
 
-bool agree(const std::vector<Check>& checks) { return all_ok(checks); }
-
 TEST_F(MadePart, EqualsOnlyItself) {
-  EXPECT_TRUE(agree(pipeline::same_mesh(*mesh_, *mesh_)));
+  EXPECT_TRUE(all_ok(pipeline::same_mesh(*mesh_, *mesh_)));
   solid::TriangleMesh moved = *mesh_;
   moved.vertices[100].x() = std::nextafter(static_cast<float>(moved.vertices[100].x()), 1000.0F);
-  EXPECT_FALSE(agree(pipeline::same_mesh(*mesh_, moved)));
+  EXPECT_FALSE(all_ok(pipeline::same_mesh(*mesh_, moved)));
   solid::TriangleMesh fewer = *mesh_;
   fewer.triangles.pop_back();
-  EXPECT_FALSE(agree(pipeline::same_mesh(*mesh_, fewer)));
-  EXPECT_FALSE(agree(pipeline::near_mesh(*mesh_, fewer, 0.01)));
+  EXPECT_FALSE(all_ok(pipeline::same_mesh(*mesh_, fewer)));
+  EXPECT_FALSE(all_ok(pipeline::near_mesh(*mesh_, fewer, 0.01)));
 }
 
 TEST_F(MadePart, ToleratesReorderingAndRounding) {
   solid::TriangleMesh other = changed([](Vec3& v) { v = (v * 256.0).array().round() / 256.0; });
   std::reverse(other.triangles.begin(), other.triangles.end());
-  EXPECT_TRUE(agree(pipeline::near_mesh(*mesh_, other, 0.01)));
-  EXPECT_FALSE(agree(pipeline::near_mesh(*mesh_, other, 0.001)));
+  EXPECT_TRUE(all_ok(pipeline::near_mesh(*mesh_, other, 0.01)));
+  EXPECT_FALSE(all_ok(pipeline::near_mesh(*mesh_, other, 0.001)));
   other.vertices[7].z() += 0.5;
-  EXPECT_FALSE(agree(pipeline::near_mesh(*mesh_, other, 0.01)));
+  EXPECT_FALSE(all_ok(pipeline::near_mesh(*mesh_, other, 0.01)));
 }
 
 }  // namespace

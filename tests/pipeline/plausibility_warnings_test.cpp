@@ -19,7 +19,7 @@ MechanismFile profile(const std::string& name, const std::vector<Setting>& setti
 }
 
 /// An overloaded arm whose pins have the wrong sign: they were meant to be above the joint.
-MechanismFile slipped_forearm() {
+MechanismFile faulty_forearm() {
   return profile("forearm", {{"guides.OE_mm", "40"}, {"tendon.strength_N", "20"}, {"load.tip_force_N", "25"}});
 }
 
@@ -46,7 +46,7 @@ BuildResult built(const MechanismFile& file) {
 }
 
 TEST(PlausibilityWarnings, AppearInManifestAndReport) {
-  const BuildResult result = built(slipped_forearm());
+  const BuildResult result = built(faulty_forearm());
   EXPECT_THAT(messages(result.product.file.warnings),
               ElementsAre(HasSubstr("guides.OE_mm = 40"), HasSubstr("the tendon breaks")));
   EXPECT_THAT(text_of(result.outputs, "manifest.json"),
@@ -61,7 +61,7 @@ TEST(PlausibilityWarnings, AppearForInfeasibleBuild) {
 }
 
 TEST(PlausibilityWarnings, BreakingTendonIsError) {
-  const analysis::AnalysisResult result = analyze(slipped_forearm());
+  const analysis::AnalysisResult result = analyze(faulty_forearm());
   EXPECT_TRUE(result.breaks_at);
   EXPECT_THAT(messages(result.warnings), ElementsAre(HasSubstr("guides.OE_mm = 40")));
   // An estimated strength gives a warning, not an error.
@@ -76,7 +76,7 @@ TEST(PlausibilityWarnings, NameTightBends) {
               ElementsAre(HasSubstr("P1 bends the tendon"), HasSubstr("P2 bends the tendon")));
 }
 
-TEST(PlausibilityWarnings, SearchUsesIdentifiedFile) {
+TEST(PlausibilityWarnings, AppearInOptimization) {
   OptimizeOptions options;
   options.dry_run = true;
   EXPECT_THAT(messages(optimize(profile("paper_optimum", {{"tendon.modulus_MPa", "40"}}), options).warnings),

@@ -1,7 +1,7 @@
 // Random joints of the wide class through the whole build: drums, attachments, idlers, sheaths and torque laws, with
 // motors and inches. Each is built with all checks and rewinds to its law, or is refused with a reason.
-// FUSEE_LAW_CASES: number of joints (24); FUSEE_LAW_SEED: seed (1); FUSEE_LONG_TESTS: with advice, of which each change
-// is tested.
+// FUSEE_LAW_CASES: number of joints (24); FUSEE_LAW_SEED: seed (1); FUSEE_LONG_TESTS: with advice. Each advised
+// change is then tested.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -12,7 +12,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <random>
 #include <string>
 #include <string_view>
 
@@ -20,24 +19,17 @@
 #include "fusee/kit.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
+#include "support/campaign.h"
 #include "support/motor_and_units.h"
 
 namespace {
 
 using namespace fusee;
+using fusee::testing::BuildEnd;
+using fusee::testing::Dice;
+using fusee::testing::number_in;
 
-/// A random number generator with equal results on every machine.
-class WideDice {
- public:
-  explicit WideDice(std::uint64_t seed) : bits_(seed) {}
-  double between(double low, double high) { return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53; }
-  double log_between(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
-  bool happens(double probability) { return between(0, 1) < probability; }
-
- private:
-  std::mt19937_64 bits_;
-};
-
+/// A mechanism file that grows table by table.
 struct WideText {
   std::string text;
   double low = 0, high = 0;  ///< of the joint, deg
@@ -48,8 +40,9 @@ struct WideText {
   void word(std::string_view key, std::string_view value) { text += fmt::format("{} = \"{}\"\n", key, value); }
 };
 
-/// The end of a tendon: on the drum, sometimes inside of it, or anywhere near the joint.
-void add_end(WideDice& dice, WideText& file, std::string_view key, double drum, double sign) {
+/// The end of a tendon: on the drum, sometimes inside of it, or anywhere near the joint. `drum`: radius of its centre
+/// line there, mm; 0: no drum. `sign`: −1 for tendon 1, +1 for tendon 2.
+void add_end(Dice& dice, WideText& file, std::string_view key, double drum, double sign) {
   const bool on_drum = drum > 0 && dice.happens(0.6);
   const double away = on_drum    ? drum * (dice.happens(0.1) ? dice.between(0.7, 1) : dice.between(1, 1.03))
                       : drum > 0 ? drum * dice.between(0.95, 2)
@@ -58,7 +51,7 @@ void add_end(WideDice& dice, WideText& file, std::string_view key, double drum, 
   file.text += fmt::format("{} = [{:.6g}, {:.6g}]\n", key, away * std::sin(angle), away * std::cos(angle));
 }
 
-void add_joint(WideDice& dice, WideText& file) {
+void add_joint(Dice& dice, WideText& file) {
   file.size = dice.log_between(5, 120);
   const double tendon = std::clamp(file.size * dice.log_between(0.01, 0.06), 0.2, 4.0);
   const bool drum = dice.happens(0.7);
@@ -67,17 +60,19 @@ void add_joint(WideDice& dice, WideText& file) {
   file.table("joint");
   file.number("length_mm", file.size * (drum ? dice.between(1.1, 6) : dice.between(0.9, 3)));
   file.text += fmt::format("range_deg = [{:.6g}, {:.6g}]\n", file.low, file.high);
-  const double rho = drum ? file.size : 0;
-  if (drum) file.number("drum_radius_mm", rho);
-  if (drum || dice.happens(0.8)) add_end(dice, file, "attachment1_mm", rho == 0 ? 0 : rho + 0.5 * tendon, -1);
-  if (drum || dice.happens(0.8)) add_end(dice, file, "attachment2_mm", rho == 0 ? 0 : rho + 0.5 * tendon, 1);
+  const double drum_radius = drum ? file.size : 0;
+  if (drum) file.number("drum_radius_mm", drum_radius);
+  if (drum || dice.happens(0.8))
+    add_end(dice, file, "attachment1_mm", drum_radius == 0 ? 0 : drum_radius + 0.5 * tendon, -1);
+  if (drum || dice.happens(0.8))
+    add_end(dice, file, "attachment2_mm", drum_radius == 0 ? 0 : drum_radius + 0.5 * tendon, 1);
   file.table("tendon");
   file.number("diameter_mm", tendon);
   file.number("pretension_N", dice.log_between(1, 60));
   if (dice.happens(0.5)) file.number("modulus_MPa", dice.log_between(5000, 150000));
 }
 
-void add_guides(WideDice& dice, WideText& file) {
+void add_guides(Dice& dice, WideText& file) {
   file.table("guides");
   const double EB = file.size * dice.between(0.5, 2);
   file.number("EB_mm", EB);
@@ -93,7 +88,7 @@ void add_guides(WideDice& dice, WideText& file) {
   }
 }
 
-void add_sheath(WideDice& dice, WideText& file, double pulley) {
+void add_sheath(Dice& dice, WideText& file, double pulley) {
   file.table("sheath");
   file.number("length_mm", dice.log_between(50, 2000));
   file.number("bend_deg", dice.between(0, 540));
@@ -104,7 +99,7 @@ void add_sheath(WideDice& dice, WideText& file, double pulley) {
 }
 
 /// One motor torque against a weight, a spring or both; sometimes of the wrong sign.
-void add_torque_law(WideDice& dice, WideText& file, double ratio) {
+void add_torque_law(Dice& dice, WideText& file, double ratio) {
   const double weight = dice.log_between(0.1, 5), lever = file.size * dice.between(1, 6), tilt = dice.between(60, 170);
   const double mean = weight * 9.80665 * lever * std::sin(radians(tilt - 0.5 * (file.low + file.high)));
   file.number("motor_torque_Nmm", (dice.happens(0.05) ? -1 : 1) * std::max(1.0, std::abs(mean)) / ratio);
@@ -120,10 +115,11 @@ void add_torque_law(WideDice& dice, WideText& file, double ratio) {
 }
 
 std::string wide_design(std::uint64_t seed) {
-  WideDice dice(seed);
+  Dice dice(seed);
   WideText file{"schema = 1\nname = \"wide\"\n"};
   add_joint(dice, file);
   add_guides(dice, file);
+  // The pulley turns by less than one turn.
   const double ratio = std::min(dice.between(0.7, 3.5), 330 / (file.high - file.low));
   const double pulley = file.size / ratio;
   if (dice.happens(0.25)) add_sheath(dice, file, pulley);
@@ -151,11 +147,6 @@ std::string wide_design(std::uint64_t seed) {
   return file.text;
 }
 
-int wide_number(const char* variable, int otherwise) {
-  const char* text = std::getenv(variable);
-  return text == nullptr ? otherwise : std::atoi(text);
-}
-
 /// Limit of the rewinding error, deg: 0.005 for joints with tendon arms of 8 mm or more, and the same length of tendon
 /// for smaller ones.
 double rewinding_limit(const profile::SynthesisResult& synthesis) {
@@ -177,9 +168,8 @@ void expect_plates_or_reasons(const formats::Product& product) {
   }
 }
 
-enum class WideEnd { made, refused, bad_input };
-
-WideEnd wide_end(const std::string& text, int number) {
+/// Builds joint `number` of a campaign.
+BuildEnd build_wide_joint(const std::string& text, int number) {
   pipeline::BuildOptions options;
   options.dry_run = true;
   options.advice = std::getenv("FUSEE_LONG_TESTS") != nullptr;
@@ -189,7 +179,7 @@ WideEnd wide_end(const std::string& text, int number) {
     const pipeline::BuildResult built = pipeline::build(file, options);
     for (const Check& check : built.product.checks)
       EXPECT_TRUE(check.ok) << check.name << " " << check.value << ", limit " << check.limit << "; " << check.where;
-    if (built.status == pipeline::BuildStatus::infeasible) return WideEnd::refused;
+    if (built.status == pipeline::BuildStatus::infeasible) return BuildEnd::refused;
     const profile::RewindResult& wound = built.product.as_built;
     // Multi-turn pulleys are tested in random_turns_test.cpp.
     if (!built.product.helix) {
@@ -197,9 +187,9 @@ WideEnd wide_end(const std::string& text, int number) {
           << "at alpha " << degrees(wound.max_theta_error_at);
     }
     if (!built.product.helix) expect_plates_or_reasons(built.product);
-    return WideEnd::made;
+    return BuildEnd::made;
   } catch (const InputError&) {
-    return WideEnd::bad_input;
+    return BuildEnd::bad_input;
   }
 }
 
@@ -208,14 +198,14 @@ constexpr int k_wide_shards = 4;  // so that ctest can run them in parallel
 class WideCampaign : public ::testing::TestWithParam<int> {};
 
 TEST_P(WideCampaign, JointsAreBuiltOrRefused) {
-  const int cases = wide_number("FUSEE_LAW_CASES", 24), seed = wide_number("FUSEE_LAW_SEED", 1);
+  const int cases = number_in("FUSEE_LAW_CASES", 24), seed = number_in("FUSEE_LAW_SEED", 1);
   int made = 0, refused = 0, bad = 0;
   for (int i = GetParam(); i < cases; i += k_wide_shards) {
     const std::string text = wide_design(static_cast<std::uint64_t>(seed) * 1000003 + static_cast<std::uint64_t>(i));
     SCOPED_TRACE(fmt::format("FUSEE_LAW_SEED={}, joint {}\n{}", seed, i, text));
     try {
-      const WideEnd end = wide_end(text, i);
-      ++(end == WideEnd::made ? made : end == WideEnd::refused ? refused : bad);
+      const BuildEnd end = build_wide_joint(text, i);
+      ++(end == BuildEnd::made ? made : end == BuildEnd::refused ? refused : bad);
     } catch (const std::exception& bug) {
       ADD_FAILURE() << bug.what();
     }

@@ -54,12 +54,12 @@ const PlateLayer& layer_named(Plates&&, const std::string&) = delete;  // it wou
 
 TEST(Plates, KerfIsExact) {
   const Plates plates = make_plates(product_of(testing::circle(16), testing::circle(20)));
-  // The kerf is measured from edges, not corners: the floor's facets are at 15.5·cos(π/240).
+  // The kerf of 0.2 mm is measured from edges, not corners. P1's floor is a polygon of 240 corners at 16 − 0.5 mm.
   const double facet = 15.5 * std::cos(k_pi / 240);
   EXPECT_NEAR(distance_to_edges(layer_named(plates, "P1 CORE").cut_outer[0], {0, 0}), facet + 0.1, 1e-9);
   const PlateLayer& core = layer_named(plates, "P1 CORE");
   const Contour& cut = core.cut_holes[0];
-  for (const Vec2& p : cut.points) EXPECT_NEAR(p.norm(), 2.9, 1e-3);
+  for (const Vec2& p : cut.points) EXPECT_NEAR(p.norm(), 2.9, 1e-3);  // the bore of 6 mm, less half a kerf
   const Contour& whole = core.holes[0];
   EXPECT_NEAR(distance_to_edges(cut.points, {0, 0}), distance_to_edges(whole.points, {0, 0}) - 0.1, 1e-9);
   ASSERT_TRUE(cut.circle && whole.circle);
@@ -82,7 +82,8 @@ TEST(Plates, CountsFollowTheThickness) {
   EXPECT_EQ(plates_for(3.1, 3.0), 2);
   EXPECT_EQ(plates_for(0.5, 3.0), 1);
   Product product = egg();
-  product.joint.mechanism.cut.plate = 0.5;  // d = 1: 1.1 mm take three, flanges of 1.2 mm three
+  product.joint.mechanism.cut.plate =
+      0.5;  // a tendon of 1 mm: its core of 1.1 mm and flanges of 1.2 mm take three each
   const Plates plates = make_plates(product);
   EXPECT_EQ(layer_named(plates, "P1 CORE").count, 3);
   EXPECT_EQ(layer_named(plates, "FLANGE 1").count, 3);
@@ -331,11 +332,11 @@ TEST(PlatesDxf, SmallPlatesHaveShortLabels) {
   EXPECT_THAT(failed(check_drawing(drawn(product))), IsEmpty());
 }
 
-TEST(Nesting, PacksWithoutOverlapDeterministically) {
+TEST(Nesting, PacksWithoutOverlap) {
   std::vector<Vec2> sizes;
   for (int i = 0; i < 60; ++i) sizes.emplace_back(5 + (i * 7) % 23, 5 + (i * 11) % 19);
   const Vec2 sheet(100, 60);
-  const auto places = nest(sizes, sheet, 2);
+  const auto places = nest(sizes, sheet, 2);  // 2 mm between plates and at the margin
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     EXPECT_TRUE(places[i].fits);
     EXPECT_GE(places[i].corner.minCoeff(), 2);

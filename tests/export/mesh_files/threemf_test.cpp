@@ -153,7 +153,7 @@ TEST(Threemf, FindsMechanismByNamespace) {
       HasSubstr("two hexadecimal digits"));
 }
 
-TEST(Threemf, IsIndependentOfTimeAndPlace) {
+TEST(Threemf, IsIndependentOfTimeZone) {
   const std::string before = threemf_bytes(testing::tetrahedron(), "x");
   setenv("TZ", "Pacific/Auckland", 1);
   tzset();

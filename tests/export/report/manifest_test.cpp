@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-Product made_product() {
+Product sample_product() {
   Product product;
   product.file.mechanism = testing::plain_mechanism();
   product.joint.mechanism = product.file.mechanism;
@@ -31,7 +31,7 @@ Product made_product() {
 
 TEST(Manifest, HasAgreedStructure) {
   const std::vector<OutputFile> outputs = {{"pulley.stl", "bytes"}, {"profile.csv", ""}};
-  const Json manifest = Json::parse(manifest_json(made_product(), outputs));
+  const Json manifest = Json::parse(manifest_json(sample_product(), outputs));
   EXPECT_EQ(manifest["schema"], 1);
   EXPECT_TRUE(manifest["tool"].get<std::string>().starts_with("fusee "));
   EXPECT_EQ(manifest["input"], Json({{"file", "finger.toml"}, {"sha256", sha256("finger")}, {"set", Json::object()}}));
@@ -52,7 +52,7 @@ TEST(Manifest, HasAgreedStructure) {
 }
 
 TEST(Manifest, HasMechanismInFileUnits) {
-  const Json mechanism = Json::parse(manifest_json(made_product(), {}))["mechanism"];
+  const Json mechanism = Json::parse(manifest_json(sample_product(), {}))["mechanism"];
   EXPECT_EQ(mechanism["name"], "test");
   EXPECT_EQ(mechanism["joint"]["length_mm"], 100.0);
   EXPECT_NEAR(mechanism["joint"]["range_deg"][0].get<double>(), -30.0, 1e-9);
@@ -61,7 +61,7 @@ TEST(Manifest, HasMechanismInFileUnits) {
 }
 
 TEST(Manifest, ExcludesMachineAndInvalidText) {
-  Product product = made_product();
+  Product product = sample_product();
   product.joint.mechanism.name = "\xFF\"quoted\"";
   const std::string text = manifest_json(product, {});
   EXPECT_EQ(text.find("maker"), std::string::npos);
@@ -69,7 +69,7 @@ TEST(Manifest, ExcludesMachineAndInvalidText) {
 }
 
 TEST(Manifest, InvalidNumberIsNullAndFails) {
-  Product product = made_product();
+  Product product = sample_product();
   product.as_built.max_excess = std::numeric_limits<double>::infinity();
   product.checks.push_back(at_most("volume", std::numeric_limits<double>::quiet_NaN(), 1, "mm³", "nowhere"));
   const Json manifest = Json::parse(manifest_json(product, {}));
@@ -82,13 +82,14 @@ TEST(Manifest, InvalidNumberIsNullAndFails) {
 
 /// Round pulleys, whose tendon lengths follow from tangents to circles.
 TEST(TendonLengths, MatchesCircle) {
-  Product product = made_product();
+  Product product = sample_product();
   const Mechanism& m = product.joint.mechanism;
   product.synthesis = testing::pulley_of(testing::circle(20), testing::circle(20), 3600);
   const transmission::Transmission transmission(m);
   product.synthesis.stroke = {transmission.at_alpha(0)};
   const transmission::TransmissionPoint& home = product.synthesis.stroke[0];
-  // A tendon that leaves at `normal` and is wound on for a quarter turn: counter-clockwise on P1, clockwise on P2.
+  // Each tendon leaves at its `lower_normal` and is wound on for a quarter turn: counter-clockwise on P1, clockwise on
+  // P2. The active arc is a single point in the middle of that quarter.
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     const transmission::TendonPoint& tendon = side == transmission::Side::left ? home.t1 : home.t2;
     const double r = side == transmission::Side::left ? 20.0 : tendon.p;
@@ -110,7 +111,8 @@ TEST(TendonLengths, MatchesCircle) {
   for (const TendonLength& length : lengths) {
     const transmission::TendonPoint& tendon = length.side == transmission::Side::left ? home.t1 : home.t2;
     const double r = length.side == transmission::Side::left ? 20.0 : tendon.p;
-    // The exit is exact to half a step of the outline.
+    // The free tendon, a quarter turn, and from the exit at r − 0.5 mm half way to the axis. The exit is exact to half a
+    // step of the outline.
     EXPECT_NEAR(length.between_knots, tendon.length + r * k_pi / 2 + 0.5 * (r - 0.5), 0.5 * r * k_two_pi / 3600);
     EXPECT_NEAR(length.spare_lap, k_pi / 4, 0.004);
     // Two knots of 12 diameters and two tails of 50 mm, in whole 5 mm.
@@ -122,11 +124,10 @@ TEST(TendonLengths, MatchesCircle) {
   }
 }
 
-TEST(TendonLengths, IsEmptyWithoutAnchors) { EXPECT_TRUE(tendon_lengths(made_product()).empty()); }
+TEST(TendonLengths, IsEmptyWithoutAnchors) { EXPECT_TRUE(tendon_lengths(sample_product()).empty()); }
 
-}  // namespace
 TEST(Manifest, ReportsDerivedNumbers) {
-  Product product = made_product();
+  Product product = sample_product();
   EXPECT_FALSE(Json::parse(manifest_json(product, {})).contains("derived"));
   product.file.mechanism.identified.pins.radius = 1.5;
   product.joint.mechanism.guides.radius += 1.5;
@@ -139,4 +140,5 @@ TEST(Manifest, ReportsDerivedNumbers) {
   EXPECT_EQ(manifest["derived"].size(), 2u);
 }
 
+}  // namespace
 }  // namespace fusee::formats

@@ -90,6 +90,7 @@ TEST(PolarFigure, ReportsErrorOfPolarDrawing) {
   if (words.rfind("\u2212", 0) == 0) words = "-" + words.substr(std::string("\u2212").size());
   ASSERT_EQ(std::sscanf(words.c_str(), "%lf", &stated), 1);
   // The exact profile's radius where the tendon leaves, √(r2² + r2'²), exceeds r2, the tendon's distance from the axis.
+  // That difference gives the order of the error.
   double most = 0;
   for (const transmission::TransmissionPoint& point : synthesis.stroke)
     most = std::max(most, std::hypot(point.t2.p, point.t2.dp) - point.t2.p);

@@ -86,10 +86,10 @@ TEST(TendonTrace, PulleyIsOnInnerSide) {
 }
 
 /// Largest less smallest length of the whole string over the stroke.
-double length_change(const Case& c, transmission::Side wanted) {
+double length_change(const Case& c, transmission::Side of_side) {
   double least = 1e9, most = 0;
   for_each_trace(c, [&](transmission::Side side, const transmission::TransmissionPoint&, const TendonTrace& trace) {
-    if (side != wanted) return;
+    if (side != of_side) return;
     least = std::min(least, trace.free_length + trace.wound_length);
     most = std::max(most, trace.free_length + trace.wound_length);
   });

@@ -23,7 +23,7 @@ using testing::growing;
 using testing::oval;
 using testing::spiral_of;
 
-/// Five turns of an oval that grows, its height by Simpson's rule.
+/// Five turns of an oval that grows. `length`: of the curve in plan, by Simpson's rule.
 struct ShapedOval {
   testing::SupportCurve shape = oval(8.0, 0.9, 0.35, 1.0);
   double begin = 1.0;
@@ -123,71 +123,87 @@ TEST_F(Skin, IsClosedWithoutHandles) {
 }
 
 Vec3 point_of(const StepSkin::Patch& patch, const std::vector<Vec3>& row, double psi) {
-  JointSpline spline{patch.knots, Eigen::MatrixXd(static_cast<Eigen::Index>(row.size()), 3)};
+  SplineBundle spline{patch.knots, Eigen::MatrixXd(static_cast<Eigen::Index>(row.size()), 3)};
   for (std::size_t i = 0; i < row.size(); ++i) spline.poles.row(static_cast<Eigen::Index>(i)) = row[i].transpose();
   return spline.at(psi).transpose();
 }
 
-double polygon_part(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)) / 6.0; }
+/// Signed volume of the tetrahedron from the origin to a triangle. Over a closed surface the volumes add up to that of
+/// the solid (divergence theorem).
+double tetrahedron_volume(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)) / 6.0; }
 
-/// Volume by the divergence theorem over triangulated patches and flat faces, compared with the blank's mesh.
+constexpr int k_along = 160, k_across = 12;  // segments along and across a patch
+
+/// A point of a rational quadratic arc from `first` to `last`, whose end tangents meet in `corner`.
+Vec3 arc_point(const Vec3& first, const Vec3& corner, const Vec3& last, double weight, double v) {
+  const double a = (1 - v) * (1 - v), b = 2 * v * (1 - v) * weight, c = v * v;
+  return (a * first + b * corner + c * last) / (a + b + c);
+}
+
+double volume_below(const StepSkin::Patch& patch) {
+  const auto at = [&](int i, int j) -> Vec3 {
+    const double psi = patch.knots.front() + (patch.knots.back() - patch.knots.front()) * i / k_along;
+    const double v = static_cast<double>(j) / k_across;
+    const Vec3 low = point_of(patch, patch.rows.front(), psi), high = point_of(patch, patch.rows.back(), psi);
+    if (patch.rows.size() == 2) return (1 - v) * low + v * high;
+    return arc_point(low, point_of(patch, patch.rows[1], psi), high, patch.weight, v);
+  };
+  double volume = 0;
+  for (int i = 0; i < k_along; ++i) {
+    for (int j = 0; j < k_across; ++j) {
+      volume += tetrahedron_volume(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+      volume += tetrahedron_volume(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  }
+  return volume;
+}
+
+/// Points of an edge from its first corner to its last.
+std::vector<Vec3> points_along(const StepSkin& skin, const StepSkin::Edge& edge) {
+  const Vec3 &first = skin.corners[edge.first], &last = skin.corners[edge.last];
+  std::vector<Vec3> points{first};
+  for (int i = 1; i < k_along; ++i) {
+    const double share = static_cast<double>(i) / k_along;
+    if (const auto* curve = std::get_if<StepSkin::Curve>(&edge.along)) {
+      const StepSkin::Patch alone{curve->knots, {curve->poles}, 1};
+      points.push_back(point_of(alone, curve->poles,
+                                curve->knots.front() + (curve->knots.back() - curve->knots.front()) * i / k_along));
+    } else if (const auto* arc = std::get_if<StepSkin::Arc>(&edge.along)) {
+      points.push_back(arc_point(first, arc->corner, last, arc->weight, share));
+    } else if (const auto* round = std::get_if<StepSkin::Round>(&edge.along)) {
+      const Vec2 place = round->radius * unit(round->from + (round->to - round->from) * i / k_along);
+      points.emplace_back(place.x(), place.y(), first.z());
+    }
+  }
+  points.push_back(last);
+  return points;
+}
+
+double volume_below(const StepSkin& skin, const StepSkin::Plane& plane,
+                    const std::vector<std::vector<StepSkin::Use>>& loops) {
+  double volume = 0;
+  for (const auto& loop : loops) {
+    for (const StepSkin::Use& use : loop) {
+      std::vector<Vec3> points = points_along(skin, skin.edges[use.edge]);
+      if (use.backwards) std::reverse(points.begin(), points.end());
+      for (std::size_t i = 0; i + 1 < points.size(); ++i)
+        volume += tetrahedron_volume(plane.point, points[i], points[i + 1]);
+    }
+  }
+  return volume;
+}
+
 TEST_F(Skin, VolumeMatchesBlank) {
-  constexpr int k_along = 160, k_across = 12;
   double volume = 0;
   for (const StepSkin::Face& face : skin().faces) {
     if (const auto* patch = std::get_if<StepSkin::Patch>(&face.surface)) {
-      const auto at = [&](int i, int j) -> Vec3 {
-        const double psi = patch->knots.front() + (patch->knots.back() - patch->knots.front()) * i / k_along;
-        const double v = static_cast<double>(j) / k_across;
-        const Vec3 low = point_of(*patch, patch->rows.front(), psi), high = point_of(*patch, patch->rows.back(), psi);
-        if (patch->rows.size() == 2) return (1 - v) * low + v * high;
-        const double a = (1 - v) * (1 - v), b = 2 * v * (1 - v) * patch->weight, c = v * v;
-        return (a * low + b * point_of(*patch, patch->rows[1], psi) + c * high) / (a + b + c);
-      };
-      for (int i = 0; i < k_along; ++i) {
-        for (int j = 0; j < k_across; ++j) {
-          volume += polygon_part(at(i, j), at(i + 1, j), at(i + 1, j + 1));
-          volume += polygon_part(at(i, j), at(i + 1, j + 1), at(i, j + 1));
-        }
-      }
-      continue;
-    }
-    if (const auto* hub = std::get_if<StepSkin::Cylinder>(&face.surface)) {
-      // Each of two faces is half of the cylinder.
+      volume += volume_below(*patch);
+    } else if (const auto* hub = std::get_if<StepSkin::Cylinder>(&face.surface)) {
+      // Each of two faces is half of the cylinder: two thirds of its volume belong to the side, and the rest to the ends.
       const StepSkin::Use& up = face.loops.front()[1];
       volume += k_pi * hub->radius * hub->radius * std::abs(up.to.y() - up.from.y()) / 3.0;
-      continue;
-    }
-    const auto* plane = std::get_if<StepSkin::Plane>(&face.surface);
-    for (const auto& loop : face.loops) {
-      for (const StepSkin::Use& use : loop) {
-        const StepSkin::Edge& edge = skin().edges[use.edge];
-        std::vector<Vec3> points{skin().corners[edge.first]};
-        if (const auto* curve = std::get_if<StepSkin::Curve>(&edge.along)) {
-          const StepSkin::Patch alone{curve->knots, {curve->poles}, 1};
-          for (int i = 1; i < k_along; ++i)
-            points.push_back(
-                point_of(alone, curve->poles,
-                         curve->knots.front() + (curve->knots.back() - curve->knots.front()) * i / k_along));
-        } else if (const auto* arc = std::get_if<StepSkin::Arc>(&edge.along)) {
-          for (int i = 1; i < k_along; ++i) {
-            const double v = static_cast<double>(i) / k_along;
-            const double a = (1 - v) * (1 - v), b = 2 * v * (1 - v) * arc->weight, c = v * v;
-            points.push_back((a * skin().corners[edge.first] + b * arc->corner + c * skin().corners[edge.last]) /
-                             (a + b + c));
-          }
-        }
-        if (const auto* round = std::get_if<StepSkin::Round>(&edge.along)) {
-          for (int i = 1; i < k_along; ++i) {
-            const Vec2 place = round->radius * unit(round->from + (round->to - round->from) * i / k_along);
-            points.emplace_back(place.x(), place.y(), points.front().z());
-          }
-        }
-        points.push_back(skin().corners[edge.last]);
-        if (use.backwards) std::reverse(points.begin(), points.end());
-        for (std::size_t i = 0; i + 1 < points.size(); ++i)
-          volume += polygon_part(plane->point, points[i], points[i + 1]);
-      }
+    } else {
+      volume += volume_below(skin(), std::get<StepSkin::Plane>(face.surface), face.loops);
     }
   }
   const helical_solid::HelicalPlan& plan = *product().helix->pulley.plan;
@@ -195,6 +211,7 @@ TEST_F(Skin, VolumeMatchesBlank) {
   const solid::TriangleMesh blank = helical_solid::helical_blank(plan.fan, plan.section, layout, plan.heights);
   const double bore = std::abs(signed_area(layout.bore.outline)) * plan.heights.hub_top;
   const double expected = std::pow(layout.scale, 3) * (solid::enclosed_volume(blank) + bore);
+  // Both surfaces are drawn with chords, whose error is below 0.2 %.
   EXPECT_NEAR(volume, expected, 0.002 * expected);
 }
 

@@ -29,7 +29,7 @@ struct Ellipse {
   Vec2 point(double psi) const { return Vec2(a * a * std::cos(psi), b * b * std::sin(psi)) / support(psi); }
   double radius(double psi) const { return a * a * b * b / std::pow(support(psi), 3); }
   /// The distance of a point from it, to first order, by its implicit equation.
-  double off(const Vec2& at) const {
+  double distance(const Vec2& at) const {
     const double value = at.x() * at.x() / (a * a) + at.y() * at.y() / (b * b) - 1;
     return std::abs(value) / (2 * Vec2(at.x() / (a * a), at.y() / (b * b)).norm());
   }
@@ -45,11 +45,12 @@ SupportCurve sampled(const Ellipse& ellipse) {
   return {directions(), points, radii};
 }
 
-template <typename Off>
-double worst_of(const StepSpline& spline, const Off& off) {
+/// The largest `error(point)` along the spline.
+template <typename Error>
+double worst_of(const StepSpline& spline, const Error& error) {
   double worst = 0;
   const double from = spline.knots.front(), to = spline.knots.back();
-  for (int i = 0; i <= 2000; ++i) worst = std::max(worst, off(point_on(spline, from + (to - from) * i / 2000)));
+  for (int i = 0; i <= 2000; ++i) worst = std::max(worst, error(point_on(spline, from + (to - from) * i / 2000)));
   return worst;
 }
 
@@ -57,7 +58,7 @@ TEST(NormalSpline, MatchesSampledEllipse) {
   const Ellipse ellipse{24, 15};
   const auto spline = fit(sampled(ellipse), 0.1, 0.1 + 4, {}, 5e-5, 30);
   ASSERT_TRUE(spline);
-  EXPECT_LT(worst_of(spline->parallel(0), [&](const Vec2& at) { return ellipse.off(at); }), 6e-5);
+  EXPECT_LT(worst_of(spline->parallel(0), [&](const Vec2& at) { return ellipse.distance(at); }), 6e-5);
   EXPECT_LT(spline->position.size(), 60u);
 }
 
@@ -66,7 +67,7 @@ TEST(NormalSpline, TighterToleranceRequiresMorePoles) {
   const auto coarse = fit(sampled(ellipse), 0, 4, {}, 1e-2, 1), fine = fit(sampled(ellipse), 0, 4, {}, 1e-6, 1);
   ASSERT_TRUE(coarse && fine);
   EXPECT_LT(coarse->position.size(), fine->position.size());
-  EXPECT_LT(worst_of(fine->parallel(0), [&](const Vec2& at) { return ellipse.off(at); }), 2e-6);
+  EXPECT_LT(worst_of(fine->parallel(0), [&](const Vec2& at) { return ellipse.distance(at); }), 2e-6);
 }
 
 TEST(NormalSpline, ParallelsOfCircleAreCircles) {
@@ -97,8 +98,9 @@ TEST(NormalSpline, DeclaredKinkAddsNoPoles) {
   *std::min_element(psi.begin(), psi.end(),
                     [](double a, double b) { return std::abs(a - k_pi) < std::abs(b - k_pi); }) = k_pi;
   const auto point = [](double at) -> Vec2 {
-    const double on = std::max(0.0, at - k_pi);
-    return 10 * unit(at) + 8 * Vec2(std::sin(on) - on * std::cos(on), 1 - std::cos(on) - on * std::sin(on));
+    // The integral of radius · tangent: the second part is that of 8 (ψ − π) from π on.
+    const double past = std::max(0.0, at - k_pi);
+    return 10 * unit(at) + 8 * Vec2(std::sin(past) - past * std::cos(past), 1 - std::cos(past) - past * std::sin(past));
   };
   std::vector<Vec2> points;
   for (const double at : psi) {
@@ -116,34 +118,37 @@ TEST(NormalSpline, DeclaredKinkAddsNoPoles) {
 /// A straight section, as curves for idlers have, between samples that are a fifth of a degree apart. The radius is 12
 /// before it and 14 after it.
 TEST(NormalSpline, StraightBetweenSamplesIsStraight) {
-  constexpr double k_straight = 2.4, k_at = 3.5;
+  constexpr double k_length = 2.4;  // of the straight, mm
+  constexpr double k_psi = 3.5;     // direction of its normal, rad
+  // Samples lie this far beside it, and its own normals may turn by this angle.
   constexpr double k_beside = radians(0.1), k_turn = radians(0.005);
-  const Vec2 normal = unit(k_at), begin = 12 * normal, end = begin + k_straight * turned_left(normal);
+  const Vec2 normal = unit(k_psi), begin = 12 * normal, end = begin + k_length * turned_left(normal);
   const Vec2 centre = end - 14 * normal;
   std::vector<double> psi, radii;
   for (const double at : directions()) {
-    if (std::abs(at - k_at) > 2 * k_beside) psi.push_back(at);
+    if (std::abs(at - k_psi) > 2 * k_beside) psi.push_back(at);
   }
-  psi.insert(psi.end(), {k_at - k_beside, k_at + 0.7 * k_beside});
+  psi.insert(psi.end(), {k_psi - k_beside, k_psi + 0.7 * k_beside});
   std::sort(psi.begin(), psi.end());
   std::vector<Vec2> points;
   for (const double at : psi) {
-    radii.push_back(at < k_at ? 12 : 14);
-    points.push_back(at < k_at ? Vec2(12 * unit(at)) : Vec2(centre + 14 * unit(at)));
+    radii.push_back(at < k_psi ? 12 : 14);
+    points.push_back(at < k_psi ? Vec2(12 * unit(at)) : Vec2(centre + 14 * unit(at)));
   }
   const auto spline = fit(SupportCurve(psi, points, radii), 2, 5, {}, 5e-5, 1);
   ASSERT_TRUE(spline);
   const StepSpline drawn = spline->parallel(0);
-  const auto off = [&](double at) {
+  const auto error = [&](double at) {
     const Vec2 point = point_on(drawn, at);
-    if (at < k_at - k_turn) return std::abs(point.norm() - 12);
-    if (at > k_at + k_turn) return std::abs((point - centre).norm() - 14);
+    if (at < k_psi - k_turn) return std::abs(point.norm() - 12);
+    if (at > k_psi + k_turn) return std::abs((point - centre).norm() - 14);
     return std::abs((point - begin).dot(normal));
   };
   double worst = 0;
   for (int i = 0; i <= 2000; ++i) {
     const double share = i / 1000.0 - 1;
-    worst = std::max({worst, off(k_at + 1.2 * share), off(k_at + 3 * k_beside * share), off(k_at + k_turn * share)});
+    worst = std::max(
+        {worst, error(k_psi + 1.2 * share), error(k_psi + 3 * k_beside * share), error(k_psi + k_turn * share)});
   }
   EXPECT_LT(worst, 9e-5);
   EXPECT_LT(spline->position.size(), 40u);

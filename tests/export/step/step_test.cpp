@@ -55,10 +55,10 @@ class Step : public ::testing::Test {
   fs::path path_;
 };
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return at == std::string::npos ? text : text.replace(at, what.size(), by);
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
 TEST_F(Step, IsOneSolidThatPassesItsChecks) {
@@ -76,7 +76,7 @@ TEST_F(Step, DetectsMissingFace) {
   EXPECT_FALSE(all_ok(checks_of(broken)));
 }
 
-TEST_F(Step, OtherUnitsAreSeen) {
+TEST_F(Step, RejectsOtherUnits) {
   // A file in metres, too large for a fine mesh.
   EXPECT_FALSE(all_ok(checks_of(replaced(small_file().bytes, ".MILLI.", "$"))));
   EXPECT_THAT(checks_of(replaced(small_file().bytes, ".MILLI.", ".CENTI.")),
