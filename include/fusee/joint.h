@@ -28,8 +28,8 @@ struct BenchRow {
   double temperature_C = 0;
 };
 
-/// Rotation of the encoders on their shafts since home was set, with the zero set again, rad. It shifts the phase of an
-/// encoder's periodic errors.
+/// Rotation of the encoders on their shafts, rad. The zero was set again after it, so that it only shifts the phase of
+/// an encoder's periodic errors.
 struct Mounting {
   double motor_sensor_turned = 0;
   double joint_sensor_turned = 0;
@@ -60,7 +60,7 @@ std::vector<double> bench_clock(const BenchLog& log);
 /// A mechanism with identified pins, length, friction and tendon. Its pulley is still the declared one.
 struct MountedMechanism {
   Mechanism mechanism;
-  std::array<PathError, 2> longer = {};  ///< left, right
+  std::array<PathError, 2> longer = {};  ///< additional path lengths of the tendons: left, right
 };
 
 /// A tendon below its pin, in its right-hand image (increasing α winds in). mm, rad.
@@ -105,7 +105,8 @@ constexpr double k_arc_to_knot = 5.0;
 
 struct UpperSpans;  // lookup tables of both upper spans over the joint angle
 
-/// Plain values: a joint with other pins, stiffness or runout is a copy with members or `lower` replaced.
+/// The static model of a joint, as plain values: a joint with other pins, stiffness or runout is a copy with members or
+/// `lower` replaced.
 struct JointModel {
   std::array<transmission::PinPlace, 2> pins;  ///< left, right, as mounted
   double lever = 0;                            ///< OC, at whose end a tip force acts, mm
@@ -278,8 +279,8 @@ DeclaredMechanism expected_joint(const DeclaredMechanism& declared);
 profile::OutlinePoint drawn_for_making(profile::OutlinePoint point, const OutlineError& outline);
 /// Displaces all points of both curves.
 void draw_for_making(profile::SynthesisResult& synthesis, const OutlineError& outline);
-/// The conditions that displaced curves violate: the correction of a wave may turn a sharp bend inward. One per
-/// affected pulley.
+/// The conditions that displaced curves violate, one per affected pulley. The correction of a wave may turn a sharp
+/// bend inward.
 std::vector<profile::Condition> turns_inward_as_drawn(const profile::SynthesisResult& drawn,
                                                       const OutlineError& outline);
 /// Inverse of draw_for_making(): a closed floor with the manufacturing errors.
