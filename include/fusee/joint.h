@@ -69,7 +69,7 @@ struct LowerPath {
   double normal = 0;  ///< direction of the line's outward normal
   /// Free span: from the pin's tangent point, or the sheath exit, to the contact on the pulley.
   double reach = 0;
-  double wound = 0;  ///< arc length on the pulley, up to the contact and up to a constant
+  double wound = 0;  ///< arc length on the pulley as far as the contact, plus a constant
 };
 
 /// Both pulleys as made for one mechanism, with tendons from pins that may be elsewhere. Cheap to copy; immutable.
@@ -287,8 +287,8 @@ std::vector<profile::Condition> turns_inward_as_drawn(const profile::SynthesisRe
 Polygon as_made(Polygon drawn, const OutlineError& outline);
 /// Inverse of draw_for_making() for an open line. Normals are averaged over `beside` points on either side.
 Polygon line_as_made(Polygon drawn, const OutlineError& outline, std::size_t beside);
-/// An equivalent joint for a floor with an offset error: the tendon is thicker and the pins thinner by it, so that all
-/// centre lines are those of the real joint.
+/// An equivalent joint for a groove floor with an offset error: the tendon is thicker and the pins are thinner by that
+/// offset, so that all centre lines are those of the real joint.
 Mechanism with_inset(const IdentifiedJoint& joint);
 
 /// Assembly angle: position of the motor at which the tendons are tied, with the unloaded joint at home, so that the

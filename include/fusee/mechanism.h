@@ -402,7 +402,7 @@ struct Tendon {
   double diameter = 0;
   double modulus = 0;          ///< Young's modulus, MPa
   double pretension = 0;       ///< pretension of tendon 1 at home, N
-  double bend_ratio = 0;       ///< minimum D/d before a warning
+  double bend_ratio = 0;       ///< bend diameter / tendon diameter (D/d) below which a warning is given
   double strength = 0;         ///< breaking tension without a knot, N; 0: unknown
   double knot_efficiency = 1;  ///< fraction of the strength that remains at a knot
 

@@ -84,7 +84,7 @@ struct UpperSpan {
   double d2m = 0;     ///< d²m/dθ²
   double free = 0;    ///< from the tendon's end to the tangent point, over the drum, mm [2],[3]
   double normal = 0;  ///< direction of the line's outward normal at the pin, rad
-  /// Free + ρp · normal: length of the tendon above a fixed point of the pin's rim, up to a constant. mm
+  /// `free` + ρp · `normal`: length of the tendon above a fixed point of the pin's rim, plus a constant. mm
   double length = 0;
   double dnormal = 0;      ///< d normal/dθ
   double d2normal = 0;     ///< d² normal/dθ²

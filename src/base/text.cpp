@@ -10,6 +10,8 @@
 #include <optional>
 #include <system_error>
 
+#include "fusee/base_elementary.h"
+
 namespace fusee {
 namespace {
 
