@@ -156,8 +156,8 @@ BundledFile read_bundled(const Index& index, std::map<std::string, std::string>&
   return file;
 }
 
-/// Rejects bundles from which a replay would create too many files and folders.
-void demand_few_entries(const Bundle& bundle, const Index& index) {
+/// Rejects bundles from which a replay would create too many files and folders, or one name as both.
+void demand_replayable(const Bundle& bundle, const Index& index) {
   std::set<std::string_view> folders, files;
   const auto count = [&](const char* key, std::string_view path) {
     const bool is_folder = path.ends_with('/');
@@ -223,7 +223,7 @@ Bundle read_bundle(std::string_view bytes, const std::string& name) {
   index.for_each("messages", [&](const Index& each) { bundle.outcome.messages.push_back(read_diagnostic(each)); });
   index.for_each("files", [&](const Index& each) { bundle.files.push_back(read_bundled(each, entries)); });
   bundle.in_the_way = index.texts("in_the_way");
-  demand_few_entries(bundle, index);
+  demand_replayable(bundle, index);
   index.for_each("outputs", [&](const Index& each) {
     bundle.outcome.outputs.push_back(
         {each.text("path"), static_cast<std::uint64_t>(each.integer("bytes")), each.text("sha256")});

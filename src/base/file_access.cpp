@@ -38,8 +38,8 @@ FileAccess& disk() {
 void FileAccess::read(const ReadRequest& request, const TakeBlock& take) {
   const std::string name = request.path.string();
   // O_NONBLOCK: a pipe without a writer must not block. Where pipes are accepted, a writer exists.
-  const int blocking = request.pipes ? 0 : O_NONBLOCK;
-  const Descriptor file(::open(request.path.c_str(), O_RDONLY | O_CLOEXEC | blocking));
+  const int nonblocking = request.pipes ? 0 : O_NONBLOCK;
+  const Descriptor file(::open(request.path.c_str(), O_RDONLY | O_CLOEXEC | nonblocking));
   if (!file.ok())
     throw InputError(name, "cannot be read: " + error_text(errno), errno == ENOENT ? "check the path" : "");
   const std::size_t size = demand_readable(request, file);

@@ -9,8 +9,8 @@ double as_written(double order) { return order; }
 
 double size(const OutlineError& outline) { return elementary::hypot(outline.wave_sin, outline.wave_cos); }
 
-/// Adds harmonics of equal order. Of two harmonics of different order, only the larger one is kept, because the joint
-/// has one.
+/// Adds harmonics of equal order. Of two harmonics of different order, only the larger one is kept, because
+/// OutlineError holds one.
 void larger_wave(const Imperfections& before, Imperfections& joint) {
   const OutlineError& first = before.pulley.outline;
   OutlineError& total = joint.pulley.outline;
