@@ -70,8 +70,8 @@ struct ErrorSource {
   std::string name;     ///< "pin_radius_ignored"
   std::string meaning;  ///< description for a person
   double least = 0;     ///< most negative deviation of θ
-  double most = 0;
-  double worst_at = 0;  ///< α of the larger magnitude
+  double most = 0;      ///< most positive deviation of θ
+  double worst_at = 0;  ///< α of the larger of both magnitudes
 };
 
 /// Effect of a dimension's tolerance: half widths of the 95 % interval, at the α where they are largest.
@@ -165,10 +165,11 @@ struct AnalysisResult : UnderLoad {
 /// Analyses a joint with tendons over its range. A law that does not exist is a value. Throws Stopped.
 AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options = {}, const RunContext& context = {});
 
-/// The load's effects at `steps` + 1 places of the range and at home. The law must exist over the range.
+/// The effects of the load at `steps` + 1 angles of the range and at home. The law must exist over the range.
 UnderLoad under_load(const Mechanism& mechanism, int steps = AnalysisOptions{}.steps);
 
-/// An error, without a place, for a load that no joint angle carries. Null if there is one everywhere.
+/// An error, without a place, for a load that no joint angle carries. Null if the joint has an equilibrium over the
+/// whole range.
 std::optional<Diagnostic> no_equilibrium(const UnderLoad& load);
 
 /// The conditions of the mechanism's motor that fail, for searches. If its travel is too small, only this condition is

@@ -123,8 +123,8 @@ inline constexpr double k_two_pi = 2.0 * std::numbers::pi;
 constexpr double radians(double degrees) { return degrees * (k_pi / 180.0); }
 /// The angle of the code in the unit of files.
 constexpr double degrees(double radians) { return radians * (180.0 / k_pi); }
-/// The number of a file whose radians() is `radians`: division undoes that multiplication to the last bit, which
-/// degrees() does for 19 numbers in 20.
+/// The number of degrees in a file that radians() turns into `radians`. Division undoes the multiplication of radians()
+/// to the last bit. degrees() does so for only 19 numbers in 20.
 constexpr double degrees_as_read(double radians) { return radians / (k_pi / 180.0); }
 
 // ---- Points and polygons of the plane -------------------------------------------------------------------------------
@@ -164,7 +164,7 @@ Polygon convex_hull(Polygon points);
 using TakeBlock = std::function<void(std::string_view block)>;
 
 /// Request for the bytes of one file, in blocks. Reading throws InputError when the file is missing, a directory,
-/// unreadable, larger than `limit` bytes, or not a regular file. Pipes are accepted with `pipes`.
+/// unreadable, larger than `limit` bytes, or not a regular file. With `pipes`, pipes are accepted, too.
 struct ReadRequest {
   std::filesystem::path path;
   std::size_t limit = 0;
@@ -181,7 +181,7 @@ class FileAccess {
 
   /// Throws InputError. Exceptions of `take` pass through.
   virtual void read(const ReadRequest& request, const TakeBlock& take);
-  /// Called before anything is written at `place`, a file or a folder. An exception prevents the writing.
+  /// Called before a file or a folder is written. An exception prevents the writing.
   virtual void will_write(const std::filesystem::path&) {}
   /// Called for an existing entry that must not be replaced. The run then ends with OutputError.
   virtual void in_the_way(const std::filesystem::path&) {}

@@ -1,6 +1,6 @@
 /// \file
-/// Elementary functions with equal bytes on every machine. Those of the C library differ in the last digit between
-/// systems, and between processors with and without FMA.
+/// Elementary functions with bit-identical results on every machine. Those of the C library differ in the last digit
+/// between systems, and between processors with and without FMA.
 #pragma once
 
 extern "C" {

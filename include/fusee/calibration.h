@@ -86,7 +86,8 @@ struct FoundEffect {
   /// Members of `group` that can replace the effect, with the parameters that they have there.
   std::vector<GroupMember> alternatives;
   double rms_drop = 0;  ///< reduction of the held-out residual, rad; at least 0
-  /// True if effects that move no row explained the data equally well in its place: then an unmodelled cause may, too.
+  /// True if effects whose response is below the noise replaced it equally well. An unmodelled cause may then do so,
+  /// too.
   bool idle_did_as_well = false;
   double share = 0;     ///< share of the declared joint's held-out mean square that it removes, 0 … 1
   double evidence = 0;  ///< log Bayes factor of the set with it to the set without
@@ -119,17 +120,17 @@ struct DiscrepancyComponent {
 };
 
 /// Model discrepancy that depends on place and direction alone, as a curve for a table. Valid only over the measured
-/// range and conditions. rad
+/// range and conditions. rad.
 struct EmpiricalCurve {
   bool used = false;  ///< true if it lowers the error of held-out rows at every level of load and speed
   std::string why;    ///< why it is not used; "" if it is used, and if there is no discrepancy
-  /// nodes of the piecewise linear curve, over the range measured in both directions; empty: no curve
+  /// Nodes of the piecewise linear curve, over the range measured in both directions; empty: no curve.
   std::vector<double> alpha;
   std::vector<double> up;       ///< measured − model there, rising α
   std::vector<double> down;     ///< measured − model there, falling α
   double held_out_effects = 0;  ///< rms of held-out rows, corrected by the effects alone
   double held_out_rms = 0;      ///< rms of held-out rows, corrected by effects and curve
-  /// Root of the reduction of the held-out mean square by the curve.
+  /// Square root of the reduction of the held-out mean square by the curve, rad.
   double gain = 0;
 
   /// Value of a non-empty curve, constant beyond its ends.
@@ -143,7 +144,7 @@ struct ErrorFigures {
   double held_out_rms = 0;
 };
 
-/// Rms over the later runs beside the discrepancy that both states share, rad.
+/// Rms residual of the later runs after subtraction of the discrepancy that both states share, rad.
 struct StateDifference {
   double before = 0;  ///< rms with the earlier joint
   double after = 0;   ///< rms with the changes
@@ -201,7 +202,7 @@ struct Calibration {
 Calibration calibrate(const DeclaredMechanism& declared, const measurement::Measurement& measurement,
                       const CalibrationOptions& options = {});
 
-/// Rejects the empirical curve of a calibration of `measurement`: it is not handed over, and no figure includes it.
+/// Rejects the empirical curve of a calibration of `measurement`: no correction uses it, and no figure includes it.
 void reject_curve(const measurement::Measurement& measurement, const std::string& why, Calibration& calibration);
 
 // ---- Likely input errors --------------------------------------------------------------------------------------------
@@ -217,17 +218,18 @@ struct LikelyInputError {
   std::string question;          ///< question to the user: "is the sign right?"
   /// true if the pulley was made from the file as declared, and the joint is as corrected
   bool pulley_as_declared = false;
-  std::vector<std::string> beside = {};  ///< names of effects found beside it
+  std::vector<std::string> beside = {};  ///< names of effects found in addition to it
   double rms = 0;                        ///< held-out rms after the correction, rad
 };
 
-/// Input errors whose correction explains the data, best first, equally likely ones after it. Empty if `found` is an
-/// explanation or no hypothesis is one. `as_read`: runs before the comparison with a joint.
+/// Input errors whose correction explains the data, best first, equally likely ones after it. Empty if `found` explains
+/// the data, or if no hypothesis does. `as_read`: runs before compare_with_declared().
 std::vector<LikelyInputError> find_input_errors(const DeclaredMechanism& declared,
                                                 const measurement::Measurement& as_read, const Calibration& found);
 
-/// True if the declared file leaves far more than noise, and one corrected input error, with nothing fitted, leaves
-/// noise or at most a fault beside it. Effects fitted to such a file describe nothing, so the search is omitted.
+/// True if the residual of the declared file is far above the noise, but one corrected input error, without any fit,
+/// leaves only noise or the residual of one fault. Effects fitted to such a file describe nothing, so the search for
+/// effects is omitted.
 bool is_input_error_obvious(const DeclaredMechanism& declared, const measurement::Measurement& as_read);
 
 /// "guides.OE_mm = -40 in place of 40 would explain the data to 0.03°: is the sign right?"

@@ -35,7 +35,7 @@ struct Correction {
   joint::RoundChoice round;
   double assembly_angle = 0;  ///< motor angle at which the corrected pulley's tendons are tied, rad
   // Rms error of the identified joint from its target motion over the measured strokes, rad, by simulation. For a joint
-  // declared by a ratio without the identified zero.
+  // declared by a ratio, the identified zero is left out.
   double error_now = 0;
   double error_with_pulley = 0;  ///< with the corrected pulley, assembled at α = 0
   double error_with_table = 0;   ///< with the corrected pulley and the table

@@ -201,9 +201,9 @@ struct ModelProduct {
   MechanismFile file;   ///< as read
   Mechanism mechanism;  ///< the identified mechanism
   model::JointCurves curves;
-  std::string compensation;  ///< source file of curves.sensed; empty: none
-  model::EqualityFit equality;
-  model::EqualityFit line;
+  std::string compensation;     ///< source file of curves.sensed; empty: none
+  model::EqualityFit equality;  ///< for MuJoCo
+  model::EqualityFit line;      ///< straight line, for URDF
   std::optional<model::TendonModel> tendons;
   std::string without_tendons;  ///< why there is no tendon model
   bool with_polynomial = true;  ///< true if joint.xml is written
@@ -233,7 +233,7 @@ std::string joint_table_json(const ModelProduct& product);
 /// Lists inputs and the hashes of all files.
 std::string model_manifest_json(const ModelProduct& product, const std::vector<OutputFile>& outputs);
 
-/// True if a fusee manifest lists a file with these bytes.
+/// True if `manifest`, the text of a manifest of fusee, lists the file `name` with this SHA-256.
 bool names_output(const std::string& manifest, const std::string& name, const std::string& sha256);
 
 /// Reads the written files back and compares them with the joint's curves.
@@ -280,7 +280,7 @@ struct Headline {
 /// The first lines of a calibration.
 Headline headline(const CalibrationProduct& product);
 
-/// A number of a cause. Share and remedy are empty for further numbers of the cause, and for its rivals.
+/// One parameter of a cause. Share and remedy are empty for further parameters of the cause, and for its rivals.
 struct CauseRow {
   std::string cause;
   std::string size;
@@ -318,7 +318,7 @@ std::string curve_words(const CalibrationProduct& product);
 std::vector<std::string> next_texts(const calibration::Calibration& calibration);
 /// input_error_words() of every input error that would explain the data.
 std::vector<std::string> input_error_texts(const CalibrationProduct& product);
-/// The notes; of those that are alike but for numbers, only two and the count of the others.
+/// The notes for a page. Of notes that differ only in numbers, the first two are kept and the others counted.
 std::vector<std::string> shortened_notes(const std::vector<std::string>& notes);
 
 // ---- Comparison -----------------------------------------------------------------------------------------------------

@@ -41,8 +41,8 @@ HelicalSection helical_section(const Mechanism& mechanism);
 double least_lead(const HelicalSection& section, double growth);
 /// The position of a spiral in the part: height above the lower face = offset + direction · SpiralRow::z. Turns of
 /// larger angle always lie lower, whatever the sign of the spiral's slope. P1's last row and P2's first are then at the
-/// outer faces. (A spiral and its mirror image in z are equivalent for a tendon.) If the radius grows by `step` to the
-/// next turn by angle, `growth` is therefore −step.
+/// outer faces. (A spiral and its mirror image in z are equivalent for a tendon.) If the radius grows by `step` from
+/// one turn to the next, the upper turn is smaller: the `growth` of least_lead() is −step.
 struct SpiralPlace {
   double offset = 0;
   double direction = 1;

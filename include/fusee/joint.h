@@ -28,8 +28,8 @@ struct BenchRow {
   double temperature_C = 0;
 };
 
-/// Rotation of the encoders on their shafts since home was set, with the zero set again, rad. It shifts the phase of an
-/// encoder's periodic errors.
+/// Rotation of the encoders on their shafts, rad. The zero was set again after it, so that it only shifts the phase of
+/// an encoder's periodic errors.
 struct Mounting {
   double motor_sensor_turned = 0;
   double joint_sensor_turned = 0;
@@ -60,7 +60,7 @@ std::vector<double> bench_clock(const BenchLog& log);
 /// A mechanism with identified pins, length, friction and tendon. Its pulley is still the declared one.
 struct MountedMechanism {
   Mechanism mechanism;
-  std::array<PathError, 2> longer = {};  ///< left, right
+  std::array<PathError, 2> longer = {};  ///< additional path lengths of the tendons: left, right
 };
 
 /// A tendon below its pin, in its right-hand image (increasing α winds in). mm, rad.
@@ -69,7 +69,7 @@ struct LowerPath {
   double normal = 0;  ///< direction of the line's outward normal
   /// Free span: from the pin's tangent point, or the sheath exit, to the contact on the pulley.
   double reach = 0;
-  double wound = 0;  ///< arc length on the pulley, up to the contact and up to a constant
+  double wound = 0;  ///< arc length on the pulley as far as the contact, plus a constant
 };
 
 /// Both pulleys as made for one mechanism, with tendons from pins that may be elsewhere. Cheap to copy; immutable.
@@ -105,7 +105,8 @@ constexpr double k_arc_to_knot = 5.0;
 
 struct UpperSpans;  // lookup tables of both upper spans over the joint angle
 
-/// Plain values: a joint with other pins, stiffness or runout is a copy with members or `lower` replaced.
+/// The static model of a joint, as plain values: a joint with other pins, stiffness or runout is a copy with members or
+/// `lower` replaced.
 struct JointModel {
   std::array<transmission::PinPlace, 2> pins;  ///< left, right, as mounted
   double lever = 0;                            ///< OC, at whose end a tip force acts, mm
@@ -278,16 +279,16 @@ DeclaredMechanism expected_joint(const DeclaredMechanism& declared);
 profile::OutlinePoint drawn_for_making(profile::OutlinePoint point, const OutlineError& outline);
 /// Displaces all points of both curves.
 void draw_for_making(profile::SynthesisResult& synthesis, const OutlineError& outline);
-/// The conditions that displaced curves violate: the correction of a wave may turn a sharp bend inward. One per
-/// affected pulley.
+/// The conditions that displaced curves violate, one per affected pulley. The correction of a wave may turn a sharp
+/// bend inward.
 std::vector<profile::Condition> turns_inward_as_drawn(const profile::SynthesisResult& drawn,
                                                       const OutlineError& outline);
 /// Inverse of draw_for_making(): a closed floor with the manufacturing errors.
 Polygon as_made(Polygon drawn, const OutlineError& outline);
 /// Inverse of draw_for_making() for an open line. Normals are averaged over `beside` points on either side.
 Polygon line_as_made(Polygon drawn, const OutlineError& outline, std::size_t beside);
-/// An equivalent joint for a floor with an offset error: the tendon is thicker and the pins thinner by it, so that all
-/// centre lines are those of the real joint.
+/// An equivalent joint for a groove floor with an offset error: the tendon is thicker and the pins are thinner by that
+/// offset, so that all centre lines are those of the real joint.
 Mechanism with_inset(const IdentifiedJoint& joint);
 
 /// Assembly angle: position of the motor at which the tendons are tied, with the unloaded joint at home, so that the

@@ -112,6 +112,7 @@ struct KitSizes {
   const fusee::BearingType* bearing = nullptr;
   const fusee::BoardType* board = nullptr;
   const fusee::MotorType* motor = nullptr;  ///< null: the catalogue has none with this shaft or horn
+  /// Threads of the joint's axle, of the rods on the feet, and of the screws in the post and the tensioner.
   const Thread *axle = nullptr, *foot = nullptr, *small = nullptr;
   double base = 0;        ///< thickness of the base plate
   double pulley_low = 0;  ///< height of the pulley's lower face
@@ -134,9 +135,9 @@ struct KitSizes {
   double post_screws = 0;                         ///< distance from C across the link, on both sides
   double slide = 0, slide_width = 0, travel = 0;  ///< tensioner: length and width of the slide, how far it moves
   double link_end = 0;                            ///< y of the link's end at home
-  double bracket_low = 0, bracket = 0;
-  double leg = 0;          ///< height of the legs
-  Vec2 motor_front{0, 1};  ///< direction of the motor's front
+  double bracket_low = 0, bracket = 0;            ///< the bracket's lower face and thickness
+  double leg = 0;                                 ///< height of the legs
+  Vec2 motor_front{0, 1};                         ///< direction of the motor's front
 };
 
 /// Position of a part: first turned over about y if its print orientation requires it, then turned about z, then
@@ -176,7 +177,8 @@ struct KitTendon {
 struct TendonHeights {
   struct Span {
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    void see(double height);
+    /// Extends the span to a height.
+    void include(double height);
   };
   std::array<double, 2> ends{};  ///< of each tendon at the joint; with collars also where it reaches its guide
   std::array<Span, 2> guides;    ///< of each tendon on its guide
@@ -236,6 +238,6 @@ solid::TriangleMesh printed_mesh(const KitPart& part, const Mechanism& mechanism
 /// Volume of printed_mesh() before rounding. mm³
 double printed_volume(const KitPart& part, const Mechanism& mechanism, const solid::BodyLayout& layout);
 /// The nominal mesh of a part in place at a joint angle.
-solid::TriangleMesh standing(const KitPart& part, const KitPlace& place, double theta);
+solid::TriangleMesh placed_mesh(const KitPart& part, const KitPlace& place, double theta);
 
 }  // namespace fusee::kit

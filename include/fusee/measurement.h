@@ -27,7 +27,7 @@ namespace fusee::measurement {
 /// "header_stamp" or "log_time". Motor and joint may be chosen by their names. Numbers with times of their own, in a
 /// bag or in a table of PlotJuggler, are interpolated in time.
 struct MeasurementOptions {
-  /// role → column name: {"load", "tau_out_Nm"}. Of a ROS name the end suffices: "motor"
+  /// role → column name: {"load", "tau_out_Nm"}. For a ROS name, its end suffices: "motor".
   std::map<std::string, std::string> columns;
   bool needs_theta = true;                   ///< false: theta may be missing, as in read_driving()
   std::map<std::string, std::string> units;  ///< role → unit: {"time", "ms"}
@@ -100,8 +100,8 @@ struct Measurement {
 };
 
 /// Reads and checks all files. Throws InputError (file, line, what to change) for unreadable text and for a run that is
-/// given twice. Readable data that cannot be evaluated are reported in `not_testable`. Of longer logs a million rows in
-/// all are kept, evenly spaced, and a note says so.
+/// given twice. Readable data that cannot be evaluated are reported in `not_testable`. If the logs have more than a
+/// million rows in all, a million are kept, evenly spaced, and a note says so.
 Measurement read_measurement(const std::vector<std::filesystem::path>& files, const MeasurementOptions& options = {},
                              FileAccess& access = disk());
 

@@ -19,8 +19,8 @@ namespace fusee {
 // Deviations that act together are grouped, so that sums, caches and corrections take parts rather than lists of
 // numbers. effect.h assigns the numbers to effects.
 
-/// When the sensor reads α, the shaft is at α + offset + sin · sin α + cos · (cos α − 1), plus a harmonic of the same
-/// form in nα. rad
+/// When the sensor reads α, the shaft is at α + offset + eccentricity_sin · sin α + eccentricity_cos · (cos α − 1)
+/// + wave_sin · sin nα + wave_cos · (cos nα − 1). rad.
 struct MotorSensorError {
   double offset = 0;
   double eccentricity_sin = 0;
@@ -60,8 +60,8 @@ struct PulleyError {
 };
 
 /// Compliance of a wavy cable. A cable that is not straight is longer by the length of its waves. Tension straightens
-/// it and gains most · x/(1 + x) with x = rate · pull. Units: rad and units of load for a joint declared by a ratio, mm
-/// and N for a tendon.
+/// it, and the path gains the length most · x/(1 + x) with x = rate · pull. Units: rad and units of load for a joint
+/// declared by a ratio, mm and N for a tendon.
 struct CableStiffening {
   double most = 0;  ///< limit of the gained length, with all waves straightened
   double rate = 0;  ///< half of `most` is gained at a pull of 1/rate
@@ -242,8 +242,8 @@ struct RatioJointError {
   bool operator==(const RatioJointError&) const = default;
 };
 
-/// Reading: zero + (1 + gain) θ + sin · sin θ + cos · (cos θ − 1), plus a harmonic of the same form in nθ, delayed by
-/// `lag`.
+/// Reading: zero + (1 + gain) θ + eccentricity_sin · sin θ + eccentricity_cos · (cos θ − 1) + wave_sin · sin nθ
+/// + wave_cos · (cos nθ − 1), delayed by `lag`.
 struct JointSensorError {
   double zero = 0;  ///< rad
   double gain = 0;
@@ -402,7 +402,7 @@ struct Tendon {
   double diameter = 0;
   double modulus = 0;          ///< Young's modulus, MPa
   double pretension = 0;       ///< pretension of tendon 1 at home, N
-  double bend_ratio = 0;       ///< minimum D/d before a warning
+  double bend_ratio = 0;       ///< bend diameter / tendon diameter (D/d) below which a warning is given
   double strength = 0;         ///< breaking tension without a knot, N; 0: unknown
   double knot_efficiency = 1;  ///< fraction of the strength that remains at a knot
 
@@ -544,9 +544,9 @@ struct Print {
   bool operator==(const Print&) const = default;
 };
 
-/// Settings for cutting the part as a stack of plates.
+/// Settings for cutting the part as a stack of plates. mm.
 struct Cut {
-  double kerf = 0;
+  double kerf = 0;   ///< width of the cut
   double plate = 0;  ///< plate thickness
   double sheet_width = 0;
   double sheet_height = 0;

@@ -144,8 +144,8 @@ struct WrappedTendon {
   /// range; 0 otherwise.
   double drum = 0;
   std::vector<Vec2> on_drum;  ///< points of the link that it always covers, from its end on, with short chords
-  Vec2 drum_outer{0, 0};      ///< a point on the side of the drum that it passes after them
-  Vec2 off_drum{0, 0};        ///< a fixed point on its straight way from drum to pin
+  Vec2 drum_outer{0, 0};      ///< a point beside the drum, on the side that the tendon passes after `on_drum`
+  Vec2 off_drum{0, 0};        ///< a fixed point on its straight line from drum to pin
   std::optional<Vec2> sheath_exit = std::nullopt;  ///< exit of its sheath, beside the pulley
 };
 
@@ -179,7 +179,7 @@ struct MotorUnit {
   /// Reading in this unit at a motor angle, rad.
   double of(double alpha) const;
   /// Motor angle of a reading, rad.
-  double alpha(double shown) const;
+  double alpha(double reading) const;
 };
 
 /// The tables of one direction, evenly spaced from the first to the last place.

@@ -29,8 +29,8 @@ struct ObjectiveInfo {
   std::string_view name;  ///< in the mechanism file
   std::string_view unit;
   std::string_view meaning;
-  bool largest = false;     ///< maximized instead of minimized
-  bool certifiable = true;  ///< an interval form of its equations exists
+  bool is_maximized = false;  ///< instead of minimized
+  bool certifiable = true;    ///< an interval form of its equations exists
 };
 
 /// All objectives, in the order of the enumeration.
@@ -183,9 +183,9 @@ struct CertifiedResult {
 std::string cannot_certify(const Problem& problem, Objective objective);
 
 /// Requires a certifiable objective, law compensate or linear, and a joint as declared; otherwise throws InputError
-/// with the certifiable objectives. `feasible`: no design with a drawable pulley is below the bound. Two conditions of
-/// profile/feasibility.cpp are omitted from the bound, which can only lower it: one turn suffices, and an arc closes
-/// the curve. The best design satisfies all of them. Progress: "best 2.367", or "" before the first design.
+/// with the certifiable objectives. With Problem::feasible, no design with a drawable pulley is below the bound. Two
+/// conditions of profile/feasibility.cpp are omitted from the bound, which can only lower it: one turn suffices, and an
+/// arc closes the curve. The best design satisfies all of them. Progress: "best 2.367", or "" before the first design.
 CertifiedResult certified_optimum(const Problem& problem, Objective objective, const CertifiedOptions& options = {},
                                   const RunContext& context = {});
 

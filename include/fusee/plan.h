@@ -22,8 +22,8 @@ namespace fusee::plan {
 // Measurements that a person can make at the bench: runs to drive and dimensions to read by hand. `fusee plan` and the
 // next measurements of `fusee calibrate` share these types.
 
-/// Motor angle, rad, below which an error of period one turn is indistinguishable from a linear one.
-inline constexpr double k_full_turn = radians(150.0);
+/// Range of motor angles, rad. Up to it, an error of period one turn is indistinguishable from a linear error.
+inline constexpr double k_most_linear_range = radians(150.0);
 
 /// A change on the bench before a run, undone after it.
 enum class BenchChange {
@@ -145,7 +145,7 @@ struct Plan {
   std::vector<std::pair<std::string, std::string>> left_out;  ///< effects without a plan, and the reason
   std::vector<std::vector<std::string>> groups;               ///< causes that the runs do not resolve
   FalsePositives nothing, one, unmodelled;  ///< without cause; with one cause; with one that is not in the catalogue
-  double slow = 0;                          ///< rad/s
+  double slow = 0;                          ///< motor speed that is called slow, rad/s
   double from = 0, to = 0;                  ///< motor range, rad
   std::string load_unit = "N";
   int first_run = 1;  ///< number of the first run's file

@@ -149,7 +149,7 @@ struct Condition {
   bool ok = true;
   double alpha = 0;  ///< tightest place, rad
   double value = 0;  ///< value at the tightest place
-  double limit = 0;  ///< bound that value must stay above (below)
+  double limit = 0;  ///< lower or upper bound of `value`
   std::string unit;
   std::string message;  ///< for a person: what fails, where, by how much
 };

@@ -167,6 +167,7 @@ struct BodyLayout {
 
   /// Records an omission with its note.
   void omit(std::string feature, std::string note);
+  /// True if the feature was omitted or reduced.
   bool lacks(std::string_view feature) const;
 };
 
@@ -233,7 +234,7 @@ struct Anchor {
 
 /// A letter or a sign on a face.
 struct Mark {
-  std::vector<Polygon> loops;  ///< loops[0] without the others
+  std::vector<Polygon> loops;  ///< loops[0] is the outline, the others are its holes
   bool on_top = true;          ///< else on the face on the bed
   bool shows_home = false;     ///< the home mark (top) or the clocking mark (below), in the home direction
 };
@@ -272,7 +273,7 @@ struct Pulley {
   std::string brief() const;
 };
 
-/// The finished pulley: of the smallest cylinder about its axis that holds it, mm.
+/// Size of the finished pulley: the smallest cylinder about its axis that contains it, mm.
 struct OuterSize {
   double diameter = 0;
   double height = 0;

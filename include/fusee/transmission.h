@@ -66,8 +66,8 @@ struct PinPlace {
   double off_pin(double lower_normal) const { return sheath_exit ? 0.0 : lower_normal; }
 };
 
-/// An end between the drum's surface and its pitch circle is moved onto the pitch circle, where the tendon leaves the
-/// drum.
+/// The geometry of one tendon. `rho`: pin radius to the tendon's centre line. A tendon's end between the drum's surface
+/// and its pitch circle is moved onto the pitch circle, where the tendon leaves the drum.
 PinPlace pin_place(const Mechanism& mechanism, Side side, double rho);
 
 /// Centre of the drum at joint angle `theta` of the image.
@@ -84,7 +84,7 @@ struct UpperSpan {
   double d2m = 0;     ///< d²m/dθ²
   double free = 0;    ///< from the tendon's end to the tangent point, over the drum, mm [2],[3]
   double normal = 0;  ///< direction of the line's outward normal at the pin, rad
-  /// Free + ρp · normal: length of the tendon above a fixed point of the pin's rim, up to a constant. mm
+  /// `free` + ρp · `normal`: length of the tendon above a fixed point of the pin's rim, plus a constant. mm
   double length = 0;
   double dnormal = 0;      ///< d normal/dθ
   double d2normal = 0;     ///< d² normal/dθ²
@@ -138,7 +138,7 @@ struct GuideFriction {
   double turning = 0;
   bool is_idler = false;
 
-  /// Ln of the bound on the tension ratio at a wrap angle (rad); 0 where the tendon has left the guide.
+  /// Natural logarithm of the bound on the tension ratio at a wrap angle (rad); 0 where the tendon has left the guide.
   double log_ratio(double wrap) const;
   /// Derivative of log_ratio() by a wrap above 0.
   double slope(double wrap) const;

@@ -24,7 +24,7 @@ constexpr const char* k_result = "stdout.txt";
 constexpr const char* k_files = "files/";
 constexpr int k_schema = 1;
 constexpr std::size_t k_longest_path = 1000, k_longest_name = 255;
-/// Parsed JSON takes about sixteen times the room of its text.
+/// Upper bound on bundle.json. Parsed JSON takes about sixteen times the memory of its text.
 constexpr std::uint64_t k_largest_index = std::uint64_t{16} << 20;
 
 // ---- writing --------------------------------------------------------------------------------------------------------
@@ -68,7 +68,8 @@ Json index_of(const Bundle& bundle) {
 /// The entries of an archive. Each occurs once and has a name inside the bundle.
 std::map<std::string, std::string> entries_of(std::string_view bytes, const std::string& file) {
   const ZipArchive archive(bytes, file, "a bundle of fusee, which is a zip archive");
-  if (archive.size() > k_most_bundled_files + 2)
+  constexpr std::size_t k_own_entries = 2;  // bundle.json and stdout.txt
+  if (archive.size() > k_most_bundled_files + k_own_entries)
     throw InputError(file,
                      fmt::format("has {} entries; a bundle has {} at most", archive.size(), k_most_bundled_files));
   std::uint64_t budget = k_largest_bundle;
@@ -155,10 +156,10 @@ BundledFile read_bundled(const Index& index, std::map<std::string, std::string>&
   return file;
 }
 
-/// Rejects bundles from which a replay would create too many files and folders.
-void limit_places(const Bundle& bundle, const Index& index) {
+/// Rejects bundles from which a replay would create too many files and folders, or one name as both.
+void demand_replayable(const Bundle& bundle, const Index& index) {
   std::set<std::string_view> folders, files;
-  const auto take = [&](const char* key, std::string_view path) {
+  const auto count = [&](const char* key, std::string_view path) {
     const bool is_folder = path.ends_with('/');
     if (is_folder) path.remove_suffix(1);
     if (!is_inner_path(path)) index.wrong(key, "a list of paths within the bundle");
@@ -169,8 +170,8 @@ void limit_places(const Bundle& bundle, const Index& index) {
       index.wrong(key, fmt::format("a list of at most {} files and folders", k_most_bundled_files));
   };
   for (const BundledFile& file : bundle.files)
-    if (!file.failure) take("files", file.path);
-  for (const std::string& path : bundle.in_the_way) take("in_the_way", path);
+    if (!file.failure) count("files", file.path);
+  for (const std::string& path : bundle.in_the_way) count("in_the_way", path);
   for (const std::string_view file : files)
     if (folders.count(file) != 0) index.wrong("files", fmt::format("consistent: {} is a file and a folder", file));
 }
@@ -196,10 +197,11 @@ std::string bundle_bytes(const Bundle& bundle) {
 }
 
 bool is_bundle(std::string_view bytes) {
-  // The name of a zip's first entry begins at byte 30.
-  constexpr std::size_t k_name = 30;
-  return bytes.substr(0, 4) == std::string_view("PK\3\4", 4) && bytes.size() > k_name &&
-         bytes.substr(k_name).rfind(k_index, 0) == 0;
+  // A zip archive begins with the local header of its first entry: a signature, and the name at byte 30.
+  constexpr std::string_view k_signature("PK\3\4", 4);
+  constexpr std::size_t k_name_offset = 30;
+  return bytes.starts_with(k_signature) && bytes.size() > k_name_offset &&
+         bytes.substr(k_name_offset).starts_with(k_index);
 }
 
 Bundle read_bundle(std::string_view bytes, const std::string& name) {
@@ -221,7 +223,7 @@ Bundle read_bundle(std::string_view bytes, const std::string& name) {
   index.for_each("messages", [&](const Index& each) { bundle.outcome.messages.push_back(read_diagnostic(each)); });
   index.for_each("files", [&](const Index& each) { bundle.files.push_back(read_bundled(each, entries)); });
   bundle.in_the_way = index.texts("in_the_way");
-  limit_places(bundle, index);
+  demand_replayable(bundle, index);
   index.for_each("outputs", [&](const Index& each) {
     bundle.outcome.outputs.push_back(
         {each.text("path"), static_cast<std::uint64_t>(each.integer("bytes")), each.text("sha256")});

@@ -13,7 +13,7 @@
 
 namespace fusee {
 
-/// The result of one file that the run requested.
+/// An input file of the run: its bytes, or the reason why it could not be read.
 struct BundledFile {
   std::string path;  ///< path in the run's folder, as the bundle names it: "arm.toml", "outside/run.csv"
   std::string bytes;
@@ -33,7 +33,7 @@ struct BundledOutcome {
   int exit = 0;
   std::vector<Diagnostic> messages;
   std::string result;                  ///< stdout
-  std::vector<BundledOutput> outputs;  ///< in the order in which they were written
+  std::vector<BundledOutput> outputs;  ///< in the order in which the run wrote them
 };
 
 struct Bundle {
@@ -49,7 +49,7 @@ struct Bundle {
 
 /// Upper bound on the size of a bundle, packed and unpacked.
 inline constexpr std::uint64_t k_largest_bundle = std::uint64_t{512} << 20;
-/// Upper bound on each of: files, entries in the way, folders that contain them.
+/// Upper bound on the number of files, and on the number of folders. Entries in the way count as well.
 inline constexpr std::size_t k_most_bundled_files = 2000;
 
 std::string bundle_bytes(const Bundle& bundle);

@@ -8,8 +8,8 @@
 namespace fusee {
 
 SymmetricEigen eigendecomposition(const Eigen::MatrixXd& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(symmetric);
-  return {found.eigenvalues(), found.eigenvectors()};
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric);
+  return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
 bool is_positive_definite(const Eigen::MatrixXd& A) { return A.llt().info() == Eigen::Success; }
@@ -27,16 +27,17 @@ double Cholesky::half_log_determinant() const {
 Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) const { return factors_.solve(b); }
 Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& B) const { return factors_.solve(B); }
 
-/// A⁻¹ = L⁻ᵀ L⁻¹ in strips, because column k of L⁻¹ is zero above row k.
+/// A⁻¹ = L⁻ᵀ L⁻¹: its diagonal holds the squared norms of the columns of L⁻¹. Column k of L⁻¹ is zero above row k.
+/// Strips of columns leave out these zeros.
 Eigen::VectorXd Cholesky::inverse_diagonal() const {
-  constexpr Eigen::Index strip = 16;
+  constexpr Eigen::Index strip_width = 16;
   const Eigen::MatrixXd& L = factors_.matrixLLT();
   Eigen::VectorXd diagonal(L.rows());
-  for (Eigen::Index first = 0; first < L.rows(); first += strip) {
-    const Eigen::Index left = L.rows() - first;
-    const Eigen::Index count = std::min(strip, left);
-    Eigen::MatrixXd columns = Eigen::MatrixXd::Identity(left, count);
-    L.bottomRightCorner(left, left).triangularView<Eigen::Lower>().solveInPlace(columns);
+  for (Eigen::Index first = 0; first < L.rows(); first += strip_width) {
+    const Eigen::Index rows = L.rows() - first;
+    const Eigen::Index count = std::min(strip_width, rows);
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Identity(rows, count);
+    L.bottomRightCorner(rows, rows).triangularView<Eigen::Lower>().solveInPlace(columns);
     diagonal.segment(first, count) = columns.colwise().squaredNorm();
   }
   return diagonal;

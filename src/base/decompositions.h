@@ -1,5 +1,5 @@
 /// \file
-/// Eigen's decompositions for matrices of any size, compiled once: each template costs seconds.
+/// Eigen's decompositions for matrices of any size. They are compiled once, as each template takes seconds to compile.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -28,7 +28,7 @@ class Cholesky {
   Cholesky() = default;
   explicit Cholesky(const Eigen::MatrixXd& A);
   Eigen::MatrixXd lower() const;  ///< L
-  /// ½ log det A.
+  /// ½ log det A: the sum of the logarithms of L's diagonal.
   double half_log_determinant() const;
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;

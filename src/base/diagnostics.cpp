@@ -73,14 +73,14 @@ void demand(bool holds, const std::string& what) {
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
   const std::string* best = nullptr;
   std::size_t best_distance = 0;
-  // A word further away was not meant.
-  const std::size_t reach = std::max<std::size_t>(2, word.size() / 2);
+  // A word further away is not a likely misspelling.
+  const std::size_t largest_distance = std::max<std::size_t>(2, word.size() / 2);
   // Long input is no misspelling and would need a large table.
   if (word.size() > 100) return {};
   for (const std::string& candidate : candidates) {
     const bool unit_left_out = candidate.rfind(std::string(word) + "_", 0) == 0;  // "r1" for "r1_mm"
     const std::size_t distance = unit_left_out ? 1 : edit_distance(word, candidate);
-    if (distance <= reach && (best == nullptr || distance < best_distance)) {
+    if (distance <= largest_distance && (best == nullptr || distance < best_distance)) {
       best = &candidate;
       best_distance = distance;
     }

@@ -15,7 +15,7 @@ namespace {
 
 std::string error_text(int code) { return std::error_code(code, std::generic_category()).message(); }
 
-/// The size of a regular file; 0 for a pipe.
+/// Throws InputError unless the request permits reading the file. Returns the size of a regular file, 0 for a pipe.
 std::size_t demand_readable(const ReadRequest& request, const Descriptor& file) {
   const std::string name = request.path.string();
   struct stat status {};
@@ -38,8 +38,8 @@ FileAccess& disk() {
 void FileAccess::read(const ReadRequest& request, const TakeBlock& take) {
   const std::string name = request.path.string();
   // O_NONBLOCK: a pipe without a writer must not block. Where pipes are accepted, a writer exists.
-  const int waiting = request.pipes ? 0 : O_NONBLOCK;
-  const Descriptor file(::open(request.path.c_str(), O_RDONLY | O_CLOEXEC | waiting));
+  const int nonblocking = request.pipes ? 0 : O_NONBLOCK;
+  const Descriptor file(::open(request.path.c_str(), O_RDONLY | O_CLOEXEC | nonblocking));
   if (!file.ok())
     throw InputError(name, "cannot be read: " + error_text(errno), errno == ENOENT ? "check the path" : "");
   const std::size_t size = demand_readable(request, file);
@@ -54,7 +54,7 @@ void FileAccess::read(const ReadRequest& request, const TakeBlock& take) {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw InputError(name, "cannot be read: " + error_text(errno));
     if (count == 0) return;
-    // Files of /proc report no size.
+    // Checked again here, because pipes and files of /proc report no size.
     if (static_cast<std::size_t>(count) > remaining)
       throw InputError(name, fmt::format("is larger than {} bytes", request.limit), "is it the right file?");
     remaining -= static_cast<std::size_t>(count);

@@ -11,8 +11,8 @@ std::optional<std::vector<std::string>> files_in(const std::filesystem::path& pa
   if (!fs::is_directory(path, error)) return std::nullopt;
   std::vector<std::string> names;
   for (fs::directory_iterator entry(path, error); !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    std::error_code unknown;
-    if (entry->is_regular_file(unknown)) names.push_back(entry->path().filename().string());
+    std::error_code ignored;
+    if (entry->is_regular_file(ignored)) names.push_back(entry->path().filename().string());
   }
   if (error) throw InputError(path.string(), "cannot be read: " + error.message());
   std::sort(names.begin(), names.end());

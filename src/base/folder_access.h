@@ -1,5 +1,5 @@
 /// \file
-/// Internal: files in a folder, as a run sees them.
+/// Internal: lists the files in a folder, on the disk or in a bundle.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +11,15 @@
 
 namespace fusee {
 
-/// Beside FileAccess for those that have folders of their own, such as a bundle.
+/// Second base class of a FileAccess that has folders of its own, such as a bundle.
 class FolderAccess {
  public:
   virtual ~FolderAccess() = default;
   virtual std::optional<std::vector<std::string>> files_in(const std::filesystem::path& folder) const = 0;
 };
 
-/// Names of the files in a folder, sorted, without those in its subfolders; nothing if `path` is no folder. On the disk
-/// unless `files` is a FolderAccess. Throws InputError.
+/// Sorted names of the files in a folder, without those in its subfolders; nullopt if `path` is no folder. Lists the
+/// disk unless `files` is also a FolderAccess. Throws InputError.
 std::optional<std::vector<std::string>> files_in(const std::filesystem::path& path, const FileAccess& files);
 
 }  // namespace fusee

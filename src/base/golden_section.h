@@ -12,8 +12,9 @@ struct Bracket {
   double middle() const { return 0.5 * (low + high); }
 };
 
-/// Brackets the minimum of a unimodal function in `bracket` by `steps` golden sections, each to 0.618 of the width
-/// before. The evaluation points depend on the bracket alone. One of the two values is reused from the step before.
+/// Narrows `bracket` around the minimum of a unimodal function. Each of the `steps` golden sections leaves 0.618 of the
+/// width and reuses one of the two earlier values. The evaluation points depend on the bracket and on the comparisons
+/// of values alone.
 template <typename Value>
 Bracket golden_section(Bracket bracket, int steps, Value value) {
   constexpr double golden = 0.61803398874989485;

@@ -45,14 +45,15 @@ std::vector<Leftover> leftovers_of(const fs::path& place, std::vector<Diagnostic
   static const std::regex staging_name(R"(\.fusee-([1-9]\d{0,8})-(?:([0-9a-f]{8})-\w{6})?.*)");
   std::vector<Leftover> all;
   for (const StagingSite site : {StagingSite::beside, StagingSite::inside}) {
-    const fs::path ground = staging_ground(place, site);
+    const fs::path parent = staging_parent(place, site);
     const std::string key = staging_key(place, site);
-    for (const std::string& name : names_in(ground)) {
-      std::smatch part;  // matched parts of the name: process and key
+    for (const std::string& name : names_in(parent)) {
+      std::smatch part;  // [1]: process, [2]: key of the place; without a key, the name is of an unknown form
       if (!std::regex_match(name, part, staging_name)) continue;
       if (part[2].matched && part[2] != key) continue;  // staging folder of another place
-      if (::kill(std::stoi(part[1]), 0) == 0 || errno != ESRCH) continue;
-      Leftover leftover{ground / name, open_folder(ground / name)};
+      const bool process_lives = ::kill(std::stoi(part[1]), 0) == 0 || errno != ESRCH;
+      if (process_lives) continue;
+      Leftover leftover{parent / name, open_folder(parent / name)};
       if (part[2].matched && is_abandoned(leftover.lock)) {
         all.push_back(std::move(leftover));
       } else if (notes != nullptr) {
@@ -69,19 +70,22 @@ std::vector<Leftover> leftovers_of(const fs::path& place, std::vector<Diagnostic
 /// Undoes what the run began, or completes it when all earlier files were set aside. Returns as move_entries().
 int recover(const fs::path& leftover, const fs::path& place) {
   const ReplacementLock lock(place);
-  const fs::path made = leftover / "new", old = leftover / "old", ready = leftover / "ready";
+  const fs::path staged = leftover / "new", old = leftover / "old", ready = leftover / "ready";
   WrittenFiles written;
-  for (const fs::path& folder : {made, old, ready, place}) add_written_files(folder, written);
+  for (const fs::path& folder : {staged, old, ready, place}) add_written_files(folder, written);
   const Subfolders subfolders = subfolders_of(written);
   if (is_folder(ready)) return move_entries(ready, place, subfolders);
-  // Killed after the exchange, before the earlier folder was renamed to old/: the other files have hard links in the
-  // new folder.
+  // A run killed between the exchange and the next rename leaves the earlier folder as new/. The published folder has
+  // hard links to its files, so only its folders are moved.
   if (!is_folder(old)) {
-    const auto is_file = [&made](const std::string& name) { return !is_folder(made / name); };
-    return is_folder(place) ? move_entries(made, place, subfolders, is_file) : 0;
+    const auto is_file = [&staged](const std::string& name) { return !is_folder(staged / name); };
+    return is_folder(place) ? move_entries(staged, place, subfolders, is_file) : 0;
   }
+  // Killed between the two renames that replace an exchange: the whole earlier folder returns.
   if (move_if_free(old, place)) return 1;
-  if (is_folder(made)) return move_entries(old, place, subfolders);
+  // Killed before all earlier files were set aside: they return.
+  if (is_folder(staged)) return move_entries(old, place, subfolders);
+  // The new folder was published. The outputs in old/ are obsolete, all other entries are kept.
   WrittenFiles earlier;
   add_written_files(old, earlier);
   return move_entries(old, place, subfolders,
@@ -103,7 +107,7 @@ void add_written_files(const fs::path& folder, WrittenFiles& written) {
       written.emplace(output.at("file").get<std::string>(), output.at("sha256").get<std::string>());
   } catch (const InputError&) {
   } catch (const Json::exception&) {
-    // A manifest of another form. Entries read before the error are valid, because bytes are compared.
+    // A manifest of another form. Entries read before the error may stay, because is_unchanged() compares the bytes.
   }
 }
 
@@ -156,7 +160,7 @@ bool make_subfolder(const fs::path& folder, const std::string& name) {
 // ---- leftovers of killed runs ---------------------------------------------------------------------------------------
 
 int move_entries(const fs::path& from, const fs::path& to, const Subfolders& subfolders,
-                 const std::function<bool(const std::string& name)>& is_obsolete) {
+                 const std::function<bool(const std::string& name)>& is_skipped) {
   const Descriptor source = open_folder(from), target = open_folder(to);
   if (!source.ok()) return 0;
   std::vector<std::string> names = entries_in(from, subfolders);
@@ -165,7 +169,7 @@ int move_entries(const fs::path& from, const fs::path& to, const Subfolders& sub
   int moved = 0;
   bool stuck = false;
   for (const std::string& name : names) {
-    if (is_obsolete && is_obsolete(name)) continue;
+    if (is_skipped && is_skipped(name)) continue;
     const bool done = make_subfolder(to, name) && move_if_free(name, name, source.number(), target.number());
     moved += done ? 1 : 0;
     stuck = stuck || (!done && errno != EEXIST);

@@ -43,10 +43,10 @@ std::vector<std::string> entries_in(const std::filesystem::path& folder, const S
 /// Makes the subfolder of `name` in `folder` unless it exists. Returns false and sets errno on failure.
 bool make_subfolder(const std::filesystem::path& folder, const std::string& name);
 
-/// Moves the entries of `from` into `to`, except those for which `is_obsolete` holds and those whose name exists there.
+/// Moves the entries of `from` into `to`, except those for which `is_skipped` holds and those whose name exists there.
 /// Returns the number of moved entries, or -1 when a move failed.
 int move_entries(const std::filesystem::path& from, const std::filesystem::path& to, const Subfolders& subfolders,
-                 const std::function<bool(const std::string& name)>& is_obsolete = {});
+                 const std::function<bool(const std::string& name)>& is_skipped = {});
 
 /// Completes or undoes what killed runs began in the folder `place`. Never throws for what it finds there. The notes
 /// report restored and ignored files.

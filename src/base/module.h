@@ -8,12 +8,12 @@
 namespace fusee {
 
 struct LoadedModule {
-  const void* found = nullptr;
-  std::string why_not;  ///< reason when nothing was found: "its module fusee-step is not installed beside it"
+  const void* found = nullptr;  ///< address of the symbol; null on failure
+  std::string why_not;          ///< reason when nothing was found: "its module fusee-step is not installed beside it"
 };
 
-/// Loads a module until the process ends, because libraries keep what they register. `name` is the file's stem;
-/// `symbol` contains the interface version.
+/// Loads a module and finds one symbol in it. The module is never unloaded, because libraries keep pointers into it.
+/// `name` is the file's stem; `symbol` contains the interface version.
 LoadedModule load_module(const std::string& name, const char* symbol);
 
 /// A system library loaded on demand, so that only the runs that need it pay for it. It is searched like a linked

@@ -10,7 +10,8 @@
 
 namespace fusee {
 
-/// Standard normal numbers that are equal on every machine, unlike std::normal_distribution (Box-Muller).
+/// Standard normal numbers by the Box-Muller transform. They are equal on every machine, unlike those of
+/// std::normal_distribution.
 class NormalNumbers {
  public:
   explicit NormalNumbers(std::uint64_t seed) : bits_(seed) {}
@@ -21,7 +22,7 @@ class NormalNumbers {
   }
 
  private:
-  /// Uniform in (0, 1).
+  /// Uniform in (0, 1), from the upper 53 bits. The half keeps 0 out, for the logarithm.
   double uniform() { return (static_cast<double>(bits_() >> 11) + 0.5) * 0x1p-53; }
 
   std::mt19937_64 bits_;

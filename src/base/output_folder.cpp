@@ -28,21 +28,22 @@ namespace fs = std::filesystem;
 void demand_writable(fs::path folder) {
   while (!entry_exists(folder) && folder.has_parent_path() && folder != folder.parent_path())
     folder = folder.parent_path();
-  const fs::path ground = entry_exists(folder) ? folder : fs::path(".");
+  const fs::path existing = entry_exists(folder) ? folder : fs::path(".");
   std::error_code error;
-  if (!fs::is_directory(ground, error))
-    throw OutputError(ground.string() + " is not a folder", "choose another folder with -o");
-  if (::access(ground.c_str(), W_OK | X_OK) != 0) fail_output("cannot write in", ground, errno);
+  if (!fs::is_directory(existing, error))
+    throw OutputError(existing.string() + " is not a folder", "choose another folder with -o");
+  if (::access(existing.c_str(), W_OK | X_OK) != 0) fail_output("cannot write in", existing, errno);
 }
 
 /// True when the folder has extended attributes that a new folder would lack. Security labels are set anew by the
 /// system.
 bool has_attributes(const fs::path& folder) {
-  std::string names(4096, '\0');
+  constexpr std::string_view k_security = "security.";
+  std::string names(4096, '\0');  // each name ends with '\0'
   const ssize_t size = ::llistxattr(folder.c_str(), names.data(), names.size());
   if (size < 0) return errno == ERANGE;
   for (std::size_t at = 0; at < static_cast<std::size_t>(size); at = names.find('\0', at) + 1)
-    if (names.compare(at, 9, "security.") != 0) return true;
+    if (names.compare(at, k_security.size(), k_security) != 0) return true;
   return false;
 }
 
@@ -99,7 +100,8 @@ OutputFolder::OutputFolder(fs::path folder, bool force, const RunContext& contex
   find_own_files();
 }
 
-// Staged beside a name that is never used: a folder of that name could belong to another user.
+// The staging folder lies beside a folder that is never made: a folder of that fixed name could belong to another
+// user.
 OutputFolder::OutputFolder(const RunContext& context)
     : folder_(temporary_folder() / "fusee-dry-run"),
       place_(folder_),
@@ -152,9 +154,11 @@ void OutputFolder::claim(const std::vector<std::string>& names) {
     }
     return foreign.empty() && changed.empty();
   };
-  // Another run may publish between reading its manifest and comparing its files. On the next pass its manifest is
-  // known.
-  if (all_are_ours() || all_are_ours() || all_are_ours()) return;
+  // Another run may publish after this one reads the manifest and before it compares the files. The next pass reads the
+  // new manifest.
+  constexpr int k_passes = 3;
+  for (int pass = 0; pass < k_passes; ++pass)
+    if (all_are_ours()) return;
   for (const std::string& name : foreign) report_obstacle(folder_ / name);
   std::string message = folder_.string() + " holds ";
   if (!foreign.empty()) message += fmt::format("files that fusee did not write: {}", fmt::join(foreign, ", "));
@@ -204,7 +208,7 @@ std::set<std::string> OutputFolder::subfolders() const {
   return all;
 }
 
-/// Hard-links the entries that are kept into the staging folder. Returns false when one cannot be linked.
+/// Hard-links the files that are kept into the staging folder. Returns false when one cannot be linked.
 bool OutputFolder::link_others() const {
   bool complete = true;
   for (const std::string& name : entries_in(place_, subfolders())) {
@@ -219,14 +223,14 @@ bool OutputFolder::link_others() const {
 /// Publishes by renaming folders. Returns false and changes nothing where that is impossible.
 bool OutputFolder::publish_as_folder(std::vector<Diagnostic>& notes) {
   if (staging_->site() == StagingSite::inside) return false;
-  const fs::path& made = staging_->path();
+  const fs::path& staged = staging_->path();
   if (!entry_exists(place_)) {
-    flush_all({made});
-    return move_if_free(made, place_);
+    flush_all({staged});
+    return move_if_free(staged, place_);
   }
-  if (!is_replaceable(place_) || !set_rights(made, place_)) return false;
+  if (!is_replaceable(place_) || !set_rights(staged, place_)) return false;
   const bool linked = link_others();
-  flush_all({made});
+  flush_all({staged});
   if (!staging_->take_place_of(place_, /*by_exchange=*/linked)) return false;
   // Moves folders, entries without hard links and entries made in the meantime. Another run may have published since,
   // so that old/ holds its set.
@@ -286,12 +290,12 @@ void OutputFolder::publish(std::vector<Diagnostic>& notes) {
   for (Diagnostic& note : recover_leftovers(place_)) notes.push_back(std::move(note));
   std::stable_partition(staged_.begin(), staged_.end(), [](const std::string& name) { return name != k_manifest; });
   claim(staged_);
-  std::vector<fs::path> made;
-  for (const std::string& name : staged_) made.push_back(staged_path(name));
+  std::vector<fs::path> staged_paths;
+  for (const std::string& name : staged_) staged_paths.push_back(staged_path(name));
   for (const std::string& subfolder : subfolders()) {
-    if (entry_exists(staged_path(subfolder))) made.push_back(staged_path(subfolder));
+    if (entry_exists(staged_path(subfolder))) staged_paths.push_back(staged_path(subfolder));
   }
-  flush_all(made);
+  flush_all(staged_paths);
   for (const std::string& name : staged_) context_.files->will_publish(folder_ / name, staged_path(name));
   if (publish_as_folder(notes)) {
     flush_all({place_.parent_path()});
@@ -319,10 +323,10 @@ void write_file(const fs::path& path, std::string_view bytes, bool force, FileAc
   demand_writable(folder);
   remove_staged_leftovers(target);
   const Staging staging(target, StagingSite::beside);
-  const fs::path made = staging.path() / "file";
-  write_whole(made, bytes);
-  flush_all({made});
-  if (::rename(made.c_str(), target.c_str()) != 0) fail_output("cannot write", target, errno);
+  const fs::path staged = staging.path() / "file";
+  write_whole(staged, bytes);
+  flush_all({staged});
+  if (::rename(staged.c_str(), target.c_str()) != 0) fail_output("cannot write", target, errno);
   flush_all({folder});
   files.will_publish(path, target);
 }

@@ -50,8 +50,9 @@ Polygon convex_hull(Polygon points) {
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   Polygon hull;
-  const auto extend = [&hull](const Vec2& point, std::size_t floor) {
-    while (hull.size() > floor && cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0) hull.pop_back();
+  const auto extend = [&hull](const Vec2& point, std::size_t least_size) {
+    while (hull.size() > least_size && cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
+      hull.pop_back();
     hull.push_back(point);
   };
   for (const Vec2& point : points) extend(point, 1);

@@ -17,12 +17,15 @@
 namespace fusee {
 namespace fs = std::filesystem;
 
-void fail_output(const std::string& what, const fs::path& path, int code) {
+void fail_output(const std::string& failure, const fs::path& path, int errno_code) {
   std::string hint;
-  if (code == ENOSPC || code == EDQUOT) hint = "the disk is full: free some space, or choose another folder with -o";
-  if (code == EFBIG) hint = "the file exceeds a size limit: ulimit -f, or that of the file system";
-  if (code == EACCES || code == EPERM || code == EROFS) hint = "choose a folder that you may write to with -o";
-  throw OutputError(what + " " + path.string() + ": " + std::error_code(code, std::generic_category()).message(), hint);
+  if (errno_code == ENOSPC || errno_code == EDQUOT)
+    hint = "the disk is full: free some space, or choose another folder with -o";
+  if (errno_code == EFBIG) hint = "the file exceeds a size limit: ulimit -f, or that of the file system";
+  if (errno_code == EACCES || errno_code == EPERM || errno_code == EROFS)
+    hint = "choose a folder that you may write to with -o";
+  throw OutputError(
+      failure + " " + path.string() + ": " + std::error_code(errno_code, std::generic_category()).message(), hint);
 }
 
 bool entry_exists(const fs::path& path) {
@@ -76,6 +79,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
 bool move_if_free(const fs::path& from, const fs::path& to, int from_folder, int to_folder) {
   if (::renameat2(from_folder, from.c_str(), to_folder, to.c_str(), RENAME_NOREPLACE) == 0) return true;
   if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP) return false;
+  // The file system lacks RENAME_NOREPLACE. Another process may make the entry between this test and the rename.
   struct stat ignored {};
   if (::fstatat(to_folder, to.c_str(), &ignored, AT_SYMLINK_NOFOLLOW) == 0) {
     errno = EEXIST;
@@ -90,25 +94,25 @@ std::string staging_key(const fs::path& place, StagingSite site) {
   return sha256(site == StagingSite::inside ? "." : place.filename().string()).substr(0, 8);
 }
 
-fs::path staging_ground(const fs::path& place, StagingSite site) {
+fs::path staging_parent(const fs::path& place, StagingSite site) {
   if (site == StagingSite::inside) return place;
   return place.has_parent_path() ? place.parent_path() : fs::path(".");
 }
 
 Staging::Staging(const fs::path& place, StagingSite site) : Staging(site) {
-  const fs::path ground = staging_ground(place, site);
-  root_ = ground / fmt::format(".fusee-{}-{}-XXXXXX", ::getpid(), staging_key(place, site));
-  for (fs::path path = ground; !path.empty() && !entry_exists(path); path = path.parent_path()) made_.push_back(path);
+  const fs::path parent = staging_parent(place, site);
+  root_ = parent / fmt::format(".fusee-{}-{}-XXXXXX", ::getpid(), staging_key(place, site));
+  for (fs::path path = parent; !path.empty() && !entry_exists(path); path = path.parent_path()) made_.push_back(path);
   std::error_code error;
-  fs::create_directories(ground, error);
-  if (error) fail_output("cannot make the folder", ground, error.value());
+  fs::create_directories(parent, error);
+  if (error) fail_output("cannot make the folder", parent, error.value());
   std::string pattern = root_.string();
-  if (::mkdtemp(pattern.data()) == nullptr) fail_output("cannot write in", ground, errno);
+  if (::mkdtemp(pattern.data()) == nullptr) fail_output("cannot write in", parent, errno);
   root_ = pattern;
   path_ = root_ / "new";
   lock_ = Descriptor(::open(root_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   ::flock(lock_.number(), LOCK_EX | LOCK_NB);
-  // The rights of an ordinary folder, as it may become the output folder.
+  // Mode of an ordinary folder, because it may become the output folder.
   if (::mkdir(path_.c_str(), 0777) != 0) fail_output("cannot write in", root_, errno);
 }
 
@@ -128,17 +132,18 @@ void Staging::remove_old() const {
 }
 
 bool Staging::take_place_of(const fs::path& place, bool by_exchange) {
-  const auto renamed = [](const fs::path& from, const fs::path& to, unsigned how) {
-    return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), how) == 0;
+  const auto renamed = [](const fs::path& from, const fs::path& to, unsigned flags) {
+    return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0;
   };
   if (by_exchange && renamed(path_, place, RENAME_EXCHANGE)) {
+    // path_ now holds the earlier folder.
     if (renamed(path_, old(), 0)) return true;
-    renamed(path_, place, RENAME_EXCHANGE);
+    renamed(path_, place, RENAME_EXCHANGE);  // undoes the exchange
     return false;
   }
   if (!renamed(place, old(), 0)) return false;
   if (renamed(path_, place, 0)) return true;
-  renamed(old(), place, 0);
+  renamed(old(), place, 0);  // undoes the first rename
   return false;
 }
 

@@ -13,8 +13,8 @@
 
 namespace fusee {
 
-/// OutputError: "<what> <path>: <meaning of the code>", with a hint where one is known.
-[[noreturn]] void fail_output(const std::string& what, const std::filesystem::path& path, int code);
+/// Throws OutputError: "<failure> <path>: <meaning of errno>", with a hint where one is known.
+[[noreturn]] void fail_output(const std::string& failure, const std::filesystem::path& path, int errno_code);
 
 /// True when the entry itself exists, dangling links included.
 bool entry_exists(const std::filesystem::path& path);
@@ -25,7 +25,7 @@ std::filesystem::path place_of(const std::filesystem::path& folder);
 /// Creates a new file. Throws OutputError when it exists or is not written completely.
 void write_whole(const std::filesystem::path& path, std::string_view bytes);
 
-/// Flushes files and folders to the disk concurrently, which waits less than one after another.
+/// Flushes files and folders to the disk concurrently, which takes less time than one after another.
 void flush_all(const std::vector<std::filesystem::path>& paths);
 
 /// Names in a folder; empty when the folder cannot be read.
@@ -40,7 +40,7 @@ enum class StagingSite { beside, inside };
 
 /// The private folder of one run: `.fusee-<process>-<key>-XXXXXX`, mode 0700, locked while the run lives. The key is
 /// derived from the name of the place, so that the next run into this place finds the leftovers of a killed one
-/// (leftovers.h). It holds
+/// (leftovers.h). The folder holds
 ///   new/       the new files
 ///   old/       the earlier folder, or those of its files that are replaced
 ///   ready/     the new files, once all earlier ones are in old/ (files replaced one by one)
@@ -72,11 +72,11 @@ class Staging {
   bool mark_ready();
 
  private:
-  /// Delegated to, so that ~Staging() runs when the public constructor throws
+  /// The public constructor delegates to this one, so that ~Staging() runs when it throws.
   explicit Staging(StagingSite site) : site_(site) {}
 
   std::filesystem::path root_, path_;
-  std::vector<std::filesystem::path> made_;  ///< parent folders that were made, innermost first
+  std::vector<std::filesystem::path> made_;  ///< missing parent folders that this object makes, innermost first
   StagingSite site_;
   Descriptor lock_{-1};
 };
@@ -84,10 +84,10 @@ class Staging {
 /// The part of a staging folder's name that identifies its place: 8 hex digits.
 std::string staging_key(const std::filesystem::path& place, StagingSite site);
 /// The folder that holds the staging folders of a place.
-std::filesystem::path staging_ground(const std::filesystem::path& place, StagingSite site);
+std::filesystem::path staging_parent(const std::filesystem::path& place, StagingSite site);
 
 /// Excludes other runs of this user that replace files one by one in `folder`. Only this user can open the lock file.
-/// Where it cannot be made there is no lock.
+/// If the lock file cannot be made, no run is excluded.
 class ReplacementLock {
  public:
   /// Waits for the run that holds the lock. Throws OutputError after a minute.

@@ -10,15 +10,15 @@
 #include <optional>
 #include <system_error>
 
+#include "fusee/base_elementary.h"
+
 namespace fusee {
 namespace {
 
 /// Removes the sign of "-0" and "-0.000".
 std::string without_negative_zero(std::string text) {
-  if (!text.empty() && text[0] == '-' && text.find_first_of("123456789", 1) == std::string::npos &&
-      text.find_first_not_of("-0.", 0) == std::string::npos) {
-    text.erase(0, 1);
-  }
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  if (is_zero && text.starts_with('-')) text.erase(0, 1);
   return text;
 }
 
@@ -27,9 +27,11 @@ std::string without_negative_zero(std::string text) {
 /// formed (Unicode 15, table 3-7).
 std::optional<char32_t> take_character(std::string_view& text) {
   const auto lead = static_cast<unsigned char>(text[0]);
+  // Bytes of the character; 0 if no character begins with this byte.
   const std::size_t size = lead < 0x80 ? 1 : lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
   char32_t code = size < 2 ? lead : lead & (0x7F >> size);
   std::size_t taken = 1;
+  // Bounds of the next byte. Those of the second byte exclude overlong forms, surrogates and values above U+10FFFF.
   unsigned char least = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;
   unsigned char most = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;
   for (; taken < size && taken < text.size(); ++taken) {
@@ -43,7 +45,8 @@ std::optional<char32_t> take_character(std::string_view& text) {
   return taken == size ? std::optional(code) : std::nullopt;
 }
 
-bool is_fit(char32_t code) {
+/// False for the characters that cleaned() replaces. Line feeds and tabs count as control characters here.
+bool is_displayable(char32_t code) {
   const auto within = [code](char32_t first, char32_t last) { return code >= first && code <= last; };
   const bool control = code < 0x20 || within(0x7F, 0x9F) || within(0x2028, 0x2029);
   const bool reorders = within(0x202A, 0x202E) || within(0x2066, 0x2069) || within(0x200E, 0x200F) || code == 0x061C;
@@ -51,21 +54,22 @@ bool is_fit(char32_t code) {
   return !control && !reorders && !no_character;
 }
 
-/// Copies `text` and replaces each unfit character by `unfit(code)`. `code` is nullopt for malformed bytes.
-template <class Unfit>
-std::string with_unfit(std::string_view text, const Unfit& unfit) {
-  std::string fit;
-  fit.reserve(text.size());
+/// Copies `text`. Replaces each character that is not displayable, no line feed and no tab by `replacement(code)`.
+/// `code` is nullopt for malformed bytes.
+template <class Replacement>
+std::string with_replacements(std::string_view text, const Replacement& replacement) {
+  std::string copy;
+  copy.reserve(text.size());
   while (!text.empty()) {
     const std::string_view before = text;
     const std::optional<char32_t> code = take_character(text);
-    if (code && (is_fit(*code) || code == U'\n' || code == U'\t')) {
-      fit += before.substr(0, before.size() - text.size());
+    if (code && (is_displayable(*code) || code == U'\n' || code == U'\t')) {
+      copy += before.substr(0, before.size() - text.size());
     } else {
-      fit += unfit(code);
+      copy += replacement(code);
     }
   }
-  return fit;
+  return copy;
 }
 
 constexpr std::string_view k_replacement = "\uFFFD";
@@ -116,7 +120,7 @@ bool is_utf8(std::string_view text) {
 }
 
 std::string cleaned(std::string_view text) {
-  return with_unfit(text, [](std::optional<char32_t>) { return k_replacement; });
+  return with_replacements(text, [](std::optional<char32_t>) { return k_replacement; });
 }
 
 std::string cleaned_line(std::string_view text) {
@@ -127,15 +131,15 @@ std::string cleaned_line(std::string_view text) {
 }
 
 std::string unicode_escaped(std::string_view text) {
-  return with_unfit(text, [](std::optional<char32_t> code) {
-    const bool one_unit = code && *code < 0x10000;
+  return with_replacements(text, [](std::optional<char32_t> code) {
+    const bool one_unit = code && *code < 0x10000;  // an escape holds one UTF-16 unit
     return one_unit ? fmt::format("\\u{:04x}", static_cast<unsigned>(*code)) : std::string(k_replacement);
   });
 }
 
 std::string shortest(double value) { return without_negative_zero(fmt::format("{}", value)); }
 
-// Drawings contain tens of thousands of numbers. std::to_chars() rounds as fmt does in a quarter of the time.
+// Drawings contain tens of thousands of numbers. std::to_chars() gives the text of fmt in a quarter of the time.
 std::string fixed(double value, int decimals) {
   std::array<char, 512> text;
   const auto [end, error] =

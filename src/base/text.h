@@ -21,7 +21,7 @@ std::string rounded(double value, int digits = 4);
 std::string_view trimmed(std::string_view text);
 /// Text with A to Z as a to z.
 std::string lower(std::string_view text);
-/// Appends the UTF-8 of a character.
+/// Appends the UTF-8 encoding of a Unicode code point.
 void append_utf8(std::string& text, std::uint32_t point);
 /// UTF-8 of a text that begins with a UTF-16 byte-order mark of either order; nullopt for any other bytes. An unpaired
 /// surrogate becomes U+FFFD.
@@ -40,7 +40,7 @@ std::string unicode_escaped(std::string_view text);
 /// Text wrapped to `width` characters, by default those of a terminal, each line with its line feed. The first line
 /// begins with `first`, the others with `indent`. A word longer than a line stands alone.
 std::string wrapped(std::string_view words, std::string_view first, std::string_view indent, std::size_t width = 78);
-/// JSON/JavaScript-safe and HTML-safe text.
+/// Text with & < > " ' as character references, safe in HTML, in XML and in quoted attributes.
 std::string escape_html(std::string_view text);
 
 }  // namespace fusee

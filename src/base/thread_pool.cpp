@@ -12,7 +12,8 @@ namespace fusee {
 namespace {
 
 constexpr unsigned k_max_threads = 8;
-/// Bound for threads in the place of waiting ones. Beyond it, work begins when a thread is free or when it is awaited.
+/// Upper bound on the threads that a pool starts, including those that replace waiting ones. Beyond it, a job begins
+/// when a thread is free or when the job is awaited.
 constexpr std::size_t k_max_started = 64;
 
 std::atomic<ThreadPool*> shared_pool = nullptr;
@@ -159,7 +160,8 @@ void ThreadPool::count_working(int change) {
 /// Wakes as many threads as may work on queued jobs. Called with the lock.
 void ThreadPool::grant_jobs() {
   while (working_ < limit_ && granted_ < queue_.size()) {
-    if (idle_ == granted_ && !start_thread()) return;
+    const bool all_idle_are_woken = idle_ == granted_;
+    if (all_idle_are_woken && !start_thread()) return;
     ++working_;
     ++granted_;
     changed_.notify_one();

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: the thread pool of the process, for single tasks and for loops. Every job writes only to its own place, so
+/// Internal: the thread pool of the process, for single tasks and for loops. Every job writes only to its own data, so
 /// results do not depend on the number of threads. Jobs may start and await other jobs.
 #pragma once
 
@@ -48,8 +48,8 @@ class Job {
   std::exception_ptr failure_;
 };
 
-/// A value in the making. The destructor drops work that has not begun and waits for the end of work that has, so that
-/// the work may refer to local variables.
+/// The result of a job, which may not have ended yet. The destructor drops work that has not begun and waits for the end
+/// of work that has, so that the work may refer to local variables.
 template <typename Value>
 class Task {
  public:
@@ -117,11 +117,12 @@ class ThreadPool {
 
   unsigned threads() const { return static_cast<unsigned>(limit_ + 1); }
 
-  /// Starts `work` as soon as a thread is free. Without `worth`, it begins when its value is requested.
+  /// Starts `work` as soon as a thread is free. Without `in_background`, the thread that requests the value does the
+  /// work.
   template <typename Work>
-  auto run_async(Work work, bool worth = true) {
+  auto run_async(Work work, bool in_background = true) {
     Task<std::invoke_result_t<Work&>> task(*this, std::move(work));
-    if (worth) enqueue(task.job());
+    if (in_background) enqueue(task.job());
     return task;
   }
 
@@ -153,7 +154,7 @@ class ThreadPool {
   bool start_thread();
   void work();
 
-  const int limit_;  ///< number of jobs that may run beside the caller
+  const int limit_;  ///< number of jobs that may run in addition to the caller
   std::mutex guard_;
   std::condition_variable changed_;
   std::deque<std::shared_ptr<Job>> queue_;
@@ -166,8 +167,8 @@ class ThreadPool {
 
 /// ThreadPool::run_async() of the shared pool.
 template <typename Work>
-auto run_async(Work work, bool worth = true) {
-  return ThreadPool::shared().run_async(std::move(work), worth);
+auto run_async(Work work, bool in_background = true) {
+  return ThreadPool::shared().run_async(std::move(work), in_background);
 }
 
 }  // namespace fusee

@@ -19,7 +19,7 @@ void demand_zip(bool done, zip_t* archive, const std::string& step) {
 
 void add_entry(zip_t* archive, const ZipEntry& entry) {
   constexpr zip_uint16_t k_midnight = 0;
-  constexpr zip_uint16_t k_first_of_1980 = (1 << 5) | 1;  // the earliest DOS date
+  constexpr zip_uint16_t k_first_of_1980 = (1 << 5) | 1;  // earliest DOS date: month << 5 | day, years from 1980
   zip_source_t* part = zip_source_buffer(archive, entry.bytes.data(), entry.bytes.size(), 0);
   demand_zip(part != nullptr, archive, entry.name);
   const zip_int64_t added = zip_file_add(archive, entry.name.c_str(), part, ZIP_FL_ENC_UTF_8);
@@ -88,8 +88,8 @@ bool ZipArchive::is_plain_file(std::size_t entry) const {
       zip_file_get_external_attributes(archive_.get(), entry, 0, &system, &attributes) != 0)
     return false;
   if ((stat.valid & ZIP_STAT_ENCRYPTION_METHOD) != 0 && stat.encryption_method != ZIP_EM_NONE) return false;
-  const zip_uint32_t kind = system == ZIP_OPSYS_UNIX ? (attributes >> 16) & S_IFMT : 0;
-  return kind == 0 || kind == S_IFREG;
+  const zip_uint32_t file_type = system == ZIP_OPSYS_UNIX ? (attributes >> 16) & S_IFMT : 0;
+  return file_type == 0 || file_type == S_IFREG;  // 0: the archive declares none
 }
 
 std::optional<std::size_t> ZipArchive::find(const std::string& entry) const {

@@ -43,7 +43,7 @@ class ZipArchive {
   std::unique_ptr<zip, void (*)(zip*)> archive_;
 };
 
-/// Throws InputError for an offset in an archive entry.
+/// Throws InputError for an archive entry. `offset`: byte in the entry; −1: the whole entry.
 [[noreturn]] void fail_in_entry(const std::string& file, const std::string& entry, std::ptrdiff_t offset,
                                 const std::string& message);
 

@@ -49,7 +49,7 @@ fusee::Effect change_of(const Imperfections& before, fusee::Effect effect) {
     const double value = value_of(before, parameter);
     parameter.least -= value;
     parameter.most -= value;
-    parameter.gone = -value;
+    parameter.value_if_absent = -value;
   }
   add_opposite_starts(effect);
   return effect;

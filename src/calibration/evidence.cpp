@@ -294,7 +294,7 @@ std::vector<HandReading> hand_readings(const DeclaredMechanism& declared) {
   for (const fusee::Effect& effect : effects(kind_of(declared))) {
     for (const EffectParameter& parameter : effect.parameters) {
       if (parameter.by_hand.readings == nullptr) continue;
-      for (const CaliperReading& reading : parameter.by_hand.readings(declared))
+      for (const ManualReading& reading : parameter.by_hand.readings(declared))
         readings.push_back({&parameter, reading.value, reading.uncertainty});
     }
   }

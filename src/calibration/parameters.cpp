@@ -59,7 +59,7 @@ bool at_end(const Imperfections& at, const EffectParameter& parameter) {
 }
 
 bool at_bound(const Imperfections& at, const EffectParameter& parameter) {
-  return at_end(at, parameter) && std::abs(value_of(at, parameter) - parameter.gone) > 1e-9 * parameter.step;
+  return at_end(at, parameter) && std::abs(value_of(at, parameter) - parameter.value_if_absent) > 1e-9 * parameter.step;
 }
 
 }  // namespace fusee::calibration

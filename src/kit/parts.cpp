@@ -469,7 +469,7 @@ double printed_volume(const KitPart& part, const Mechanism& mechanism, const sol
   return volume_of(trimmed(part.body, trim_of(mechanism, layout)), layout.scale);
 }
 
-solid::TriangleMesh standing(const KitPart& part, const KitPlace& place, double theta) {
+solid::TriangleMesh placed_mesh(const KitPart& part, const KitPlace& place, double theta) {
   solid::TriangleMesh mesh = mesh_of(part.body);
   const LinkFrame frame = link_frame(place.on_link ? theta : 0);
   for (Vec3& v : mesh.vertices) {

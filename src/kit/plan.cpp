@@ -496,7 +496,7 @@ KitPlan plan_kit_of_turns(const Mechanism& mechanism, const solid::BodyLayout& l
   return plan_template(mechanism, layout, heights);
 }
 
-void TendonHeights::Span::see(double height) {
+void TendonHeights::Span::include(double height) {
   low = std::min(low, height);
   high = std::max(high, height);
 }

@@ -24,6 +24,10 @@ std::string text(const toml::table& item, const char* key) {
   return *value;
 }
 
+double number_or_zero(const toml::table& item, std::string_view key) {
+  return item.contains(key) ? number(item, key) : 0.0;
+}
+
 /// A horn has the keys and units of [horn] in a mechanism file.
 HornType make(const toml::table& item, HornType type) {
   DeclaredMechanism mechanism;
@@ -35,7 +39,7 @@ HornType make(const toml::table& item, HornType type) {
 }
 
 ShaftType make(const toml::table& item, ShaftType type) {
-  type.flat = item.contains("flat_mm") ? number(item, "flat_mm") : 0;
+  type.flat = number_or_zero(item, "flat_mm");
   type.bore = type.flat > 0 ? Bore::d : Bore::round;
   type.diameter = number(item, "diameter_mm");
   return type;
@@ -85,17 +89,16 @@ std::vector<std::string> names_of_fits(const toml::table& item) {
 }
 
 MotorType make(const toml::table& item, MotorType type) {
-  const auto or_none = [&item](const char* key) { return item.contains(key) ? number(item, key) : 0.0; };
   type.fits = names_of_fits(item);
-  type.shaft = or_none("shaft_mm");
-  type.shaft_length = or_none("shaft_length_mm");
-  type.face = or_none("face_mm");
+  type.shaft = number_or_zero(item, "shaft_mm");
+  type.shaft_length = number_or_zero(item, "shaft_length_mm");
+  type.face = number_or_zero(item, "face_mm");
   type.front = number(item, "front_mm");
   type.back = number(item, "back_mm");
   type.side = number(item, "side_mm");
   type.depth = number(item, "depth_mm");
   type.pilot = number(item, "pilot_mm");
-  type.two_holes = or_none("two_holes") != 0;
+  type.two_holes = number_or_zero(item, "two_holes") != 0;
   type.hole_x = number(item, "hole_x_mm");
   type.hole_front = number(item, "hole_front_mm");
   type.hole_back = number(item, "hole_back_mm");
@@ -105,12 +108,11 @@ MotorType make(const toml::table& item, MotorType type) {
 }
 
 MotorModel make(const toml::table& item, MotorModel model) {
-  const auto or_none = [&item](const char* key) { return item.contains(key) ? number(item, key) : 0.0; };
   model.fits = names_of_fits(item);
-  model.travel = radians(or_none("travel_deg"));
+  model.travel = radians(number_or_zero(item, "travel_deg"));
   model.stall_torque = number(item, "stall_torque_Nmm");
-  model.speed = radians(or_none("speed_deg_per_s"));
-  model.holds = or_none("holds") != 0;
+  model.speed = radians(number_or_zero(item, "speed_deg_per_s"));
+  model.holds = number_or_zero(item, "holds") != 0;
   return model;
 }
 

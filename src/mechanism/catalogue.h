@@ -65,8 +65,8 @@ struct BoardType {
   std::string source;
   Vec2 size{0, 0};
   double thickness = 0;
-  Vec2 pitch{0, 0};  ///< spacing of its four holes
-  double hole = 0;
+  Vec2 pitch{0, 0};   ///< spacing of its four holes
+  double hole = 0;    ///< diameter of the holes
   double chip = 0;    ///< height of the chip above the board
   double magnet = 0;  ///< diameter of the diametrically magnetized disc
   double magnet_height = 0;
@@ -89,9 +89,9 @@ struct MotorType {
   /// Diameter of the round boss on the face; 0: the motor's body passes through the plate.
   double pilot = 0;
   bool two_holes = false;  ///< screws at ±x only; otherwise at ±x, both at the front and at the back
-  double hole_x = 0, hole_front = 0, hole_back = 0;
-  double hole = 0;  ///< diameter
-  double head = 0;  ///< height of the screws' heads
+  double hole_x = 0, hole_front = 0, hole_back = 0;  ///< distances of the screws' holes from the shaft axis
+  double hole = 0;                                   ///< diameter of the holes
+  double head = 0;                                   ///< height of the screws' heads
 };
 
 /// A motor by its maker's figures.

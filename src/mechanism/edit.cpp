@@ -29,8 +29,8 @@ std::size_t offset_of(std::string_view text, const toml::source_position& positi
   return at;
 }
 
-/// A number of a key, in its own unit, as TOML that reads back exactly in a file of `units`.
-std::string number_text(const Field& field, double value, LengthUnit units) {
+/// A new number of a key, in the key's unit, as TOML that reads back exactly in a file of `units`.
+std::string new_number_text(const Field& field, double value, LengthUnit units) {
   return is_length(field.key) ? length_value_text(value, units) : shortest(value);
 }
 
@@ -38,6 +38,7 @@ LengthUnit units_of(const toml::table& root) {
   return root["units"].value_or(std::string_view()) == "inch" ? LengthUnit::inch : LengthUnit::mm;
 }
 
+/// The node of a number in the file; null if the file does not contain it.
 const toml::node* written_node(const toml::table& root, const NumberKey& key) {
   const toml::node* node = root.at_path(key.field->name()).node();
   if (node == nullptr || key.field->kind == FieldKind::number) return node;
@@ -50,7 +51,7 @@ DeclaredMechanism edited_numbers(const toml::table& root, const std::vector<Valu
   DeclaredMechanism mechanism = default_mechanism();
   const LengthUnit units = units_of(root);
   for (const FieldKind kind :
-       {FieldKind::number, FieldKind::range, FieldKind::point}) {  // points may depend on numbers
+       {FieldKind::number, FieldKind::range, FieldKind::point}) {  // a point's default may depend on a number
     for (const std::string& name : number_key_names()) {
       const auto key = find_number_key(name);
       if (key->field->kind != kind) continue;
@@ -81,10 +82,13 @@ Replacement new_line(std::string_view text, const toml::table& root, const Field
     const std::size_t at = std::min(text.find('\n', begin), text.size());
     return {at, at, "\n" + line};
   }
-  const bool first = std::find(new_tables.begin(), new_tables.end(), table_name) == new_tables.end();
-  if (first) new_tables.push_back(table_name);
-  const bool ended = text.empty() || text.back() == '\n';
-  return {text.size(), text.size(), first ? (ended ? "\n[" : "\n\n[") + table_name + "]\n" + line + "\n" : line + "\n"};
+  std::string header;
+  if (std::find(new_tables.begin(), new_tables.end(), table_name) == new_tables.end()) {
+    new_tables.push_back(table_name);
+    const bool ends_with_line = text.empty() || text.back() == '\n';
+    header = (ends_with_line ? "\n[" : "\n\n[") + table_name + "]\n";
+  }
+  return {text.size(), text.size(), header + line + "\n"};
 }
 
 /// The file with each former key replaced by its two successors.
@@ -96,14 +100,17 @@ std::string without_former_keys(std::string text) {
     for (const auto& [key, value] : *table) {
       const FormerKey* former = find_former_key(std::string(table_name.str()) + "." + std::string(key.str()));
       if (former == nullptr) continue;
-      const std::size_t begin = offset_of(text, key.source().begin), end = offset_of(text, value.source().end);
-      const std::string written =
-          text.substr(offset_of(text, value.source().begin), end - offset_of(text, value.source().begin));
+      const std::size_t begin = offset_of(text, key.source().begin);
+      const std::size_t value_begin = offset_of(text, value.source().begin), end = offset_of(text, value.source().end);
+      const std::string written = text.substr(value_begin, end - value_begin);
       const std::size_t prefix = table_name.str().size() + 1;
+      // In "table.key = 1" the table's name stands before the first key, and the second key requires it as well.
       const bool is_dotted = begin > 0 && text[begin - 1] == '.';
-      const std::string both = std::string(former->now[0].substr(prefix)) + " = " + written +
-                               (table->is_inline() ? ", " : "\n") +
-                               std::string(former->now[1].substr(is_dotted ? 0 : prefix)) + " = " + written;
+      const std::string first_key(former->now[0].substr(prefix));
+      const std::string second_key(former->now[1].substr(is_dotted ? 0 : prefix));
+      const std::string both =
+          first_key + " = " + written + (table->is_inline() ? ", " : "\n") + second_key + " = " + written;
+      // Parses the new text, because the replacement shifts all later positions.
       return without_former_keys(text.replace(begin, end - begin, both));
     }
   }
@@ -129,15 +136,15 @@ std::string edit_values(std::string_view as_written, const std::vector<ValueEdit
     const Field& field = *key->field;
     if (const toml::node* node = written_node(root, *key)) {
       replacements.push_back({offset_of(text, node->source().begin), offset_of(text, node->source().end),
-                              number_text(field, edit.value, units)});
+                              new_number_text(field, edit.value, units)});
     } else if (field.kind == FieldKind::number) {
-      replacements.push_back(new_line(text, root, field, number_text(field, edit.value, units), new_tables));
+      replacements.push_back(new_line(text, root, field, new_number_text(field, edit.value, units), new_tables));
     } else if (const std::string pair = key->field->name();
                std::find(new_pairs.begin(), new_pairs.end(), pair) == new_pairs.end()) {
       new_pairs.push_back(pair);
       const DeclaredMechanism edited = edited_numbers(root, edits);
-      const std::string both = "[" + number_text(field, field.get(edited, 0), units) + ", " +
-                               number_text(field, field.get(edited, 1), units) + "]";
+      const std::string both = "[" + new_number_text(field, field.get(edited, 0), units) + ", " +
+                               new_number_text(field, field.get(edited, 1), units) + "]";
       replacements.push_back(new_line(text, root, field, both, new_tables));
     }
   }

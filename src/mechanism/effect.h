@@ -39,8 +39,8 @@ struct IdentifiedKey {
   std::string_view fallback = "0";
 };
 
-/// A caliper reading, as the deviation of the joint from its file, with its standard uncertainty.
-struct CaliperReading {
+/// A manual reading, as the deviation of the joint from its file, with its standard uncertainty.
+struct ManualReading {
   double value = 0;        ///< deviation of the parameter
   double uncertainty = 0;  ///< standard uncertainty
 };
@@ -54,7 +54,7 @@ struct ManualMeasurement {
   std::string_view words;  ///< instruction for the user; empty: cannot be measured by hand
   double uncertainty = 0;  ///< usual standard uncertainty of such a reading
   /// Reads the parameter's entry in [prior] of the file.
-  std::vector<CaliperReading> (*readings)(const DeclaredMechanism& declared) = nullptr;
+  std::vector<ManualReading> (*readings)(const DeclaredMechanism& declared) = nullptr;
   std::string_view key = {};  ///< key of the file that receives the reading: "prior.guide_radius_mm"
   HandTool tool = HandTool::caliper;
   /// Predicts the reading of a joint when it depends on other parameters too; null: the reading is the parameter.
@@ -67,7 +67,8 @@ struct SignWords {
   std::string_view above;
 };
 
-/// Unit of a prior. The unit of load is that of the log, so priors with that unit are scaled by the largest load.
+/// Unit of a prior. The unit of load is known only from the log, so priors with that unit are scaled by the largest
+/// load.
 enum class PriorUnit { own, at_largest_load, of_largest_load };
 
 struct EffectParameter {
@@ -76,7 +77,7 @@ struct EffectParameter {
   double& (*number)(Imperfections& joint) = nullptr;
   double least = 0;  ///< lower bound
   double most = 0;   ///< upper bound
-  double step = 0;   ///< just measurable change of the parameter: the scale of the fit
+  double step = 0;   ///< smallest measurable change of the parameter: the scale of the fit
   /// Prior standard deviation over joints that people build, in the parameter's unit, centred on the declared value.
   /// Positive, or 0 where the parameter is searched.
   double prior = 0;
@@ -92,7 +93,8 @@ struct EffectParameter {
   bool searched = false;  ///< not fitted: only the values in Effect::starts are tried
   /// True when the effect's other parameters make this one irrelevant; it is then reported as 0. Null: never.
   bool (*idle)(const Imperfections& joint) = nullptr;
-  double gone = 0;  ///< value at which the effect vanishes; for a change, minus the earlier value
+  /// Value of a joint without the effect. For the change of a joint: minus the value of its earlier state.
+  double value_if_absent = 0;
 };
 
 /// The prior in the parameter's own unit. `largest_load`: largest magnitude in the log; 0 without load.
@@ -123,22 +125,22 @@ struct Needs {
   bool time = false;
   bool load = false;         ///< a load is declared or logged
   bool temperature = false;  ///< the temperature is logged and changes
-  /// A motion periodic in the motor's turn is distinguished from other smooth curves only over a long enough stroke.
-  /// Plans require that stroke; in data the effect competes with all equally smooth curves.
-  bool full_turn = false;
+  /// The effect is periodic in the motor's turn, which only a long stroke distinguishes from other smooth curves. Plans
+  /// require that stroke (plan::k_most_linear_range); in data the effect competes with all equally smooth curves.
+  bool long_stroke = false;
 };
 
 struct Effect {
   std::string name;
   ChainPlace place = ChainPlace::joint;
-  int rank = 0;                ///< order among the effects of a place, along the chain
+  int rank = 0;                ///< order among the effects of the same place
   std::string signature;       ///< appearance in data
   std::string separating_run;  ///< measurement that distinguishes it from its rivals
   CorrectableBy correctable_by = CorrectableBy::nothing;
   std::vector<EffectParameter> parameters;
   std::vector<std::vector<double>> starts;  ///< starting points of the fit besides zero; one value per parameter
   bool starts_in_time = false;  ///< also start wherever the residual steps: size and time are the first two parameters
-  /// Holds the joint until a larger torque acts, so that slopes and chords predict it poorly.
+  /// Holds the joint until a larger torque acts, so that neither derivatives nor finite differences predict it well.
   bool sticks = false;
   bool loosens = false;  ///< leaves the joint free within a play, in which any rest position is possible
   Needs needs;

@@ -30,8 +30,8 @@ std::vector<const Field*> matching_fields(std::string_view word) {
   const bool is_table = !word.empty() && std::find(tables.begin(), tables.end(), word) != tables.end();
   std::vector<std::string> names = tables;
   for (const Field& field : fields()) {
-    if (word.empty() || (is_table ? field.table == word : field.name() == word || field.key == word))
-      found.push_back(&field);
+    const bool matches = is_table ? field.table == word : field.name() == word || field.key == word;
+    if (word.empty() || matches) found.push_back(&field);
     names.push_back(field.name());
     names.emplace_back(field.key);
   }
@@ -135,7 +135,7 @@ std::string list_text(const std::vector<const Field*>& list) {
   std::size_t width = 0;
   for (const Field* field : list) width = std::max(width, field->key.size());
   std::string text;
-  std::string_view table = "?";
+  std::string_view table = "?";  // the name of no table
   for (const Field* field : list) {
     if (field->table != table) {
       const std::string head = field->table.empty() ? "at the top" : "[" + std::string(field->table) + "]";

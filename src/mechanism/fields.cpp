@@ -74,7 +74,7 @@ auto& member_of(DeclaredMechanism& mechanism) {
 struct Row {
   std::string_view name;  ///< "joint.length_mm"
   std::string_view symbol;
-  std::string_view fallback;  ///< "" without only_when: mandatory
+  std::string_view fallback;  ///< "": no default; the key is then mandatory, unless `only_when` is set
   std::string_view meaning;
   std::string_view only_when = {};
 };
@@ -299,16 +299,16 @@ void add_sheath(std::vector<Field>& table) {
     field.is_set = [](const DeclaredMechanism& m) { return m.sheath.is_there(); };
     table.push_back(std::move(field));
   };
-  constexpr std::string_view asked = "no sheath; required with any key of [sheath]";
+  constexpr std::string_view if_omitted = "no sheath; required with any key of [sheath]";
   add(number<sheath, &Sheath::length>({"sheath.length_mm", "", "",
                                        "length of each tendon's Bowden sheath from its pin to the motor; the sheath "
                                        "points straight down at the pin"},
                                       "mm", 1, 100000),
-      asked);
+      if_omitted);
   add(number<sheath, &Sheath::bend, degrees_as_read, radians>(
           {"sheath.bend_deg", "", "", "total bend of a sheath, ends included: 180 for a half turn of any radius"},
           "deg", 0, 3600),
-      asked);
+      if_omitted);
   add(number<sheath, &Sheath::mu>(
           {"sheath.friction", "", "0.08",
            "capstan coefficient between tendon and sheath: it reduces a tension by a factor e^(friction bend)"},
@@ -322,11 +322,11 @@ void add_sheath(std::vector<Field>& table) {
           {"sheath.exit_across_mm", "", "",
            "distance of the sheath exits at the motor to the left and right of the pulley's axis"},
           "mm", 0.1, 10000),
-      asked);
+      if_omitted);
   add(number<sheath, &Sheath::exit_above>(
           {"sheath.exit_above_mm", "", "", "height of the sheath exits at the motor above the pulley's axis"}, "mm", 1,
           10000),
-      asked);
+      if_omitted);
 }
 
 void add_spring(std::vector<Field>& table) {
@@ -348,10 +348,13 @@ void add_spring(std::vector<Field>& table) {
   table.back().is_set = has_spring;
 }
 
-double from_rpm(double rpm) { return radians(6.0 * rpm); }
-/// The number that from_rpm() converts to this speed, to the last bit if there is one.
+constexpr double k_deg_per_s = 6.0;  ///< of one revolution per minute
+
+double from_rpm(double rpm) { return radians(k_deg_per_s * rpm); }
+/// The number of revolutions per minute that from_rpm() converts to exactly `speed` (rad/s); the nearest one if there
+/// is none.
 double in_rpm(double speed) {
-  const double rpm = degrees_as_read(speed) / 6.0;
+  const double rpm = degrees_as_read(speed) / k_deg_per_s;
   for (const double near : {rpm, std::nextafter(rpm, 0.0), std::nextafter(rpm, HUGE_VAL)}) {
     if (from_rpm(near) == speed) return near;
   }
@@ -745,7 +748,7 @@ Field mean_load() {
   return identified(load);
 }
 
-/// An effect's parameters, those added to a declared number first.
+/// An effect's parameters in the order of their keys: first those that are added to a declared number.
 std::vector<EffectParameter> in_file_order(const Effect& effect) {
   std::vector<EffectParameter> parameters = effect.parameters;
   std::stable_partition(parameters.begin(), parameters.end(),
@@ -753,7 +756,7 @@ std::vector<EffectParameter> in_file_order(const Effect& effect) {
   return parameters;
 }
 
-/// Immediate effects first, then those that develop in time.
+/// Effects in the order of their keys: first immediate ones, then those that depend on time or temperature.
 std::vector<Effect> in_file_order(std::span<const Effect> all) {
   std::vector<Effect> ordered(all.begin(), all.end());
   std::stable_partition(ordered.begin(), ordered.end(),
@@ -847,7 +850,7 @@ void set_fallback(const Field& field, DeclaredMechanism& mechanism) {
     return;
   }
   if (field.kind == FieldKind::numbers || field.kind == FieldKind::texts) {
-    // Lists are empty or hold one text.
+    // A default list is empty or holds one text: [] or ["text"].
     if (text.size() > 2) field.texts(mechanism) = {std::string(text.substr(2, text.size() - 4))};
     return;
   }
@@ -867,8 +870,8 @@ std::span<const Field> fields() {
 }
 
 const FormerKey* find_former_key(std::string_view name) {
-  // Files from before the pins were separate. [identified] guide_down_mm moved the pins and the pulley's axis and has
-  // no successor.
+  // Earlier files had one key for both pins. Their identified.guide_down_mm moved the pins and the pulley's axis
+  // together; it has no successor.
   static constexpr FormerKey k_former = {"identified.guide_outward_mm",
                                          {"identified.guide1_outward_mm", "identified.guide2_outward_mm"}};
   return name == k_former.name ? &k_former : nullptr;

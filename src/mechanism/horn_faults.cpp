@@ -6,7 +6,7 @@
 namespace fusee {
 namespace {
 
-// A bore with fewer teeth centres and transmits poorly, and no servo has one.
+// A bore with fewer teeth neither centres the pulley nor transmits a torque well, and no servo has one.
 constexpr int k_min_teeth = 6;
 
 class Faults {
@@ -16,7 +16,7 @@ class Faults {
   std::vector<HornFault> all() {
     if (horn_.spline_teeth > 0) {
       check_spline();
-      check_alone();
+      check_spline_without_horn();
     } else {
       check_no_spline();
       check_bolts();
@@ -59,7 +59,7 @@ class Faults {
   }
 
   // A pulley is mounted either on a servo's shaft or on a horn.
-  void check_alone() {
+  void check_spline_without_horn() {
     const bool boss = horn_.boss_diameter > 0 || horn_.boss_height > 0;
     const bool bolts = horn_.bolt_count > 0 || horn_.bolt_circle > 0 || horn_.bolt_hole > 0;
     if (!boss && !bolts) return;

@@ -13,6 +13,7 @@ namespace {
 constexpr double k_home_error_deg = 0.01;
 constexpr std::size_t k_min_rows = 4;
 constexpr std::size_t k_max_problems = 20;
+constexpr double k_largest_theta_deg = 360;
 
 /// A number with a decimal point, or with a decimal comma where commas do not separate.
 bool parse_number(std::string_view written, double& value, bool decimal_comma) {
@@ -54,7 +55,7 @@ class PairTableReader {
   PairTableReader(const PairColumns& columns, const std::string& file, std::vector<Diagnostic>& problems)
       : columns_(columns), file_(file), problems_(problems) {}
 
-  /// `check` receives each row and the previous one, which may be null.
+  /// `check` receives this reader, the previous row (null for the first) and the row. It returns false to drop the row.
   template <typename Check>
   void read(std::string_view csv, Check check) {
     if (csv.substr(0, 3) == "\xEF\xBB\xBF") csv.remove_prefix(3);
@@ -77,16 +78,16 @@ class PairTableReader {
   }
 
   const std::vector<PairRow>& rows() const { return rows_; }
-  bool is_whole() const { return problems_.empty(); }
+  bool is_valid() const { return problems_.empty(); }
 
   void fail(int line, std::string message, std::string hint) {
     problems_.push_back({Severity::error, {file_, line, line > 0 ? 1 : 0}, std::move(message), std::move(hint)});
   }
 
-  void check_increasing(const char* column, double before, double here, int line, const char* hint) {
-    if (here > before) return;
+  void check_increasing(const char* column, double before, double value, int line, const char* hint) {
+    if (value > before) return;
     fail(line,
-         std::string(column) + " does not increase: " + shortest(here) + " deg after " + shortest(before) + " deg",
+         std::string(column) + " does not increase: " + shortest(value) + " deg after " + shortest(before) + " deg",
          hint);
   }
 
@@ -144,9 +145,9 @@ class PairTableReader {
 };
 
 /// Checks a row of θ(α). Returns false to drop the row; problems that keep the row are reported as well.
-bool is_law_row(PairTableReader& reader, const PairRow* before, const PairRow& row) {
-  constexpr double k_largest_deg = 3600;
-  if (std::abs(row.first) > k_largest_deg || std::abs(row.second) > 360) {
+bool check_law_row(PairTableReader& reader, const PairRow* before, const PairRow& row) {
+  constexpr double k_largest_alpha_deg = 3600;
+  if (std::abs(row.first) > k_largest_alpha_deg || std::abs(row.second) > k_largest_theta_deg) {
     reader.fail(row.line,
                 "an angle is too large: alpha " + rounded(row.first) + " deg, theta " + rounded(row.second) + " deg",
                 "angles are in degrees; alpha within +-3600, theta within +-360");
@@ -160,9 +161,10 @@ bool is_law_row(PairTableReader& reader, const PairRow* before, const PairRow& r
   return true;
 }
 
-bool is_torque_row(PairTableReader& reader, const PairRow* before, const PairRow& row) {
-  constexpr double k_largest_torque = 1e7;
-  if (std::abs(row.first) > 360 || std::abs(row.second) > k_largest_torque) {
+/// Checks a row of the wanted torque. Returns false to drop the row.
+bool check_torque_row(PairTableReader& reader, const PairRow* before, const PairRow& row) {
+  constexpr double k_largest_torque = 1e7;  // N·mm
+  if (std::abs(row.first) > k_largest_theta_deg || std::abs(row.second) > k_largest_torque) {
     reader.fail(row.line,
                 "a number is too large: theta " + rounded(row.first) + " deg, torque " + rounded(row.second) + " Nmm",
                 "theta is in degrees, within +-360; the torque in N mm, within +-10000000");
@@ -206,8 +208,8 @@ std::vector<LawRow> parse_law_table(std::string_view csv, const std::string& fil
                                     std::vector<Diagnostic>& problems) {
   std::vector<Diagnostic> found;
   PairTableReader reader(k_law_columns, file, found);
-  reader.read(csv, is_law_row);
-  if (reader.is_whole()) {
+  reader.read(csv, check_law_row);
+  if (reader.is_valid()) {
     reader.check_cover(joint, &PairRow::second);
     check_home(reader);
   }
@@ -222,8 +224,8 @@ std::vector<TorqueRow> parse_torque_table(std::string_view csv, const std::strin
                                           std::vector<Diagnostic>& problems) {
   std::vector<Diagnostic> found;
   PairTableReader reader(k_torque_columns, file, found);
-  reader.read(csv, is_torque_row);
-  if (reader.is_whole()) reader.check_cover(joint, &PairRow::first);
+  reader.read(csv, check_torque_row);
+  if (reader.is_valid()) reader.check_cover(joint, &PairRow::first);
   problems.insert(problems.end(), found.begin(), found.end());
   std::vector<TorqueRow> rows;
   rows.reserve(reader.rows().size());

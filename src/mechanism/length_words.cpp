@@ -38,7 +38,7 @@ std::vector<NumberInText> numbers_in(std::string_view text) {
   return found;
 }
 
-/// True for what follows "mm" if that is the whole unit: not mm², mm/N, mm per N.
+/// True if "mm" before this text is the whole unit: not mm², mm/N, mm per N.
 bool ends_unit(std::string_view rest) {
   constexpr std::array<std::string_view, 4> k_others{"/", "\xC2\xB7", "\xC2\xB2", "\xC2\xB3"};  // · ² ³
   const bool other = std::any_of(k_others.begin(), k_others.end(), [&](auto sign) { return rest.starts_with(sign); });
@@ -54,22 +54,23 @@ std::string_view gap_before_mm(std::string_view rest) {
   return {};
 }
 
-/// True for what stands between two lengths of one list.
+/// True for the text between two lengths of one list.
 bool is_list_separator(std::string_view between) {
-  constexpr std::string_view k_minus = "\xE2\x88\x92";  // of the second number
+  constexpr std::string_view k_minus = "\xE2\x88\x92";  // sign of the second number
   if (between.ends_with(k_minus)) between.remove_suffix(k_minus.size());
   constexpr std::array<std::string_view, 8> k_separators{" to ",  " \xC3\x97 ", " x ", " by ",
                                                          " and ", " or ",       ", ",  " \xE2\x80\xA6 "};  // × …
   return std::find(k_separators.begin(), k_separators.end(), between) != k_separators.end();
 }
 
-/// True before " in" (but not "in place of") and "°".
+/// True if the text after a number is " in" (but not "in place of") or "°".
 bool has_unit_of_its_own(std::string_view rest) {
   if (rest.starts_with("\xC2\xB0")) return true;
   return rest.starts_with(" in") && !rest.starts_with(" in place") && (rest.size() == 3 || !is_word_part(rest[3]));
 }
 
-/// True after "_mm = " and its kin, for a number without a unit of its own.
+/// True for the value in "pulley.r1_mm = 22", also after ≤, ≥, <= or >=. `before` and `rest`: the text before and after
+/// the number.
 bool is_value_of_key(std::string_view before, std::string_view rest) {
   if (has_unit_of_its_own(rest)) return false;
   if (before.ends_with('[')) before.remove_suffix(1);
@@ -88,13 +89,16 @@ void mark_lengths(std::string_view text, std::vector<NumberInText>& numbers) {
     NumberInText& number = numbers[i];
     const std::string_view before = text.substr(0, number.begin), rest = text.substr(number.end);
     const std::string_view between = i == 0 ? "" : text.substr(numbers[i - 1].end, number.begin - numbers[i - 1].end);
-    const bool follows = i > 0 && numbers[i - 1].is_length &&
-                         (between == " or less (now " || between == " or more (now " || between == " (now " ||
-                          between == " (now automatic, " ||
-                          (between == ", " && before.substr(0, numbers[i - 1].begin).ends_with("_mm = [")));
+    const bool is_present_value = between == " or less (now " || between == " or more (now " || between == " (now " ||
+                                  between == " (now automatic, ";
+    const bool is_second_of_pair =
+        i > 0 && between == ", " && before.substr(0, numbers[i - 1].begin).ends_with("_mm = [");
+    // "pulley.r1_mm = 22 or less (now 25)", "joint.attachment1_mm = [3, 40]": both numbers have the key's unit.
+    const bool follows = i > 0 && numbers[i - 1].is_length && (is_present_value || is_second_of_pair);
     const bool is_quoted = before.ends_with('"');  // a text of the file or an example of one
     number.is_length = !is_quoted && (!gap_before_mm(rest).empty() || is_value_of_key(before, rest) || follows);
   }
+  // In a list such as "20 × 30 mm", only the last number has the unit.
   for (std::size_t i = numbers.size(); i-- > 1;) {
     const std::string_view between = text.substr(numbers[i - 1].end, numbers[i].begin - numbers[i - 1].end);
     if (numbers[i].is_length && is_list_separator(between)) numbers[i - 1].is_length = true;

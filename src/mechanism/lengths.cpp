@@ -89,7 +89,7 @@ std::string_view take_number(std::string_view& text) {
   return taken;
 }
 
-/// Whole numbers below a million, so that fractions of them are exact enough.
+/// A whole number below a million, so that the fraction of two of them is exact enough.
 std::optional<int> whole(std::string_view text) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -101,26 +101,27 @@ std::optional<int> whole(std::string_view text) {
 std::optional<Decimal> take_mixed_number(std::string_view& text) {
   const std::string_view first = take_number(text);
   if (first.empty()) return std::nullopt;
-  std::optional<int> above = whole(first), wholes = 0;
+  std::optional<int> numerator = whole(first), whole_part = 0;
   std::string_view rest = text;
   if (!rest.starts_with('/')) {
-    wholes = above;
+    whole_part = numerator;
     if (rest.starts_with('-'))
       rest.remove_prefix(1);
     else
       skip_blanks(rest);
     const std::string_view second = take_number(rest);
-    above = whole(second);
+    numerator = whole(second);
     if (second.empty() || !rest.starts_with('/')) return decimal_of(first);
   }
   rest.remove_prefix(1);
-  const std::optional<int> below = whole(take_number(rest));
-  if (!wholes || !above || !below || *below == 0) return std::nullopt;
+  const std::optional<int> denominator = whole(take_number(rest));
+  if (!whole_part || !numerator || !denominator || *denominator == 0) return std::nullopt;
   text = rest;
-  return decimal_of(shortest(*wholes + static_cast<double>(*above) / *below));
+  return decimal_of(shortest(*whole_part + static_cast<double>(*numerator) / *denominator));
 }
 
-/// A text with at most `digits` significant digits that reads back as `mm`; "" if there is none.
+/// The shortest text of `value`, with at most `digits` significant digits, that `read` converts to exactly `mm`; "" if
+/// there is none.
 template <typename Read>
 std::string text_of_digits(double value, double mm, int digits, Read read) {
   for (int count = 1; count <= digits; ++count) {
@@ -130,9 +131,8 @@ std::string text_of_digits(double value, double mm, int digits, Read read) {
   return {};
 }
 
-/// Enough digits for every length that is made or measured.
-constexpr int k_short = 6;
-constexpr int k_all_digits = 17;
+constexpr int k_short_digits = 6;  ///< enough for every length that is made or measured
+constexpr int k_all_digits = 17;   ///< enough for every double
 
 }  // namespace
 
@@ -181,8 +181,9 @@ std::string length_value_text(double mm, LengthUnit unit) {
   if (unit == LengthUnit::mm || !std::isfinite(mm)) return shortest(mm);
   const double inches = from_mm(mm, unit);
   const auto as_number = [](const std::string& text) { return to_mm(number_in(text), LengthUnit::inch); };
-  if (const std::string few = text_of_digits(inches, mm, k_short, as_number); !few.empty()) return few;
-  if (const std::string few = text_of_digits(mm, mm, k_short, number_in); !few.empty()) return "\"" + few + " mm\"";
+  if (const std::string few = text_of_digits(inches, mm, k_short_digits, as_number); !few.empty()) return few;
+  if (const std::string few = text_of_digits(mm, mm, k_short_digits, number_in); !few.empty())
+    return "\"" + few + " mm\"";
   if (const std::string all = text_of_digits(inches, mm, k_all_digits, as_number); !all.empty()) return all;
   return "\"" + shortest(mm) + " mm\"";  // no number of inches reads back as this length
 }

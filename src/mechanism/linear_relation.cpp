@@ -37,18 +37,20 @@ LinearExpression scaled(const LinearExpression& expression, double factor) {
   return product;
 }
 
-/// A relation between lengths in the file's unit as the same relation in mm. A tie keeps the factor 1 of its key.
-void take_to_mm(LinearRelation& relation, LengthUnit units) {
+/// Converts a relation in the file's unit to mm. It is a relation between lengths if its left side names a length; if
+/// the left side names no key, the right side decides. Its lengths keep their factors, so that the key of a tie keeps
+/// the factor 1. Constants and the factors of other keys are converted.
+void convert_to_mm(LinearRelation& relation, LengthUnit units) {
   const auto is_of_length = [](const LinearTerm& term) { return is_length(term.key); };
   const std::vector<LinearTerm>& left = relation.left.terms;
-  const bool of_lengths =
+  const bool is_between_lengths =
       std::any_of(left.begin(), left.end(), is_of_length) ||
       (left.empty() && std::any_of(relation.right.terms.begin(), relation.right.terms.end(), is_of_length));
   for (LinearExpression* side : {&relation.left, &relation.right}) {
-    if (of_lengths) side->constant = to_mm(side->constant, units);
+    if (is_between_lengths) side->constant = to_mm(side->constant, units);
     for (LinearTerm& term : side->terms) {
-      if (of_lengths && !is_of_length(term)) term.factor = to_mm(term.factor, units);
-      if (!of_lengths && is_of_length(term)) term.factor = from_mm(term.factor, units);
+      if (is_between_lengths && !is_of_length(term)) term.factor = to_mm(term.factor, units);
+      if (!is_between_lengths && is_of_length(term)) term.factor = from_mm(term.factor, units);
     }
   }
 }
@@ -201,7 +203,7 @@ bool depends_on_units(std::string_view text) {
 
 ParsedRelation parse_relation(std::string_view text, LengthUnit units) {
   ParsedRelation parsed = RelationParser(text).parse();
-  if (units != LengthUnit::mm) take_to_mm(parsed.relation, units);
+  if (units != LengthUnit::mm) convert_to_mm(parsed.relation, units);
   return parsed;
 }
 

@@ -44,7 +44,8 @@ std::optional<Place> too_deep_place(std::string_view toml, const std::string& fi
     }
     if (c == '[' || c == '{') ++brackets;
     if ((c == ']' || c == '}') && brackets > 0) --brackets;
-    dots = c == '.' ? dots + 1 : (c == '=' || c == ',' || c == '\n' || c == '[' || c == '{') ? 0 : dots;
+    if (c == '.') ++dots;
+    if (c == '=' || c == ',' || c == '\n' || c == '[' || c == '{') dots = 0;
     if (brackets > k_max_brackets || dots > k_max_dots) {
       return Place{file, line, static_cast<int>(i - line_begin) + 1};
     }

@@ -116,7 +116,7 @@ class MechanismReader {
   void apply(const Setting& setting);
   toml::table setting_value(const Setting& setting, const std::string& file);
   // Step 3
-  void take_points();
+  void take_pair_settings();
   void take(const Field& field, const Entry& entry);
   void take_number(const Field& field, const Entry& entry, int end, const toml::node& node);
   void fail_number(const Field& field, const Place& place, const toml::node& node);
@@ -142,7 +142,7 @@ class MechanismReader {
   void check_motor();
   void check_optimize();
   void check_prior();
-  void load_table();
+  void load_law_table();
 
   bool has(const std::string& key) const { return entries_.count(key) > 0; }
   bool has_table(const std::string& table) const;
@@ -159,12 +159,12 @@ class MechanismReader {
   std::vector<std::unique_ptr<toml::table>> setting_values_;  ///< keeps the nodes of --set alive
   std::map<std::string, Entry> entries_;                      ///< by dotted name
   /// --set of one number of a pair, applied after the file's value or its default.
-  std::vector<std::pair<NumberKey, Entry>> points_;
+  std::vector<std::pair<NumberKey, Entry>> pair_settings_;
   std::map<std::string, Place> tables_;  ///< tables of the file
   std::vector<Diagnostic> errors_;
   std::vector<Diagnostic> table_errors_;  ///< errors of the CSV, reported after those of the file
   std::vector<Diagnostic> warnings_;
-  std::map<std::string, bool> good_;  ///< fields that were read; false: with an error
+  std::map<std::string, bool> good_;  ///< by dotted name of a key that was read; false: with an error
   DeclaredMechanism mechanism_;
 };
 
@@ -321,7 +321,8 @@ void MechanismReader::apply(const Setting& setting) {
   const std::size_t dot = setting.key.find('.');
   if (const auto one = find_number_key(setting.key); one && one->field->kind != FieldKind::number) {
     setting_values_.push_back(std::make_unique<toml::table>(setting_value(setting, file)));
-    if (const toml::node* node = setting_values_.back()->get("value")) points_.push_back({*one, {node, {file, 0, 0}}});
+    if (const toml::node* node = setting_values_.back()->get("value"))
+      pair_settings_.push_back({*one, {node, {file, 0, 0}}});
     return;
   }
   if (find_field(setting.key) == nullptr) {
@@ -362,10 +363,12 @@ void MechanismReader::take_number(const Field& field, const Entry& entry, int en
   const Place place = entry.place.line > 0 ? place_of(node.source(), entry.place.file) : entry.place;
   const std::string allowed = "allowed: " + allowed_text(field, mechanism_.units);
   if (!value) return fail_number(field, place, node);
-  const bool whole = !field.whole || std::trunc(*value) == *value;
-  if (!std::isfinite(*value) || !whole)
-    return fail(place, field.name() + " must be a " + (whole ? "finite" : "whole") + " number, not " + shortest(*value),
-                allowed);
+  const bool whole_if_required = !field.whole || std::trunc(*value) == *value;
+  if (!std::isfinite(*value) || !whole_if_required)
+    return fail(
+        place,
+        field.name() + " must be a " + (whole_if_required ? "finite" : "whole") + " number, not " + shortest(*value),
+        allowed);
   const std::string shown = field.name() + " = " + as_written(field, node, mechanism_.units);
   if (*value < field.least || *value > field.most) return fail(place, shown + " is out of range", allowed);
   if (is_declared_length(field) && *value > 0 && *value < k_min_length) {
@@ -377,7 +380,7 @@ void MechanismReader::take_number(const Field& field, const Entry& entry, int en
   good_[field.name()] = true;
 }
 
-/// A value that is no number. A text of a length may lack its unit, or have one that is not known.
+/// Reports a value that is no number. A text of a length may lack its unit, or have an unknown one.
 void MechanismReader::fail_number(const Field& field, const Place& place, const toml::node& node) {
   const std::string kind = kind_text(field, mechanism_.units);
   std::string hint = "allowed: " + allowed_text(field, mechanism_.units);
@@ -503,14 +506,14 @@ void MechanismReader::take_texts(const Field& field, const Entry& entry) {
   good_[field.name()] = errors == errors_.size();
 }
 
-void MechanismReader::take_points() {
-  for (const auto& [key, entry] : points_) {
+void MechanismReader::take_pair_settings() {
+  for (const auto& [key, entry] : pair_settings_) {
     // One number completes an omitted point, which has a default; an omitted range stays missing.
     if (key.field->kind == FieldKind::range && !entries_.contains(key.field->name())) continue;
     take_number(*key.field, entry, key.end, *entry.node);
     entries_.try_emplace(key.field->name(), entry);
   }
-  for (const auto& [key, entry] : points_) {
+  for (const auto& [key, entry] : pair_settings_) {
     if (key.field->kind == FieldKind::range && entries_.contains(key.field->name()) && good_[key.field->name()])
       demand_home(*key.field, entry, key.field->get(mechanism_, 0), key.field->get(mechanism_, 1));
   }
@@ -545,11 +548,13 @@ bool MechanismReader::is_needed(const Field& field) const {
 }
 
 void MechanismReader::report_missing() {
-  const bool other_joint = has_table("transmission");
+  const bool is_by_ratio = has_table("transmission");
   for (const Field& field : fields()) {
-    const bool belongs_to_other = field.table == "transmission";
-    if (!field.table.empty() && belongs_to_other != other_joint) continue;
-    const bool conditional = !field.only_when.empty() && field.fallback.empty() && is_needed(field) && !other_joint;
+    // Only [transmission] has mandatory keys for a joint declared by a ratio, only other tables for a joint with
+    // tendons.
+    const bool is_of_ratio = field.table == "transmission";
+    if (!field.table.empty() && is_of_ratio != is_by_ratio) continue;
+    const bool conditional = !field.only_when.empty() && field.fallback.empty() && is_needed(field) && !is_by_ratio;
     if (!(field.required || conditional) || good_.count(field.name()) > 0) continue;
     const std::string where =
         field.table.empty() ? "at the top of the file" : "under [" + std::string(field.table) + "]";
@@ -640,7 +645,7 @@ void MechanismReader::check_method() {
 void MechanismReader::check_horn() {
   const Body& body = mechanism_.body;
   if (body.bore != Bore::horn || !good_["body.bore"]) return;
-  const auto described = std::find_if(fields().begin(), fields().end(), [this](const Field& field) {
+  const auto own_horn_key = std::find_if(fields().begin(), fields().end(), [this](const Field& field) {
     return field.table == "horn" && has(field.name()) && (!good_[field.name()] || field.get(mechanism_, 0) != 0);
   });
   if (body.horn != k_own_horn) {
@@ -652,14 +657,14 @@ void MechanismReader::check_horn() {
            (nearest.empty() ? "" : "did you mean \"" + nearest + "\"? ") +
                std::string("fusee explain body.horn lists the horns; [horn] describes one of your own"));
     }
-    if (described != fields().end()) {
-      fail(entries_[described->name()].place,
-           described->name() + " describes a horn, and body.horn = " + in_quotes(body.horn) + " names another",
+    if (own_horn_key != fields().end()) {
+      fail(entries_[own_horn_key->name()].place,
+           own_horn_key->name() + " describes a horn, and body.horn = " + in_quotes(body.horn) + " names another",
            "leave out either body.horn or [horn]");
     }
     return;
   }
-  if (described == fields().end()) {
+  if (own_horn_key == fields().end()) {
     return fail(entries_["body.bore"].place, "body.bore = \"horn\" requires a horn",
                 "name one with body.horn (fusee explain body.horn lists them), or describe yours under [horn]");
   }
@@ -673,7 +678,7 @@ void MechanismReader::check_horn() {
   }
 }
 
-/// The speed has two keys, and a limit must exist for what is compared with it.
+/// The speed has two keys, of which one may be given. A quantity that is to be compared requires a known limit.
 void MechanismReader::check_motor() {
   const bool all_read = std::all_of(fields().begin(), fields().end(), [this](const Field& field) {
     return field.table != "motor" || !has(field.name()) || good_[field.name()];
@@ -744,7 +749,7 @@ void MechanismReader::check_prior() {
   }
 }
 
-void MechanismReader::load_table() {
+void MechanismReader::load_law_table() {
   PulleyDrive& pulley = mechanism_.pulley;
   if (pulley.law != Law::table && pulley.law != Law::torque) return;
   const bool torque = pulley.law == Law::torque;
@@ -823,7 +828,7 @@ DeclaredMechanism MechanismReader::read(std::string_view text, const std::vector
     const auto entry = entries_.find(field.name());
     if (entry != entries_.end()) take(field, entry->second);
   }
-  take_points();
+  take_pair_settings();
   take_shaft();
   report_missing();
   check_transmission();
@@ -837,7 +842,7 @@ DeclaredMechanism MechanismReader::read(std::string_view text, const std::vector
   check_motor();
   check_optimize();
   check_prior();
-  load_table();
+  load_law_table();
   finish(warnings);
   return mechanism_;
 }

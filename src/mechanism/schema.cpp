@@ -20,9 +20,10 @@ Json closed_object(std::string_view description) {
 /// TOML's numbers, strings and booleans are valid JSON.
 Json fallback_json(const Field& field) { return parse_json(field.fallback); }
 
-/// A number, or for lengths also a text with its unit. The bounds of lengths depend on `units`: length_bounds().
-Json number_schema(const Field& field, bool length) {
-  if (!length) return {{"type", field.whole ? "integer" : "number"}, {"minimum", field.least}, {"maximum", field.most}};
+/// A number; with `may_be_length` also a text with its unit. The bounds of lengths depend on `units`: length_bounds().
+Json number_schema(const Field& field, bool may_be_length) {
+  if (!may_be_length)
+    return {{"type", field.whole ? "integer" : "number"}, {"minimum", field.least}, {"maximum", field.most}};
   constexpr const char* k_text =
       "^ *[-+]?([0-9.]+|([0-9]+[- ] *)?[0-9]+/[0-9]+)(e[-+]?[0-9]+)? *"
       "(mm|cm|m|um|\xC2\xB5m|in\\.?|inch|inches|\"|\xE2\x80\xB3|thou) *$";
@@ -77,7 +78,8 @@ Json field_schema(const Field& field) {
       json["type"] = "boolean";
       break;
     case FieldKind::numbers:
-      json.update({{"type", "array"}, {"items", field.table == "optimize" ? number_schema(field, true) : number}});
+      json.update({{"type", "array"},
+                   {"items", field.table == "optimize" ? number_schema(field, /*may_be_length=*/true) : number}});
       break;
     case FieldKind::texts: {
       Json one = {{"type", "string"}};

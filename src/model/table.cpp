@@ -62,7 +62,7 @@ float read_at(const std::vector<float>& entries, float value, float first, float
 }  // namespace
 
 double MotorUnit::of(double alpha) const { return zero + alpha / k_two_pi * per_turn; }
-double MotorUnit::alpha(double shown) const { return (shown - zero) / per_turn * k_two_pi; }
+double MotorUnit::alpha(double reading) const { return (reading - zero) / per_turn * k_two_pi; }
 
 float interpolated(const std::vector<float>& table, float at) {
   const auto last = static_cast<float>(table.size() - 1);

@@ -151,7 +151,7 @@ void begin(Evolution& evolution, GenerationEvaluator& evaluator, const GeneticOp
 Generation describe_generation(unsigned number, const Evolution& evolution, Objective objective, double best_before) {
   Generation generation;
   generation.number = number;
-  const double sign = info(objective).largest ? -1.0 : 1.0;
+  const double sign = info(objective).is_maximized ? -1.0 : 1.0;
   double sum = 0, best = sign * best_before;
   long possible = 0;
   for (const auto& costs : evolution.costs()) {
@@ -176,7 +176,7 @@ GeneticResult genetic_optimum(const Problem& problem, Objective objective, const
   GenerationEvaluator evaluator(problem, {objective}, options, context);
   const auto evolution = evolution_of(evaluator, EvolutionKind::genetic, options.seed);
   GeneticResult result;
-  double best = info(objective).largest ? -k_no_value : k_no_value;
+  double best = info(objective).is_maximized ? -k_no_value : k_no_value;
   try {
     begin(*evolution, evaluator, options);
     for (unsigned number = 0; number <= options.generations; ++number) {
@@ -228,7 +228,7 @@ ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options,
     if (!(costs[i][0] < k_penalty)) continue;
     FrontPoint point{designs[i], {}};
     for (std::size_t k = 0; k < costs[i].size(); ++k)
-      point.values.push_back(info(problem.objectives[k]).largest ? -costs[i][k] : costs[i][k]);
+      point.values.push_back(info(problem.objectives[k]).is_maximized ? -costs[i][k] : costs[i][k]);
     result.front.push_back(std::move(point));
   }
   std::sort(result.front.begin(), result.front.end(), [](const FrontPoint& a, const FrontPoint& b) {

@@ -170,7 +170,7 @@ Objective find_objective(std::string_view name) {
 
 double Evaluation::cost(Objective objective) const {
   if (!possible) return k_impossible;
-  return info(objective).largest ? -value : value;
+  return info(objective).is_maximized ? -value : value;
 }
 
 FileNumbers<double> file_numbers(const Mechanism& m) {

@@ -398,10 +398,10 @@ kit::TendonHeights tendon_heights(const formats::Product& product) {
   heights.ends = {laid.z1, laid.z2};
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
     const double end = heights.ends.at(i);
-    heights.drum.see(end);
+    heights.drum.include(end);
     kit::TendonHeights::Span& guide = heights.guides.at(i);
     if (laid.collar) {
-      guide.see(end);
+      guide.include(end);
       continue;
     }
     const transmission::Side side = i == 0 ? transmission::Side::left : transmission::Side::right;
@@ -412,10 +412,11 @@ kit::TendonHeights tendon_heights(const formats::Product& product) {
       const transmission::TransmissionPoint& at = product.synthesis.stroke.at(k);
       const transmission::TendonPoint& tendon = i == 0 ? at.t1 : at.t2;
       const double rise = lies.direction * elementary::tan(stroke[k].slope);
-      guide.see(end + rise * tendon.free_upper);
-      guide.see(end + rise * (tendon.free_upper + rho * tendon.wrap));
-      heights.drum.see(end + rise * place.drum *
-                                 transmission::upper_span(place, transmission::mirror_sign(side) * at.theta).on_drum);
+      guide.include(end + rise * tendon.free_upper);
+      guide.include(end + rise * (tendon.free_upper + rho * tendon.wrap));
+      heights.drum.include(end +
+                           rise * place.drum *
+                               transmission::upper_span(place, transmission::mirror_sign(side) * at.theta).on_drum);
     }
   }
   return heights;

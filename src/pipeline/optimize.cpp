@@ -90,7 +90,7 @@ const optimize::FrontPoint& balanced_point(const std::vector<optimize::FrontPoin
                                            const std::vector<optimize::Objective>& objectives) {
   std::vector<double> distances(front.size(), 0.0);
   for (std::size_t k = 0; k < objectives.size(); ++k) {
-    const double sign = optimize::info(objectives[k]).largest ? -1.0 : 1.0;
+    const double sign = optimize::info(objectives[k]).is_maximized ? -1.0 : 1.0;
     double low = 1e300, high = -1e300;
     for (const optimize::FrontPoint& point : front)
       low = std::min(low, sign * point.values[k]), high = std::max(high, sign * point.values[k]);

@@ -93,7 +93,7 @@ class Planner {
     for (const Cause& cause : signatures_.causes()) {
       for (const fusee::EffectParameter* number : cause.numbers) {
         if (number->by_hand.readings == nullptr) continue;
-        for (const CaliperReading& reading : number->by_hand.readings(declared)) {
+        for (const ManualReading& reading : number->by_hand.readings(declared)) {
           fusee::EffectParameter read = *number;
           read.by_hand.uncertainty = reading.uncertainty;
           start_ = start_.with(signatures_.of(read));

@@ -83,7 +83,7 @@ void Signatures::add(const Effect& effect) {
 std::string Signatures::why_not(const Effect& effect) const {
   if (effect.starts_in_time) return "it happens once, at any time: " + effect.separating_run;
   if (effect.needs.temperature) return "it follows the temperature: " + effect.separating_run;
-  if (effect.needs.full_turn && std::abs(bench_.to - bench_.from) <= k_full_turn)
+  if (effect.needs.long_stroke && std::abs(bench_.to - bench_.from) <= k_most_linear_range)
     return "the motor does not turn far enough to show what comes back once a turn";
   if (effect.needs.load && bench_.largest_load() == 0) return "no load is planned";
   return "";

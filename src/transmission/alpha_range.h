@@ -20,8 +20,9 @@ inline std::vector<double> alphas_over_range(const Transmission& law, int steps)
 inline std::vector<TransmissionPoint> stroke_over_range(const Transmission& transmission, int steps) {
   std::vector<double> alphas = alphas_over_range(transmission, steps);
   // Home is a row of its own, unless a row equals it up to rounding.
-  const auto after = std::lower_bound(alphas.begin(), alphas.end(), -1e-9);
-  if (after != alphas.end() && *after < 1e-9) {
+  constexpr double k_rounding = 1e-9;  // rad
+  const auto after = std::lower_bound(alphas.begin(), alphas.end(), -k_rounding);
+  if (after != alphas.end() && *after < k_rounding) {
     *after = 0.0;
   } else {
     alphas.insert(after, 0.0);

@@ -6,10 +6,11 @@
 namespace fusee::transmission {
 namespace {
 
-/// Upper bound of the bearing's share of the tension. Above it the idler holds like a fixed pin; valid files stay far
-/// below.
+/// Upper bound of ε, the bearing's share of the tension. Near 1 the idler would hold any ratio of tensions; valid files
+/// stay far below.
 constexpr double k_max_loss = 0.999;
 
+/// ε of the equation below.
 double loss(double turning, double wrap) {
   return std::min(k_max_loss, turning * elementary::sin(0.5 * std::max(0.0, wrap)));
 }
@@ -35,8 +36,8 @@ GuideFriction guide_friction(const Mechanism& mechanism) {
   return {0, guides.bearing_friction * guides.bearing_radius / mechanism.guide_pitch_radius(), true};
 }
 
-// A bent sheath deflects its tendon like pins do. By its total bend β alone, independent of bend positions and radii,
-// T2/T1 = e^{μβ} [7]. The tension of the enclosed tendon compresses it from end to end.
+// A bent sheath deflects its tendon like pins do: T2/T1 = e^{μβ} [7]. The ratio depends on the total bend β alone, not
+// on the positions and radii of the bends. The tension of the enclosed tendon compresses the sheath from end to end.
 SheathLoad sheath_load(const Mechanism& mechanism) {
   const Sheath& sheath = mechanism.sheath;
   if (!sheath.is_there()) return {};

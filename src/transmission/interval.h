@@ -2,8 +2,8 @@
 /// Internal: interval arithmetic that encloses the true value under any rounding, with first derivatives.
 ///
 /// Boost.Interval's four operations round outward while a RoundingUp exists, and are wrong without one. Elementary
-/// functions have errors below 2 units in the last place in any rounding mode (tests/base/elementary_test.cpp). Four are
-/// assumed here.
+/// functions have errors below 2 units in the last place in any rounding mode (tests/base/elementary_test.cpp). Four
+/// are assumed here.
 #pragma once
 
 #include <algorithm>
@@ -27,6 +27,7 @@ using RoundingUp = RoundedInterval::traits_type::rounding;
 inline double rounding_margin(double value) {
   return 4.0 * std::numeric_limits<double>::epsilon() * std::abs(value) + std::numeric_limits<double>::min();
 }
+/// Bounds of a rounded value. With upward rounding, the negated difference in below() is rounded downwards.
 inline double below(double value) { return -(rounding_margin(value) - value); }
 inline double above(double value) { return value + rounding_margin(value); }
 
@@ -55,7 +56,7 @@ inline Interval sin(const Interval& x) {
   const Interval low = {below(elementary::sin(x.lower())), above(elementary::sin(x.lower()))};
   const Interval high = {below(elementary::sin(x.upper())), above(elementary::sin(x.upper()))};
   Interval hull = boost::numeric::hull(low, high);
-  const double slack = 1e-9;
+  const double slack = 1e-9;  // rad, covers the rounding of the extrema's places
   for (const double top : {-1.5 * k_pi, 0.5 * k_pi, 2.5 * k_pi}) {
     if (x.lower() <= top + slack && x.upper() >= top - slack) hull = boost::numeric::hull(hull, Interval(1.0));
   }
@@ -70,6 +71,7 @@ inline Interval larger(const Interval& a, const Interval& b) {
   return {std::max(a.lower(), b.lower()), std::max(a.upper(), b.upper())};
 }
 
+/// The part of x above 0. Its lower end stays above 0, so that it may be a divisor.
 inline Interval positive_part(const Interval& x, Domain& domain) {
   if (!(x.upper() > 0)) domain.possible = false;
   if (x.lower() > 0) return x;
@@ -94,7 +96,7 @@ inline void demand_not_negative(const Interval& x, Domain& domain) {
 
 /// A value over a box and its derivatives by the box's variables, all as intervals.
 struct Jet {
-  static constexpr int k_most = 8;
+  static constexpr int k_most = 8;  ///< most variables of a box
   Interval value = 0.0;
   std::array<Interval, k_most> slope{};
   int count = 0;  ///< slopes in use; 0: a constant

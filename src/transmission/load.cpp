@@ -18,9 +18,9 @@ double load_torque(const Mechanism& mechanism, double theta) {
 TorqueOverTheta law_load_torque(const Mechanism& mechanism, double theta) {
   const JointLoad carried = mechanism.law_load.value_or(JointLoad{mechanism.joint.R, mechanism.load, mechanism.spring});
   const Load& load = carried.load;
-  const double weight = weight_moment(load), sine = weight * elementary::sin(load.tilt - theta);
-  return {load.tip_force * carried.lever + load.torque + sine + carried.spring.torque(theta),
-          carried.spring.stiffness - weight * elementary::cos(load.tilt - theta), -sine};
+  const double weight = weight_moment(load), weight_torque = weight * elementary::sin(load.tilt - theta);
+  return {load.tip_force * carried.lever + load.torque + weight_torque + carried.spring.torque(theta),
+          carried.spring.stiffness - weight * elementary::cos(load.tilt - theta), -weight_torque};
 }
 
 void keep_law(Mechanism& mechanism) {

@@ -17,7 +17,7 @@ double chebyshev_sum(const std::vector<double>& coefficients, double t) {
   return coefficients.empty() ? 0.0 : coefficients[0] + t * next - after;
 }
 
-/// d_{k−1} = d_{k+1} + 2k c_k, times dt/dx.
+/// Coefficients of the derivative by x: d_{k−1} = d_{k+1} + 2k c_k, times `scale` = dt/dx.
 std::vector<double> derivative_of(const std::vector<double>& c, double scale) {
   const std::size_t n = c.size();
   std::vector<double> d(n < 2 ? 1 : n - 1, 0.0);
@@ -42,6 +42,7 @@ std::vector<double> ChebyshevSeries::nodes(double low, double high, int count) {
 ChebyshevSeries::ChebyshevSeries(double low, double high, const std::vector<double>& values, double least)
     : low_(low), high_(high) {
   const int count = static_cast<int>(values.size());
+  // Discrete cosine transform of the values at the nodes.
   std::vector<double>& c = coefficients_[0];
   for (int k = 0; k < count; ++k) {
     double sum = 0;

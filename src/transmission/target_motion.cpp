@@ -15,7 +15,9 @@ TargetMotion::TargetMotion(const Mechanism& declared) {
 }
 
 bool TargetMotion::reaches(double alpha) const {
-  return !law_ || (alpha > law_->alpha_min() - 0.1 * alpha_range() && alpha < law_->alpha_max() + 0.1 * alpha_range());
+  if (!law_) return true;
+  const double margin = 0.1 * alpha_range();
+  return alpha > law_->alpha_min() - margin && alpha < law_->alpha_max() + margin;
 }
 
 double TargetMotion::theta_extrapolated(double alpha) const {

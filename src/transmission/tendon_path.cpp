@@ -9,7 +9,8 @@ namespace fusee::transmission {
 
 namespace {
 
-PinPlace seen_from_C(const Mechanism& mechanism, Side side, double rho) {
+/// Geometry of a tendon that ends at C, without drum and sheath.
+PinPlace plain_pin_place(const Mechanism& mechanism, Side side, double rho) {
   const Guides& guides = mechanism.guides;
   if (side == Side::left) return {guides.EB, guides.OE, mechanism.pulley.EF, rho, mechanism.joint.R};
   return {guides.ED, guides.OE + guides.D_below_B, mechanism.pulley.EF - guides.D_below_B, rho, mechanism.joint.R};
@@ -18,11 +19,11 @@ PinPlace seen_from_C(const Mechanism& mechanism, Side side, double rho) {
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr UpperSpan k_no_span = {k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan};
 
-/// The line that touches drum and pin, both on its inner side. It passes the drum's centre E at ρ0 and the pin's centre
-/// at ρ: (P − E)·n = ρ0 − ρ.
+/// The line that touches drum and pin, both on its inner side. Its distance from the drum's centre E is ρ0, from the
+/// pin's centre P it is ρ: (P − E)·n = ρ0 − ρ.
 struct DrumLine {
-  double normal = 0;
-  double length = 0;  ///< from tangent point to tangent point
+  double normal = 0;  ///< direction of the outward normal, rad
+  double length = 0;  ///< from tangent point to tangent point, mm
 };
 
 std::optional<DrumLine> drum_line(const PinPlace& place, const Vec2& centre) {
@@ -36,42 +37,45 @@ std::optional<DrumLine> drum_line(const PinPlace& place, const Vec2& centre) {
 
 /// The tendon's end relative to the drum's centre.
 struct DrumOffset {
-  double away = 0;
-  double twist = 0;  ///< at home, clockwise from OC, rad
+  double away = 0;   ///< distance, mm
+  double twist = 0;  ///< direction at home, clockwise from OC, rad
 };
 
 DrumOffset end_offset_from_drum(const PinPlace& place) {
   if (place.drum_offset == 0) return {place.R, place.twist};
   const double ahead = place.drum_twist - place.twist;
-  const Vec2 seen(-place.drum_offset * elementary::sin(ahead), place.R - place.drum_offset * elementary::cos(ahead));
-  return {std::max(place.drum, seen.norm()), place.twist + elementary::atan2(seen.x(), seen.y())};
+  // In the frame at O whose y axis points to the end.
+  const Vec2 offset(-place.drum_offset * elementary::sin(ahead), place.R - place.drum_offset * elementary::cos(ahead));
+  return {std::max(place.drum, offset.norm()), place.twist + elementary::atan2(offset.x(), offset.y())};
 }
 
 /// Angle between the direction of the tendon's end and the normal of its tangent to the drum.
 double opening(const PinPlace& place, const DrumOffset& end) { return elementary::acos(place.drum / end.away); }
 
-double wound_on(const PinPlace& place, const DrumOffset& end, const DrumLine& line, double theta) {
+/// Wrap angle on the drum, rad; negative: the tendon is clear of the drum.
+double wrap_on_drum(const PinPlace& place, const DrumOffset& end, const DrumLine& line, double theta) {
   const double turned = end.twist == 0 ? theta : theta + end.twist;
   return 0.5 * k_pi - turned - opening(place, end) - line.normal;
 }
 
-// Tendon on a drum whose centre E moves round O at the distance e = OE. (P − E)·n = ρ0 − ρ is the free tendon's (C −
-// P)·n = ρ (free_span) with E for C and ρ − ρ0 for ρ. The derivatives of normal and line are therefore those of
-// free_span(), with k = e sin(θ + ε + ψ) for the arm:
+// Tendon on a drum whose centre E moves round O at the distance e = OE; ε is drum_twist, ψ the direction of n and f the
+// length of the line from drum to pin. (P − E)·n = ρ0 − ρ is the free tendon's (C − P)·n = ρ (free_span) with E for C
+// and ρ − ρ0 for ρ. The derivatives of normal and line are therefore those of free_span(), with k = e sin(θ + ε + ψ)
+// for the arm:
 //
 //   m = ρ0 + k      a = e cos(θ + ε + ψ)      ψ' = −a/f      ω = 1 + ψ'      f' = −k − (ρ − ρ0)ψ'
 //   m' = aω         ψ'' = (kω − ψ'f')/f       m'' = −kω² + aψ''
 //
 // The wrap on the drum is π/2 − θ − opening − ψ, so the length satisfies L' = ρ0 (−1 − ψ') + f' + ρψ' = −m. For a drum
 // about O, e = 0: the line at the pin stays fixed and the drum winds by the joint rotation.
-UpperSpan span_on_drum(const PinPlace& place, const DrumOffset& end, const DrumLine& line, double wound, double theta) {
+UpperSpan span_on_drum(const PinPlace& place, const DrumOffset& end, const DrumLine& line, double wrap, double theta) {
   UpperSpan span;
   span.m = place.drum;
   span.normal = line.normal;
-  span.on_drum = wound;
-  span.end_normal = line.normal + wound;
+  span.on_drum = wrap;
+  span.end_normal = line.normal + wrap;
   span.behind_drum = std::sqrt((end.away - place.drum) * (end.away + place.drum));
-  span.free = span.behind_drum + place.drum * wound + line.length;
+  span.free = span.behind_drum + place.drum * wrap + line.length;
   span.length = span.free + place.rho * span.normal;
   if (place.drum_offset == 0) return span;
   const double direction = theta + place.drum_twist + line.normal;
@@ -103,7 +107,7 @@ void keep_out_of_drum(PinPlace& place) {
 
 PinPlace pin_place(const Mechanism& mechanism, Side side, double rho) {
   const Joint& joint = mechanism.joint;
-  PinPlace place = seen_from_C(mechanism, side, rho);
+  PinPlace place = plain_pin_place(mechanism, side, rho);
   if (const Sheath& sheath = mechanism.sheath; sheath.is_there()) {
     place.sheath_exit = LowerGuide{sheath.exit_across, sheath.exit_above, 0};
     place.in_sheath = sheath.length;
@@ -138,30 +142,30 @@ std::optional<double> lift_off(const PinPlace& place) {
   const DrumOffset end = end_offset_from_drum(place);
   const auto home = drum_line(place, drum_centre(place, 0.0));
   if (!home) return std::nullopt;
-  double leaves = 0.5 * k_pi - opening(place, end) - home->normal - end.twist;
-  // On an eccentric drum the line turns a little too: the wound angle falls with θ at the rate 1 + ψ' ≈ 1, so the
-  // iteration converges fast.
+  double theta = 0.5 * k_pi - opening(place, end) - home->normal - end.twist;
+  // On an eccentric drum the line turns a little too: the wrap falls with θ at the rate 1 + ψ' ≈ 1, so the iteration
+  // converges fast.
   for (int i = 0; i < 60 && place.drum_offset != 0; ++i) {
-    const auto line = drum_line(place, drum_centre(place, leaves));
+    const auto line = drum_line(place, drum_centre(place, theta));
     if (!line) return std::nullopt;
-    const double wound = wound_on(place, end, *line, leaves);
-    leaves += wound;
-    if (std::abs(wound) < 1e-14) break;
+    const double wrap = wrap_on_drum(place, end, *line, theta);
+    theta += wrap;
+    if (std::abs(wrap) < 1e-14) break;
   }
-  return leaves;
+  return theta;
 }
 
-// With a drum, the direction of the end from its centre is π/2 − θ − τ. The normal of the tangent from the end to the
-// drum lies acos(ρ0/R) before it. Where that normal is beyond the line from drum to pin, the tendon lies on the drum in
-// between.
+// With a drum, the direction of the end from the drum's centre is π/2 − θ − τ, where τ is the end's twist. The normal
+// of the tangent from the end to the drum lies opening() before that direction. Where that normal is beyond the normal
+// of the line from drum to pin, the tendon lies on the drum in between.
 UpperSpan upper_span(const PinPlace& place, double theta) {
   const double turned = place.twist == 0 ? theta : theta + place.twist;
   if (!(place.drum > 0)) return free_span(place, turned);
   const auto line = drum_line(place, drum_centre(place, theta));
   if (!line) return k_no_span;
   const DrumOffset end = end_offset_from_drum(place);
-  const double wound = wound_on(place, end, *line, theta);
-  return wound >= 0 ? span_on_drum(place, end, *line, wound, theta) : free_span(place, turned);
+  const double wrap = wrap_on_drum(place, end, *line, theta);
+  return wrap >= 0 ? span_on_drum(place, end, *line, wrap, theta) : free_span(place, turned);
 }
 
 namespace {

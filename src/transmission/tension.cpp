@@ -19,8 +19,8 @@ double turned_by_law_of_cosines(const PinPlace& place, double span, double elong
   return angle_at_joint(span + elongation) - angle_at_joint(span);
 }
 
-/// [d2] The tension on a drum decays by e^{−μψ} as a growing load slides the tendon towards the span. Length by which
-/// the stretching tendon is shortened, mm.
+/// [d2] of physics.md. As the load grows, the tendon on the drum slides towards the span, and its tension decays by
+/// e^{−μψ} with the wrap ψ. Returns the length by which this shortens the stretching tendon, mm.
 double length_relieved_by_drum(const Mechanism& mechanism, const PinPlace& place, double image_theta) {
   const double mu = mechanism.joint.drum_mu;
   if (!(mu > 0 && place.drum > 0)) return 0;
@@ -31,16 +31,17 @@ double length_relieved_by_drum(const Mechanism& mechanism, const PinPlace& place
 
 }  // namespace
 
-// [6] The tip force acts across OC, tendon 2 at γ2 to it: F_c R = T2 m2 with m2 = R sin γ2. [10],[11] The elongation
-// turns the joint: by the law of cosines over point pins, the only case in which it holds, and otherwise to first
-// order.
+// [6] The tip force acts across OC, and tendon 2 at the angle γ2 to OC: F_c R = T2 m2 with m2 = R sin γ2. [10],[11] The
+// elongation turns the joint. The law of cosines holds only over point pins; over thicker pins, the rotation is
+// computed to first order.
 PaperForces paper_forces(const Mechanism& mechanism, const TransmissionPoint& point) {
-  const bool by_first = load_torque(mechanism, point.theta) < 0;
-  const Side side = by_first ? Side::left : Side::right;
-  const TendonPoint& tendon = by_first ? point.t1 : point.t2;
+  const bool loads_tendon1 = load_torque(mechanism, point.theta) < 0;
+  const Side side = loads_tendon1 ? Side::left : Side::right;
+  const TendonPoint& tendon = loads_tendon1 ? point.t1 : point.t2;
   const double stiffness = section_stiffness(mechanism.tendon);
   PaperForces forces;
-  // C lies at 90° − θ from O and the tendon's line at its normal. In the image γ = θ + ψ, also beyond 90°.
+  // In the right-hand image, C lies in the direction 90° − θ from O, and ψ is the direction of the line's normal.
+  // Therefore γ = θ + ψ, also beyond 90°.
   forces.gamma1 = k_pi - point.t1.upper_normal - point.theta;
   forces.gamma2 = point.t2.upper_normal + point.theta;
   if (!mechanism.joint.is_plain()) {
@@ -54,14 +55,14 @@ PaperForces paper_forces(const Mechanism& mechanism, const TransmissionPoint& po
     forces.gamma2 = at_end(Side::right);
   }
   const double T = tension_above_pin(std::abs(load_torque(mechanism, point.theta)), tendon.m);
-  (by_first ? forces.T1 : forces.T2) = T;
+  (loads_tendon1 ? forces.T1 : forces.T2) = T;
   forces.phi = point.t2.wrap;
   forces.Tb = mechanism.guides.kind == GuideKind::idler
                   ? T * elementary::exp(guide_friction(mechanism).log_ratio(tendon.wrap))
                   : tension_below_pin(T, mechanism.guides.mu, std::max(0.0, tendon.wrap));
   const double on_pin = tendon.length - tendon.free_upper - tendon.lower_reach - tendon.in_sheath;
   const SheathLoad sheath = sheath_load(mechanism);
-  // The compliance of the sheath as an additional length of tendon.
+  // The compliance of the sheath acts as an additional length of tendon.
   const double sheathed = sheath.length + stiffness * sheath.compliance;
   if (mechanism.sheath.is_there()) {
     const double off_pin = forces.Tb;
@@ -72,14 +73,14 @@ PaperForces paper_forces(const Mechanism& mechanism, const TransmissionPoint& po
     forces.elongation = elongation_of_tendon(T, forces.Tb, tendon.free_upper, on_pin, tendon.lower_reach, stiffness);
   }
   const PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
-  const double spared = length_relieved_by_drum(mechanism, place, mirror_sign(side) * point.theta);
-  forces.elongation -= T * spared / stiffness;
+  const double relieved = length_relieved_by_drum(mechanism, place, mirror_sign(side) * point.theta);
+  forces.elongation -= T * relieved / stiffness;
   const double turned = mechanism.has_point_pins() ? turned_by_law_of_cosines(pin_place(mechanism, side, 0.0),
                                                                               tendon.free_upper, forces.elongation)
                                                    : angle_of_elongation(forces.elongation, tendon.m);
-  forces.theta_error = by_first ? -turned : turned;
-  forces.motor_torque = (by_first ? -1.0 : 1.0) * forces.Tb * tendon.p;
-  forces.stiffness = stiffness * tendon.m * tendon.m / (tendon.length - spared + stiffness * sheath.compliance);
+  forces.theta_error = loads_tendon1 ? -turned : turned;
+  forces.motor_torque = (loads_tendon1 ? -1.0 : 1.0) * forces.Tb * tendon.p;
+  forces.stiffness = stiffness * tendon.m * tendon.m / (tendon.length - relieved + stiffness * sheath.compliance);
   return forces;
 }
 

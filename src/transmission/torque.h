@@ -16,7 +16,7 @@ struct TorqueMatch {
 };
 
 /// The joint angle of the range where dα/dθ of law = torque is smallest. The law does not exist where it is not
-/// positive. An angle without a value comes first.
+/// positive. An angle at which dα/dθ has no value counts as the smallest.
 TorqueMatch tightest_torque(const Mechanism& mechanism);
 
 }  // namespace fusee::transmission

@@ -22,8 +22,11 @@ constexpr int k_intervals = 64;
 constexpr double k_extension = 0.1;
 /// Minimum dα/dθ in the extension, as a fraction of its value at the end of the range.
 constexpr double k_least_share = 0.3;
+/// Number of angles at which an extension is checked.
+constexpr int k_samples = 16;
 
-/// The table as a spline over θ; null when one torque applies everywhere.
+/// The table as a spline of M over θ: LawRow::alpha holds θ and LawRow::theta holds M. Null when one torque applies
+/// everywhere.
 template <typename Spline>
 std::shared_ptr<const Spline> spline_of(const std::vector<TorqueRow>& rows) {
   if (rows.empty()) return nullptr;
@@ -79,20 +82,20 @@ Transmission::TorqueLaw::TorqueLaw(const Mechanism& mechanism)
 /// checked.
 void Transmission::TorqueLaw::set_ends() {
   const double low = places_.front(), high = places_.back();
-  const auto end = [this](double from, double beyond) {
+  const auto extended = [this](double from, double beyond) {
     const double enough = k_least_share * slope(from);
     for (int halvings = 0; halvings < 4; ++halvings, beyond *= 0.5) {
-      bool goes_on = true;
-      for (int i = 1; i <= 16; ++i) {
-        const double here = slope(from + beyond * i / 16);
-        goes_on = goes_on && here > enough && std::isfinite(here);
+      bool exists = true;
+      for (int i = 1; i <= k_samples; ++i) {
+        const double value = slope(from + beyond * i / k_samples);
+        exists = exists && value > enough && std::isfinite(value);
       }
-      if (goes_on) return from + beyond;
+      if (exists) return from + beyond;
     }
     return from;
   };
-  extended_min_ = end(low, -k_extension * (high - low));
-  extended_max_ = end(high, k_extension * (high - low));
+  extended_min_ = extended(low, -k_extension * (high - low));
+  extended_max_ = extended(high, k_extension * (high - low));
   if (extended_min_ < low) places_.insert(places_.begin(), extended_min_);
   if (extended_max_ > high) places_.push_back(extended_max_);
 
@@ -121,6 +124,7 @@ double Transmission::TorqueLaw::alpha(double theta) const {
 
 LawValue Transmission::TorqueLaw::at(double theta) const {
   const double inside = std::clamp(theta, extended_min_, extended_max_);
+  // `motor.theta` is M, see spline_of().
   const LawValue motor = wanted_ ? wanted_->at(inside) : LawValue{mechanism_.pulley.motor_torque};
   const TorqueOverTheta load = law_load_torque(mechanism_, inside);
   const double u = motor.theta / load.value;

@@ -39,8 +39,8 @@ struct Transmission::TorqueLaw {
   void examine(double theta);
   void set_ends();
 
-  Mechanism mechanism_;  ///< defines the law: joint, pulley, load, spring
-  std::shared_ptr<const TableLaw> wanted_;
+  Mechanism mechanism_;                         ///< defines the law: joint, pulley, load, spring
+  std::shared_ptr<const TableLaw> wanted_;      ///< wanted motor torque over θ; null: constant
   std::vector<double> places_;                  ///< breaks of the quadrature in θ, home included
   std::vector<double> alphas_;                  ///< α at these places
   double extended_min_ = 0, extended_max_ = 0;  ///< θ range within which the law continues

@@ -52,8 +52,8 @@ TendonPoint tendon_point(const PinPlace& place, Side side, const Arm& arm, doubl
   return point;
 }
 
-/// θ(a(α)) with a = α + q/r1: chain rule up to the third derivative.
-void lengthen(TransmissionPoint& point, const ChebyshevSeries::Value& q, double r1) {
+/// Derivatives of θ(a(α)) with a = α + q/r1, for a sloping tendon on a round P1: chain rule up to the third derivative.
+void apply_sloped_path(TransmissionPoint& point, const ChebyshevSeries::Value& q, double r1) {
   const double d1 = 1.0 + q.d1 / r1, d2 = q.d2 / r1, d3 = q.d3 / r1;
   const double g = point.g, dg = point.dg, d2g = point.d2g;
   point.g = g * d1;
@@ -94,7 +94,8 @@ double solve_increasing(double target, double low, double high, double start, Va
   return x;
 }
 
-/// Joint angles slightly beyond the range are evaluated, because integrators and root finders step over its ends.
+/// Margin of the root search beyond the range, as a fraction of the range: integrators and root finders step over its
+/// ends.
 constexpr double k_margin = 0.02;
 
 }  // namespace
@@ -163,8 +164,8 @@ double Transmission::alpha(double theta) const {
 }
 
 double Transmission::theta(double alpha) const {
-  const bool is_lengthened = law_ == Law::compensate && paths_ != nullptr;
-  return planar_theta(is_lengthened ? alpha + paths_->q1.at(alpha).d0 / r1_ : alpha);
+  const bool has_sloped_path = law_ == Law::compensate && paths_ != nullptr;
+  return planar_theta(has_sloped_path ? alpha + paths_->q1.at(alpha).d0 / r1_ : alpha);
 }
 
 double Transmission::planar_alpha(double theta) const {
@@ -224,7 +225,7 @@ TransmissionPoint Transmission::at(double alpha, double theta) const {
       point.g = slope_over_round_pulley(r1_, arm1.m);
       point.dg = -arm1.dm * point.g * point.g / arm1.m;
       point.d2g = -(arm1.d2m * point.g * point.g * point.g + 3.0 * arm1.dm * point.g * point.dg) / arm1.m;
-      if (paths_ != nullptr) lengthen(point, paths_->q1.at(alpha), r1_);
+      if (paths_ != nullptr) apply_sloped_path(point, paths_->q1.at(alpha), r1_);
       break;
     case Law::linear:
       point.g = 1.0 / ratio_;

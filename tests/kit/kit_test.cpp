@@ -92,7 +92,7 @@ std::vector<PlacedPart> put_together(const Model& model, double theta, double al
   std::vector<PlacedPart> all;
   for (const kit::KitPart& part : model.plan.parts) {
     for (const kit::KitPlace& place : part.places)
-      all.push_back({part.name, kit::standing(part, place, theta), place.on_link});
+      all.push_back({part.name, kit::placed_mesh(part, place, theta), place.on_link});
   }
   all.push_back({"pulley", pulley_standing(model, alpha), true});
   return all;
@@ -189,7 +189,7 @@ TEST_P(Kit, PostStandsAtC) {
   for (const kit::KitPart& part : model.plan.parts) {
     if (part.name != "post") continue;
     for (const transmission::TransmissionPoint& at : {model.synthesis.stroke.front(), model.synthesis.stroke.back()}) {
-      const solid::TriangleMesh mesh = kit::standing(part, part.places.front(), at.theta);
+      const solid::TriangleMesh mesh = kit::placed_mesh(part, part.places.front(), at.theta);
       EXPECT_NEAR(solid::bounds(mesh).low.z(), model.plan.sizes.post_low, 1e-4);
       const auto loops = solid::section(mesh, model.plan.sizes.z_tendon2);
       ASSERT_EQ(loops.size(), 2u);  // waist and bore
@@ -321,7 +321,7 @@ void expect_bearings_seated(const kit::KitPlan& plan, const Joint& joint) {
   if (ring == plan.parts.end()) return;
   const auto radius_at = [](const kit::KitPart& one, double z) {
     double least = 1e9;
-    for (const Polygon& loop : solid::section(kit::standing(one, one.places.front(), 0), one.places.front().z + z)) {
+    for (const Polygon& loop : solid::section(kit::placed_mesh(one, one.places.front(), 0), one.places.front().z + z)) {
       if (is_inside({loop}, {0, 0})) least = std::min(least, distance_to_edges(loop, {0, 0}));
     }
     return least;
@@ -350,7 +350,7 @@ TEST_P(Template, HasAHoleAtEveryAxis) {
     const auto part = std::find_if(model.plan.parts.begin(), model.plan.parts.end(),
                                    [&](const kit::KitPart& one) { return one.name == name; });
     if (part == model.plan.parts.end()) return std::vector<Polygon>();
-    const solid::TriangleMesh mesh = kit::standing(*part, part->places.front(), 0);
+    const solid::TriangleMesh mesh = kit::placed_mesh(*part, part->places.front(), 0);
     for (const Check& check : solid::check_mesh(mesh)) EXPECT_TRUE(check.ok) << name << ": " << check.name;
     return solid::section(mesh, part->places.front().z + 1.0);
   };

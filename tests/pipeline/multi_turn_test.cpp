@@ -568,7 +568,7 @@ TEST_P(MultiTurnKit, ReportsTendonHeights) {
     const helical_solid::SpiralPlace& spiral_place = i == 0 ? product.helix->pulley.p1 : product.helix->pulley.p2;
     const double end = spiral_place.height(helix.attachment_z);
     EXPECT_NEAR(heights.ends.at(i), end, 1e-9);
-    on_drum.see(end);
+    on_drum.include(end);
     kit::TendonHeights::Span on_guide;
     for (std::size_t k = 0; k < product.synthesis.stroke.size(); k += 5) {
       const auto [trace, row] = trace_to_row(product, side, k);
@@ -580,9 +580,9 @@ TEST_P(MultiTurnKit, ReportsTendonHeights) {
         const Vec2 at = trace.free_path[point];
         if ((at - formats::pin_centre(product.joint.mechanism, side)).norm() <
             product.joint.mechanism.guide_pitch_radius() + 1e-6)
-          on_guide.see(height(point));
+          on_guide.include(height(point));
         if (at.norm() < product.joint.mechanism.joint.drum_radius + product.joint.mechanism.tendon.diameter)
-          on_drum.see(height(point));
+          on_drum.include(height(point));
       }
     }
     EXPECT_NEAR(on_guide.low, heights.guides.at(i).low, 0.1) << GetParam();

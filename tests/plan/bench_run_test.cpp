@@ -117,7 +117,7 @@ TEST(UnreadNumbers, WriteToTheirKeys) {
     EXPECT_THAT(std::string(number->by_hand.words), HasSubstr("prior." + std::string(field->key)));
     const auto value = [&](double written) {
       field->numbers(joint) = {written, 0.5};
-      const std::vector<CaliperReading> readings = number->by_hand.readings(joint);
+      const std::vector<ManualReading> readings = number->by_hand.readings(joint);
       EXPECT_EQ(readings.size(), 1u) << field->key;
       EXPECT_GT(readings.back().uncertainty, 0) << field->key;
       return readings.back().value;

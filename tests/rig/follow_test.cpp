@@ -52,7 +52,7 @@ TEST(Follow, WritesReadingsIntoTheFile) {
   for (const EffectParameter* asked : plan::unread_numbers(soft().declared)) {
     Case made = case_of({});
     ASSERT_TRUE(perform(plan::next_reading({asked}), made)) << asked->by_hand.key;
-    const std::vector<CaliperReading> readings = asked->by_hand.readings(made.joint.declared);
+    const std::vector<ManualReading> readings = asked->by_hand.readings(made.joint.declared);
     ASSERT_FALSE(readings.empty()) << asked->by_hand.key;
     EXPECT_NEAR(readings.back().value, 0, 4 * asked->by_hand.uncertainty) << asked->by_hand.key;
     EXPECT_NE(readings.back().value, 0) << asked->by_hand.key;

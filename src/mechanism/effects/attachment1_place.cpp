@@ -5,11 +5,11 @@
 namespace fusee {
 namespace {
 
-std::vector<CaliperReading> across1_by_caliper(const DeclaredMechanism& declared) {
+std::vector<ManualReading> across1_by_caliper(const DeclaredMechanism& declared) {
   if (!declared.joint.attachment1) return {};
   return hand_reading(declared.prior.attachment1_across, declared.joint.attachment1->across);
 }
-std::vector<CaliperReading> along1_by_caliper(const DeclaredMechanism& declared) {
+std::vector<ManualReading> along1_by_caliper(const DeclaredMechanism& declared) {
   if (!declared.joint.attachment1) return {};
   return hand_reading(declared.prior.attachment1_along, declared.joint.attachment1->along);
 }

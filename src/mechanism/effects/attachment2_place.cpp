@@ -5,11 +5,11 @@
 namespace fusee {
 namespace {
 
-std::vector<CaliperReading> across2_by_caliper(const DeclaredMechanism& declared) {
+std::vector<ManualReading> across2_by_caliper(const DeclaredMechanism& declared) {
   if (!declared.joint.attachment2) return {};
   return hand_reading(declared.prior.attachment2_across, declared.joint.attachment2->across);
 }
-std::vector<CaliperReading> along2_by_caliper(const DeclaredMechanism& declared) {
+std::vector<ManualReading> along2_by_caliper(const DeclaredMechanism& declared) {
   if (!declared.joint.attachment2) return {};
   return hand_reading(declared.prior.attachment2_along, declared.joint.attachment2->along);
 }

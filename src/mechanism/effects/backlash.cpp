@@ -4,9 +4,9 @@
 namespace fusee {
 namespace {
 
-constexpr double k_uncertainty = radians(0.05);  // precision of three readings of both ends of the play by feel
+constexpr double k_uncertainty = radians(0.05);  // of the mean of three readings of both ends of the play, by feel
 
-std::vector<CaliperReading> play_by_hand(const DeclaredMechanism& declared) {
+std::vector<ManualReading> play_by_hand(const DeclaredMechanism& declared) {
   return hand_reading_in(declared.prior.backlash_deg, radians(1.0));
 }
 

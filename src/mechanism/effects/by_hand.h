@@ -1,5 +1,5 @@
 /// \file
-/// Internal: common parts of effects whose parameters are measured by caliper.
+/// Internal: common parts of effects whose parameters are measured by hand.
 #pragma once
 
 #include <vector>
@@ -8,17 +8,21 @@
 
 namespace fusee {
 
-inline constexpr double k_caliper = 0.03;  ///< mean of three readings of 0.05 mm each, as the plan's page requests, mm
+/// Standard uncertainty of a length by caliper, mm: the mean of three readings of 0.05 mm each, which the plan's page
+/// requests.
+inline constexpr double k_caliper = 0.03;
+/// Standard uncertainty of a radius from a diameter by caliper, mm.
 inline constexpr double k_half_diameter = 0.5 * k_caliper;
 
 /// The deviation from `declared` of an entry of [prior], [value, standard uncertainty]. Empty for an empty entry.
-inline std::vector<CaliperReading> hand_reading(const std::vector<double>& prior, double declared) {
+inline std::vector<ManualReading> hand_reading(const std::vector<double>& prior, double declared) {
   if (prior.size() != 2) return {};
   return {{prior[0] - declared, prior[1]}};
 }
 
-/// An entry of [prior] in another unit than the parameter: `unit` in rad, mm or N.
-inline std::vector<CaliperReading> hand_reading_in(const std::vector<double>& prior, double unit) {
+/// An entry of [prior] that is the deviation itself, in another unit than the parameter. `unit`: that unit in rad, mm
+/// or N.
+inline std::vector<ManualReading> hand_reading_in(const std::vector<double>& prior, double unit) {
   if (prior.size() != 2) return {};
   return {{unit * prior[0], unit * prior[1]}};
 }

@@ -3,13 +3,14 @@
 namespace fusee {
 namespace {
 
+/// The coefficient as reported: declared plus identified, at least 0.
 double whole_friction(double added, const Mechanism& declared) {
   const Guides& guides = declared.guides;
   const double declared_mu = guides.kind == GuideKind::idler ? guides.bearing_friction : guides.mu;
   return declared_mu + added > 0 ? declared_mu + added : 0.0;
 }
 
-/// Parameters for a joint declared by a ratio: RubbingCable.
+/// Parameters for a joint declared by a ratio, whose model is RubbingCable (joint/rubbing_cable.h).
 std::vector<EffectParameter> friction_of_cable() {
   return {{.name = "share_of_load",
            .number = [](Imperfections& at) -> double& { return at.ratio_joint.friction.share; },

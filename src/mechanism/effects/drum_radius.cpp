@@ -10,7 +10,7 @@ double drum_total(double added, const Mechanism& declared) {
   return declared.joint.drum_radius + added > 0 ? declared.joint.drum_radius + added : 0.0;
 }
 
-std::vector<CaliperReading> drum_by_caliper(const DeclaredMechanism& declared) {
+std::vector<ManualReading> drum_by_caliper(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.drum_radius, declared.joint.drum_radius);
 }
 

@@ -4,9 +4,9 @@
 namespace fusee {
 namespace {
 
-constexpr double k_dial = 1e-4;  // resolution of a dial gauge, 0.005 mm, under 50 N; mm/N
+constexpr double k_dial = 1e-4;  // mm/N: resolution of a dial gauge, 0.005 mm, under a force of 50 N
 
-std::vector<CaliperReading> compliance_by_dial(const DeclaredMechanism& declared) {
+std::vector<ManualReading> compliance_by_dial(const DeclaredMechanism& declared) {
   return hand_reading_in(declared.prior.guide_compliance, 1.0);
 }
 

@@ -6,26 +6,26 @@
 namespace fusee {
 namespace {
 
-std::vector<CaliperReading> left_by_caliper(const DeclaredMechanism& declared) {
+std::vector<ManualReading> left_by_caliper(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.EB, declared.guides.EB);
 }
-std::vector<CaliperReading> right_by_caliper(const DeclaredMechanism& declared) {
+std::vector<ManualReading> right_by_caliper(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.ED, declared.guides.ED);
 }
 
 /// Readings for the height of one pin, from `own` and from OE and EF. The pulley's axis is fixed, so that lower pins
 /// are closer to it.
-std::vector<CaliperReading> down_by_caliper(const DeclaredMechanism& declared, const std::vector<double>& own) {
-  std::vector<CaliperReading> both = hand_reading(declared.prior.OE, declared.guides.OE);
+std::vector<ManualReading> down_by_caliper(const DeclaredMechanism& declared, const std::vector<double>& own) {
+  std::vector<ManualReading> both = hand_reading(declared.prior.OE, declared.guides.OE);
   const std::vector<double>& EF = declared.prior.EF;
   if (EF.size() == 2 && !declared.sheath.is_there()) both.push_back({declared.pulley.EF - EF[0], EF[1]});
-  for (const CaliperReading& reading : hand_reading(own, declared.guides.OE)) both.push_back(reading);
+  for (const ManualReading& reading : hand_reading(own, declared.guides.OE)) both.push_back(reading);
   return both;
 }
-std::vector<CaliperReading> left_down_by_caliper(const DeclaredMechanism& declared) {
+std::vector<ManualReading> left_down_by_caliper(const DeclaredMechanism& declared) {
   return down_by_caliper(declared, declared.prior.OE1);
 }
-std::vector<CaliperReading> right_down_by_caliper(const DeclaredMechanism& declared) {
+std::vector<ManualReading> right_down_by_caliper(const DeclaredMechanism& declared) {
   return down_by_caliper(declared, declared.prior.OE2);
 }
 

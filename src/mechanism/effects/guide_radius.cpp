@@ -8,7 +8,7 @@ double whole_radius(double added, const Mechanism& declared) {
   return declared.guides.radius + added > 0 ? declared.guides.radius + added : 0.0;
 }
 
-std::vector<CaliperReading> radius_by_caliper(const DeclaredMechanism& declared) {
+std::vector<ManualReading> radius_by_caliper(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.guide_radius, declared.guides.radius);
 }
 

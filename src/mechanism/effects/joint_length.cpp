@@ -6,7 +6,7 @@ namespace {
 
 double whole_length(double added, const Mechanism& declared) { return declared.joint.R + added; }
 
-std::vector<CaliperReading> length_by_caliper(const DeclaredMechanism& declared) {
+std::vector<ManualReading> length_by_caliper(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.length, declared.joint.R);
 }
 

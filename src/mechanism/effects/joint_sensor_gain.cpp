@@ -9,11 +9,12 @@ namespace {
 // uncertainty of the gain from three readings of 0.1 degrees at both ends of 45 degrees
 constexpr double k_protractor = 0.002;
 
-std::vector<CaliperReading> gain_by_protractor(const DeclaredMechanism& declared) {
+std::vector<ManualReading> gain_by_protractor(const DeclaredMechanism& declared) {
   return hand_reading_in(declared.prior.gain_percent, 0.01);
 }
 
-/// Excess of the reading over the range. It includes the sensor's harmonics.
+/// Relative excess of the reading between both ends of the range. The sensor's harmonics contribute to it; their
+/// constant terms cancel.
 double excess_of_reading(const Imperfections& joint, const Mechanism& declared) {
   const JointSensorError& error = joint.sensor;
   const double low = declared.joint.theta_min, high = declared.joint.theta_max;
@@ -21,11 +22,11 @@ double excess_of_reading(const Imperfections& joint, const Mechanism& declared) 
   const auto wave = [](double theta, double sin_part, double cos_part) {
     return sin_part * elementary::sin(theta) + cos_part * elementary::cos(theta);
   };
-  const auto shown = [&](double theta) {
+  const auto harmonics = [&](double theta) {
     return wave(theta, error.eccentricity_sin, error.eccentricity_cos) +
            wave(error.wave_order * theta, error.wave_sin, error.wave_cos);
   };
-  return error.gain + (shown(high) - shown(low)) / (high - low);
+  return error.gain + (harmonics(high) - harmonics(low)) / (high - low);
 }
 
 }  // namespace

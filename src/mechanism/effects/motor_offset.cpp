@@ -4,9 +4,9 @@
 namespace fusee {
 namespace {
 
-constexpr double k_pulley_mark = radians(0.2);  // of the mean of three settings of a pulley to its mark
+constexpr double k_pulley_mark = radians(0.2);  // uncertainty of the mean of three settings of a pulley to its mark
 
-std::vector<CaliperReading> motor_offset_by_mark(const DeclaredMechanism& declared) {
+std::vector<ManualReading> motor_offset_by_mark(const DeclaredMechanism& declared) {
   return hand_reading_in(declared.prior.motor_offset_deg, radians(1.0));
 }
 

@@ -10,7 +10,7 @@ Effect motor_sensor_eccentricity(JointKind) {
   effect.signature = "once per turn of the motor sensor, independent of direction and load";
   effect.separating_run = "turn the motor's encoder on its shaft by a quarter turn and repeat the slow unloaded run";
   effect.correctable_by = CorrectableBy::table;
-  effect.needs = {.full_turn = true};
+  effect.needs = {.long_stroke = true};
   effect.parameters = {{.name = "sin_deg",
                         .number = [](Imperfections& at) -> double& { return at.motor.eccentricity_sin; },
                         .least = -0.2,

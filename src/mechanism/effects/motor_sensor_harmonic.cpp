@@ -12,7 +12,7 @@ Effect motor_sensor_harmonic(JointKind) {
   effect.separating_run =
       "turn the motor's encoder on its shaft by an eighth of a turn and repeat the slow unloaded run";
   effect.correctable_by = CorrectableBy::table;
-  effect.needs = {.full_turn = true};
+  effect.needs = {.long_stroke = true};
   effect.parameters = {
       wave_part(
           "sin_deg", [](Imperfections& at) -> double& { return at.motor.wave_sin; },

@@ -9,7 +9,8 @@ double as_written(double order) { return order; }
 
 double size(const OutlineError& outline) { return elementary::hypot(outline.wave_sin, outline.wave_cos); }
 
-/// Adds harmonics of equal order. Of different orders it keeps the larger one.
+/// Adds harmonics of equal order. Of two harmonics of different order, only the larger one is kept, because
+/// OutlineError holds one.
 void larger_wave(const Imperfections& before, Imperfections& joint) {
   const OutlineError& first = before.pulley.outline;
   OutlineError& total = joint.pulley.outline;
@@ -33,7 +34,7 @@ Effect profile_error(JointKind) {
   effect.signature = "twice or three times per turn of the pulley, independent of direction and load";
   effect.separating_run = "turn the pulley on its shaft by an eighth of a turn and repeat the slow unloaded run";
   effect.correctable_by = CorrectableBy::pulley;
-  effect.needs = {.tendons = true, .full_turn = true};
+  effect.needs = {.tendons = true, .long_stroke = true};
   effect.merge = larger_wave;
   effect.parameters = {
       {.name = "sin_mm",

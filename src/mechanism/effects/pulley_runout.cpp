@@ -4,12 +4,12 @@
 namespace fusee {
 namespace {
 
-constexpr double k_hub = 0.03;  // precision of a dial gauge on a printed hub, mm
+constexpr double k_dial_on_hub = 0.03;  // uncertainty of a dial gauge's reading on a printed hub, mm
 
-std::vector<CaliperReading> runout_x_by_dial(const DeclaredMechanism& declared) {
+std::vector<ManualReading> runout_x_by_dial(const DeclaredMechanism& declared) {
   return hand_reading_in(declared.prior.runout_x, 1.0);
 }
-std::vector<CaliperReading> runout_y_by_dial(const DeclaredMechanism& declared) {
+std::vector<ManualReading> runout_y_by_dial(const DeclaredMechanism& declared) {
   return hand_reading_in(declared.prior.runout_y, 1.0);
 }
 
@@ -36,7 +36,7 @@ Effect pulley_runout(JointKind) {
        .merge_rule = MergeRule::add,
        .by_hand = {"hold a dial gauge against the hub, turn the pulley once, and enter how far the hub's centre is to "
                    "the right of its axis at home as prior.runout_x_mm",
-                   k_hub, runout_x_by_dial, "prior.runout_x_mm", HandTool::dial_gauge}},
+                   k_dial_on_hub, runout_x_by_dial, "prior.runout_x_mm", HandTool::dial_gauge}},
       {.name = "y_mm",
        .number = [](Imperfections& at) -> double& { return at.pulley.outline.runout_y; },
        .least = -2,
@@ -49,7 +49,7 @@ Effect pulley_runout(JointKind) {
        .by_hand = {
            "hold a dial gauge against the hub, turn the pulley once, and enter how far the hub's centre is above "
            "its axis at home as prior.runout_y_mm",
-           k_hub, runout_y_by_dial, "prior.runout_y_mm", HandTool::dial_gauge}}};
+           k_dial_on_hub, runout_y_by_dial, "prior.runout_y_mm", HandTool::dial_gauge}}};
   return effect;
 }
 

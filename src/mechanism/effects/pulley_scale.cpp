@@ -6,7 +6,7 @@ namespace {
 
 constexpr double k_scale_by_caliper = 0.0015;  // uncertainty of a print's scale from three readings of 0.1 mm in 40 mm
 
-std::vector<CaliperReading> by_diameters(const DeclaredMechanism& declared) {
+std::vector<ManualReading> by_diameters(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.pulley_scale, 1);
 }
 

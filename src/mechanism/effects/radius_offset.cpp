@@ -6,7 +6,7 @@ namespace {
 
 constexpr double k_two_diameters = 0.02;  // uncertainty of half the sum of both diameters, mm
 
-std::vector<CaliperReading> offset_by_caliper(const DeclaredMechanism& declared) {
+std::vector<ManualReading> offset_by_caliper(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.radius_offset, 0);
 }
 

@@ -3,8 +3,8 @@
 namespace fusee {
 namespace {
 
-EffectParameter number_of(std::string_view name, double& (*number)(Imperfections&), PriorUnit unit,
-                          std::string_view meaning) {
+EffectParameter coefficient(std::string_view name, double& (*number)(Imperfections&), PriorUnit unit,
+                            std::string_view meaning) {
   EffectParameter parameter;
   parameter.number = number;
   parameter.least = -1e6;
@@ -34,20 +34,20 @@ Effect ratio_curve(JointKind) {
   // An eccentric sensor makes the same curve, so this effect stands for an unmodelled cause and is never reported.
   effect.is_tested = false;
   effect.parameters = {
-      number_of(
+      coefficient(
           "ratio_error", [](Imperfections& at) -> double& { return at.ratio_joint.curve.linear; }, PriorUnit::own,
           "joint declared by a ratio: relative error of the rotation by the ratio"),
-      number_of(
+      coefficient(
           "ratio_square_per_rad", [](Imperfections& at) -> double& { return at.ratio_joint.curve.square; },
           PriorUnit::own, "joint declared by a ratio: coefficient of the squared angle"),
-      number_of(
+      coefficient(
           "ratio_cube_per_rad2", [](Imperfections& at) -> double& { return at.ratio_joint.curve.cube; }, PriorUnit::own,
           "joint declared by a ratio: coefficient of the cubed angle"),
-      number_of(
+      coefficient(
           "ratio_give_slope_per_load",
           [](Imperfections& at) -> double& { return at.ratio_joint.curve.compliance_slope; },
           PriorUnit::at_largest_load, "joint declared by a ratio: compliance per angle"),
-      number_of(
+      coefficient(
           "ratio_give_square_per_load",
           [](Imperfections& at) -> double& { return at.ratio_joint.curve.compliance_square; },
           PriorUnit::at_largest_load, "joint declared by a ratio: compliance per squared angle")};

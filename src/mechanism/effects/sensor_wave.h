@@ -1,5 +1,5 @@
 /// \file
-/// Internal: common parts of the harmonics of both sensors, sin · sin nφ + cos · (cos nφ − 1) of the angle φ.
+/// Internal: common parts of the harmonics of both sensors, wave_sin · sin nφ + wave_cos · (cos nφ − 1) at the angle φ.
 /// A tilted magnet or unequal gains of two channels repeat twice a turn, an elliptic ring twice, motor poles near the
 /// magnet four times. n is searched, not fitted.
 #pragma once

@@ -9,10 +9,10 @@ double whole_pretension(double added, const Mechanism& declared) {
 
 bool has_no_pretension(const Imperfections& joint) { return joint.tendon.pretension_share() == 0; }
 
-/// Parameters for a joint declared by a ratio. A wavy cable is short by w. Tension straightens it: the amplitude falls
-/// by 1/(1 + T/T0), as for a bent beam under tension, and the resulting play with it. The hysteresis therefore shrinks
-/// with load, unlike that of play and stretch.
-std::vector<EffectParameter> of_ratio() {
+/// Parameters for a joint declared by a ratio. A wavy cable spans less than its length, and the difference acts as
+/// play. Tension straightens the cable: the amplitude of its waves is divided by 1 + T/T0, as for a bent beam under
+/// tension, and so is the play. The hysteresis therefore shrinks with load, unlike that of backlash and stretch.
+std::vector<EffectParameter> slack_of_cable() {
   return {
       {.name = "width_deg",
        .number = [](Imperfections& at) -> double& { return at.ratio_joint.slack; },
@@ -48,7 +48,7 @@ Effect slack(JointKind kind) {
     effect.signature = "hysteresis that shrinks as the load grows";
     effect.separating_run = "repeat one run at twice the load: slack vanishes, backlash does not";
     effect.needs = {.load = true};
-    effect.parameters = of_ratio();
+    effect.parameters = slack_of_cable();
     for (const double width : {1.5, 5.0}) {
       for (const double taken_up : {0.02, 0.3, 5.0, 80.0}) effect.starts.push_back({radians(width), taken_up});
     }

@@ -3,7 +3,7 @@
 namespace fusee {
 namespace {
 
-EffectParameter when() {
+EffectParameter slip_time() {
   return {.name = "time_s",
           .number = [](Imperfections& at) -> double& { return at.tendon.slip_time; },
           .least = -1e12,
@@ -14,8 +14,8 @@ EffectParameter when() {
           .searched = true};
 }
 
-/// A release of tendon 1 moves the joint up, of tendon 2 down.
-EffectParameter released() {
+/// A release of tendon 1 moves the joint towards +θ, a release of tendon 2 towards −θ.
+EffectParameter released_length() {
   return {.name = "released_mm",
           .number = [](Imperfections& at) -> double& { return at.tendon.slip; },
           .least = -20,
@@ -28,7 +28,7 @@ EffectParameter released() {
 }
 
 /// Parameter for a joint declared by a ratio.
-EffectParameter turned() {
+EffectParameter rotation_step() {
   return {.name = "step_deg",
           .number = [](Imperfections& at) -> double& { return at.ratio_joint.step; },
           .least = -0.5,
@@ -51,7 +51,7 @@ Effect tendon_slip(JointKind kind) {
   effect.correctable_by = CorrectableBy::nothing;
   effect.needs = {.time = true};
   effect.starts_in_time = true;
-  effect.parameters = {kind == JointKind::ratio ? turned() : released(), when()};
+  effect.parameters = {kind == JointKind::ratio ? rotation_step() : released_length(), slip_time()};
   return effect;
 }
 

@@ -7,9 +7,10 @@ double real_section_stiffness(double stretch, const Mechanism& declared) {
   return section_stiffness(declared.tendon) / (1.0 + stretch);
 }
 
-constexpr double k_metre = 0.1;  // by a ruler: uncertainty of the compliance, relative to the declared one
+// Uncertainty of the compliance of one metre of tendon by a ruler, relative to the declared compliance.
+constexpr double k_ruler = 0.1;
 
-std::vector<CaliperReading> by_modulus(const DeclaredMechanism& declared) {
+std::vector<ManualReading> by_modulus(const DeclaredMechanism& declared) {
   const std::vector<double>& modulus = declared.prior.modulus;
   if (modulus.size() != 2 || !(modulus[0] > 0)) return {};
   const double ratio = declared.tendon.modulus / modulus[0];
@@ -54,7 +55,7 @@ Effect tendon_stretch(JointKind kind) {
        .merge_rule = MergeRule::compound,
        .by_hand = {"load a metre of the tendon with the largest load, measure its elongation, and enter the modulus as "
                    "prior.modulus_MPa",
-                   k_metre, by_modulus, "prior.modulus_MPa", HandTool::ruler}}};
+                   k_ruler, by_modulus, "prior.modulus_MPa", HandTool::ruler}}};
   effect.starts = {{0.5}, {2.0}, {10.0}};
   return effect;
 }

@@ -4,9 +4,9 @@
 namespace fusee {
 namespace {
 
-constexpr double k_mark = radians(0.1);  // precision of setting a joint to a mark, three times
+constexpr double k_mark = radians(0.1);  // uncertainty of the mean of three settings of a joint to a mark
 
-std::vector<CaliperReading> zero_by_mark(const DeclaredMechanism& declared) {
+std::vector<ManualReading> zero_by_mark(const DeclaredMechanism& declared) {
   return hand_reading_in(declared.prior.zero_deg, radians(1.0));
 }
 
