@@ -567,10 +567,10 @@ TEST(Unpacking, StopsAtItsLimit) {
   EXPECT_FALSE(some.whole);
   EXPECT_EQ(some.bytes.size(), 1'000'000u);
   UnpackingLimit limit;
-  const std::size_t most = limit.after(packed.size());
+  const std::size_t most = limit.raise_for(packed.size());
   EXPECT_LT(most, std::size_t{65} << 20);
   limit.use(most);
-  EXPECT_EQ(limit.after(1), 1000u);
+  EXPECT_EQ(limit.raise_for(1), 1000u);
 }
 
 TEST(Unpacking, ReportsDamagedAndCutOffFrames) {
