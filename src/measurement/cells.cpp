@@ -184,8 +184,8 @@ class Scanner {
   std::string_view rest_;
 };
 
-/// Days since 1970-01-01 in the Gregorian calendar, by days_from_civil() of Howard Hinnant's "chrono-Compatible Low-Level
-/// Date Algorithms". An era is 400 years. Years begin in March, so that the leap day is the last of its year.
+/// Days since 1970-01-01 in the Gregorian calendar, by days_from_civil() of Howard Hinnant's "chrono-Compatible
+/// Low-Level Date Algorithms". An era is 400 years. Years begin in March, so that the leap day is the last of its year.
 double days_since_1970(int year, int month, int day) {
   const int y = month <= 2 ? year - 1 : year;
   const int era = y / 400, year_of_era = y - 400 * era;
@@ -210,8 +210,8 @@ void skip_half_of_day(Scanner& scanner) {
   scanner.take(".");
 }
 
-/// "10:00", "10:00:00.020", "2:00:00 PM" as s since midnight. "05:00.020" is minutes and seconds, as spreadsheets export
-/// times with milliseconds: s since the hour. `compact`: "101500.020" is a time of day, too.
+/// "10:00", "10:00:00.020", "2:00:00 PM" as s since midnight. "05:00.020" is minutes and seconds, as spreadsheets
+/// export times with milliseconds: s since the hour. `compact`: "101500.020" is a time of day, too.
 std::optional<double> time_of_day(Scanner& scanner, bool compact) {
   const auto hour = scanner.number(1, 2);
   const bool has_colon = hour && scanner.take(":");

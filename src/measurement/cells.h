@@ -10,7 +10,8 @@ namespace fusee::measurement {
 
 enum class CellContent { number, missing, text };
 
-/// Reads "1.5". The value is NaN unless the cell is a number. Text such as "", "nan", "inf" and "n/a" counts as missing: loggers write it for absent values.
+/// Reads "1.5". The value is NaN unless the cell is a number. Text such as "", "nan", "inf" and "n/a" counts as
+/// missing: loggers write it for absent values.
 CellContent read_number(std::string_view text, double& value);
 
 /// Number parser of one file. A file has one decimal mark, point or comma; the other mark groups thousands: "1,020.5",

@@ -117,8 +117,8 @@ class ClockJoiner {
     return one.alpha == two.alpha && one.theta == two.theta;
   }
 
-  /// Number of late rows from `k` on; 0 if they are not late. After late rows the clock continues beyond `high`, and each
-  /// of them fits between earlier rows.
+  /// Number of late rows from `k` on; 0 if they are not late. After late rows the clock continues beyond `high`, and
+  /// each of them fits between earlier rows.
   std::size_t late_rows(std::size_t k, double first, double high) const {
     std::size_t end = k;
     while (end < rows_.size() && end < k + k_most_late_rows + 1 && !(time(end) > high)) ++end;

@@ -53,8 +53,8 @@ struct Header {
   bool has_angles = false;           ///< every required angle is named, so this line is the header
 };
 
-/// Finds the column of each role. `above_numbers`: the line stands above a row of as many numbers, so that words such as
-/// "servo" and "joint" in its names choose the angles.
+/// Finds the column of each role. `above_numbers`: the line stands above a row of as many numbers, so that words such
+/// as "servo" and "joint" in its names choose the angles.
 Header find_columns(const std::vector<std::string>& names, const MeasurementOptions& options,
                     bool above_numbers = false);
 

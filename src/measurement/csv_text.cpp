@@ -104,7 +104,8 @@ void RecordSplitter::add_utf16(std::string_view bytes) {
     const auto first = static_cast<unsigned char>(start_[0]), second = static_cast<unsigned char>(start_[1]);
     start_.clear();
     const unsigned long unit = encoding_ == Encoding::utf16_little ? first | (second << 8U) : second | (first << 8U);
-    // A surrogate pair is a high code unit, then a low one (RFC 2781). A low one alone becomes the replacement character.
+    // A surrogate pair is a high code unit, then a low one (RFC 2781). A low one alone becomes the replacement
+    // character.
     const bool is_high = unit >= 0xD800 && unit < 0xDC00, is_low = unit >= 0xDC00 && unit < 0xE000;
     if (is_high) {
       high_ = unit;

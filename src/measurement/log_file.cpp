@@ -29,8 +29,8 @@ std::string_view without_quotes(std::string_view text) {
   return is_quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-/// Names in the list "relative_file_paths:" of a metadata.yaml. Older recorders wrote the bag's folder before each: it is
-/// removed.
+/// Names in the list "relative_file_paths:" of a metadata.yaml. Older recorders wrote the bag's folder before each: it
+/// is removed.
 std::vector<std::string> listed_files(std::string_view yaml) {
   constexpr std::string_view k_list = "relative_file_paths:";
   std::vector<std::string> names;

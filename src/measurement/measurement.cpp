@@ -100,7 +100,8 @@ void cut_run(Run& run, Measurement& into, double alpha_quantum) {
 /// N·mm in a unit of torque; 0 for N.
 double Nmm_in(const std::string& unit) { return unit == "Nm" ? 1000.0 : unit == "Nmm" ? 1.0 : 0.0; }
 
-/// Converts the loads of a run to the unit of the first run. Throws InputError if one is a force and the other a torque.
+/// Converts the loads of a run to the unit of the first run. Throws InputError if one is a force and the other a
+/// torque.
 void take_load_unit(const std::string& unit, Run& run, Measurement& into) {
   if (into.load_unit.empty()) into.load_unit = unit;
   if (into.load_unit == unit) return;

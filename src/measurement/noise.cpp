@@ -13,8 +13,8 @@
 //
 // - Outliers: the mean square omits values far outside the bulk, unless they are a part of it.
 //
-// - Coloured noise: neighbouring rows are correlated by r, and rows k apart by rᵏ. Degrees of freedom of the variance of n
-// rows are n (1 − r²)/(1 + r²).
+// - Coloured noise: neighbouring rows are correlated by r, and rows k apart by rᵏ. Degrees of freedom of the variance
+// of n rows are n (1 − r²)/(1 + r²).
 //
 // - Dwells repeat one another if α, its direction, the load and the load's direction agree. Rows are compared at the
 // same share of the dwell; differences in α are corrected by the run's slope.
@@ -42,8 +42,8 @@ constexpr double k_worth_of_third_difference = 1 / (1 + 2 * (0.75 * 0.75 + 0.3 *
 /// Differences of θ, rad, scaled to the standard deviation of one row.
 class Scatter {
  public:
-  /// Adds a sequence of neighbours. `worth`: number of independent differences in each, below 1 if differences share rows.
-  /// `alphas`: α of each, or empty.
+  /// Adds a sequence of neighbours. `worth`: number of independent differences in each, below 1 if differences share
+  /// rows. `alphas`: α of each, or empty.
   void add(const std::vector<double>& differences, double worth, const std::vector<double>& alphas = {}) {
     for (std::size_t i = 0; i < differences.size(); ++i) {
       values_.push_back(differences[i]);
@@ -155,8 +155,8 @@ InterpolatedAngle on_cubic(const Run& run, std::size_t first, double alpha, doub
   return interpolated.weight < k_largest_weight ? interpolated : InterpolatedAngle{};
 }
 
-/// Line fitted to a small part of a stroke about `row`, for logs so dense that α is constant or jitters from row to row.
-/// The part grows until it determines θ at α, but to 1/25 of the stroke's α at most.
+/// Line fitted to a small part of a stroke about `row`, for logs so dense that α is constant or jitters from row to
+/// row. The part grows until it determines θ at α, but to 1/25 of the stroke's α at most.
 InterpolatedAngle on_line(const Run& run, const Segment& stroke, std::size_t row, double alpha) {
   const double longest = std::abs(run.samples[stroke.last].alpha - run.samples[stroke.first].alpha) / 25;
   for (std::size_t half = 4; half <= (stroke.last - stroke.first) / 8; half *= 2) {
@@ -280,7 +280,8 @@ RepeatTolerance repeat_tolerance(const Measurement& measurement, bool across_run
   return {load_tolerance(measurement), std::max(2e-3 * range, 3 * measurement.alpha_quantum), across_runs};
 }
 
-/// Largest number of dwells that are compared, since each is compared with every group. Of more, only every n-th pair is.
+/// Largest number of dwells that are compared, since each is compared with every group. Of more, only every n-th pair
+/// is.
 constexpr std::size_t k_max_dwells = 4000;
 
 /// Groups of segments that repeat one another, in order of time.
@@ -355,8 +356,8 @@ void add_repeats(const std::vector<Pass>& group, double most_load_difference, Sc
   }
 }
 
-/// Third differences of neighbouring rows, for data without repeats. They miss coloured noise. Those of white noise have
-/// √20 of its standard deviation.
+/// Third differences of neighbouring rows, for data without repeats. They miss coloured noise. Those of white noise
+/// have √20 of its standard deviation.
 void add_neighbours(const Run& run, Scatter& scatter) {
   for (const Segment& segment : segments_of(run)) {
     std::vector<double> differences;
@@ -461,8 +462,8 @@ Scatter scatter_within_runs(const Measurement& measurement) {
 /// autocorrelation of their weights (1, −3, 3, −1) is 20, −15, 6, −1.
 double share_seen_by_neighbours(double r) { return 1 + (-15 * r + 6 * r * r - r * r * r) / 10; }
 
-/// True if differences are correlated from row to row and have twice the variance that the neighbours' scatter explains.
-/// The noise may be coloured itself: a correlation up to 0.7 is ascribed to it.
+/// True if differences are correlated from row to row and have twice the variance that the neighbours' scatter
+/// explains. The noise may be coloured itself: a correlation up to 0.7 is ascribed to it.
 bool is_smooth(const Scatter::Result& differences, double variance_of_neighbours) {
   const double noise = variance_of_neighbours / share_seen_by_neighbours(std::min(differences.colour, 0.7));
   // The correlation of n pairs of white noise scatters by 1/√n.

@@ -163,8 +163,8 @@ double quantum_of(const std::vector<Sample>& samples, double Sample::*angle) {
   }
   if (steps.empty()) return 0;
   std::sort(steps.begin(), steps.end());
-  // The 5th percentile ignores a few values off the grid. Decimal rounding makes single steps differ slightly: their mean
-  // is the quantum.
+  // The 5th percentile ignores a few values off the grid. Decimal rounding makes single steps differ slightly: their
+  // mean is the quantum.
   const double single = steps[steps.size() / 20];
   double sum = 0, singles = 0;
   for (const double step : steps) {

@@ -49,8 +49,8 @@ std::string place_of(const Run& run, const Standstill& still) {
   return "at alpha " + rounded(degrees(run.samples[still.first].alpha)) + " deg";
 }
 
-/// The longest motion of α during which θ is constant. A standstill at a stroke's beginning may be play: its length counts
-/// a quarter.
+/// The longest motion of α during which θ is constant. A standstill at a stroke's beginning may be play: its length
+/// counts a quarter.
 struct FrozenSpan {
   double alpha_span = 0;  ///< rad, weighted
   Standstill rows;

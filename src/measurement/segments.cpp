@@ -8,8 +8,8 @@
 #include "measurement/strokes.h"
 #include "measurement/value_range.h"
 
-// A point-to-point log has few rows, or none, during motion. It does not show the shape of a stroke, but θ at each dwell,
-// approached from one side, under one load. Thresholds are shares of the run's own span and scatter;
+// A point-to-point log has few rows, or none, during motion. It does not show the shape of a stroke, but θ at each
+// dwell, approached from one side, under one load. Thresholds are shares of the run's own span and scatter;
 // tests/measurement/segments_test.cpp checks them against sweeps, sines, quantised and noisy logs without dwells.
 
 namespace fusee::measurement {
@@ -24,8 +24,8 @@ constexpr std::size_t k_min_shape_rows = 6;
 constexpr double k_drift = 1e-3;
 /// Number of levels from which on they are steps of a sensor. Fewer levels are dwell angles.
 constexpr double k_fewest_sensor_steps = 40;
-/// Rows whose α lies within a width form a dwell if at the run's mean pace they would have moved by this many widths. Rows
-/// of a slow sweep would have moved by one width.
+/// Rows whose α lies within a width form a dwell if at the run's mean pace they would have moved by this many widths.
+/// Rows of a slow sweep would have moved by one width.
 constexpr double k_widths_of_a_dwell = 5;
 /// Smallest distance of load levels, as a share of the load's range in the run.
 constexpr double k_level_distance = 0.12;

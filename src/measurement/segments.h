@@ -14,8 +14,8 @@ struct RowRange {
   std::size_t last = 0;
 };
 
-/// Dwells of a point-to-point log, in which the motor stands in most rows. Empty for a sweep: a pause in it is part of a
-/// stroke. `alpha_quantum`: sensor step, rad.
+/// Dwells of a point-to-point log, in which the motor stands in most rows. Empty for a sweep: a pause in it is part of
+/// a stroke. `alpha_quantum`: sensor step, rad.
 std::vector<RowRange> dwells_in(const std::vector<Sample>& samples, double alpha_quantum);
 
 /// Returns `quantum`, in rad, if it is the sensor's step; 0 if it is the step of a grid of dwell angles.
@@ -28,8 +28,8 @@ std::vector<Sample> with_mean_alpha_in_dwells(std::vector<Sample> samples, const
 /// True if the load changes within the run by more than its noise and a tenth of itself.
 bool has_levels_of_load(const Run& run);
 
-/// Cuts strokes at dwells and at changes of the load level. A load that repeats at the same α and direction is a function
-/// of α, not a level.
+/// Cuts strokes at dwells and at changes of the load level. A load that repeats at the same α and direction is a
+/// function of α, not a level.
 std::vector<Segment> cut_segments(const Run& run, const std::vector<RowRange>& dwells);
 
 }  // namespace fusee::measurement

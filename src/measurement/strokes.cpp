@@ -22,9 +22,10 @@ double reversal_threshold(const std::vector<Sample>& samples, double quantum, bo
   return std::min(std::max({0.01 * (most - least), 2.5 * quantum, 5.0 * noise}), 0.25 * (most - least));
 }
 
-/// True for scatter about one angle: successive values are independent, and the steps are below a degree or uncorrelated
-/// with θ. Alternation between two ends, row by row, is a motion. Independence is tested by the von Neumann ratio, the
-/// mean square step over the variance: it is 2 for white noise, and at least 1 counts as independent.
+/// True for scatter about one angle: successive values are independent, and the steps are below a degree or
+/// uncorrelated with θ. Alternation between two ends, row by row, is a motion. Independence is tested by the von
+/// Neumann ratio, the mean square step over the variance: it is 2 for white noise, and at least 1 counts as
+/// independent.
 bool only_jitters(const std::vector<Sample>& samples) {
   const double n = static_cast<double>(samples.size());
   double mean = 0, variance = 0, steps = 0, steps_of_theta = 0, covariance = 0;  // mean squares of steps
@@ -117,8 +118,8 @@ class StrokeSplitter {
   int direction_ = 0;               ///< 0 until α has moved by the threshold
 };
 
-/// True if a stroke begins where another stroke of its direction begins: then it is complete, although no stroke is before
-/// it.
+/// True if a stroke begins where another stroke of its direction begins: then it is complete, although no stroke is
+/// before it.
 bool begins_at_reversal(const std::vector<Sample>& samples, const std::vector<Stroke>& strokes, std::size_t stroke,
                         double threshold) {
   const double start = samples[strokes[stroke].first].alpha;

@@ -38,11 +38,11 @@ struct JoinedRows {
 
 /// Joins the tracks to rows at the times of α or θ, whichever has more points; of α if `needs_theta` is false.
 ///
-/// A number of the same message, or of the same time, is taken unchanged. Others are interpolated linearly between their
-/// neighbours in time. There is no interpolation before the first point, after the last point, or over a gap of more than
-/// 5 usual steps of that number. At a jump of more than half a turn the nearer point is taken. Rows without α or θ are
-/// omitted, with a note. Loads and temperatures that are logged less than every 2 s keep their last value: they are set
-/// by hand. Where a clock goes back, a new log begins: no interpolation crosses it.
+/// A number of the same message, or of the same time, is taken unchanged. Others are interpolated linearly between
+/// their neighbours in time. There is no interpolation before the first point, after the last point, or over a gap of
+/// more than 5 usual steps of that number. At a jump of more than half a turn the nearer point is taken. Rows without α
+/// or θ are omitted, with a note. Loads and temperatures that are logged less than every 2 s keep their last value:
+/// they are set by hand. Where a clock goes back, a new log begins: no interpolation crosses it.
 ///
 /// Times since 1970 become s since the first row; other times are kept, in s.
 JoinedRows join(const std::vector<Track>& tracks, bool needs_theta, RowKeeper& into);
