@@ -90,7 +90,7 @@ TEST(Plan, WithoutTimeListsFurtherSteps) {
   const Plan plan = plan_runs(ratio_joint(), options);
   EXPECT_THAT(plan.steps, IsEmpty());
   ASSERT_THAT(plan.beyond, Not(IsEmpty()));
-  EXPECT_THAT(plan.beyond.front().sees, Not(IsEmpty()));
+  EXPECT_THAT(plan.beyond.front().detects, Not(IsEmpty()));
 }
 
 TEST(Plan, WithoutLoadOmitsLoadEffects) {
