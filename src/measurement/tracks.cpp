@@ -198,10 +198,10 @@ class Joiner {
 }  // namespace
 
 void Track::add(const TrackPoint& point) {
-  constexpr std::size_t k_most_points = std::size_t{1} << 22;
+  constexpr std::size_t k_most_track_points = std::size_t{1} << 22;
   if (count_++ % stride != 0) return;
   points.push_back(point);
-  if (points.size() < k_most_points) return;
+  if (points.size() < k_most_track_points) return;
   for (std::size_t i = 0; 2 * i < points.size(); ++i) points[i] = points[2 * i];
   points.resize((points.size() + 1) / 2);
   stride *= 2;

@@ -11,7 +11,7 @@
 namespace fusee::pipeline {
 namespace {
 
-constexpr std::size_t k_largest_file = 8 << 20;  // bytes
+constexpr std::size_t k_largest_input = 8 << 20;  // bytes
 /// Largest counts of the table's 32-bit integers, which end at 2.1·10⁹.
 constexpr double k_most_counts = 2e9;
 const std::vector<std::string> k_model_names = {
@@ -22,9 +22,9 @@ const std::vector<std::string> k_model_names = {
 std::optional<std::filesystem::path> compensation_beside(const MechanismFile& file, FileAccess& files) {
   const std::filesystem::path mechanism = file.path, csv = mechanism.parent_path() / "compensation.csv";
   try {
-    const std::string manifest = read_file(mechanism.parent_path() / "manifest.json", k_largest_file, files);
+    const std::string manifest = read_file(mechanism.parent_path() / "manifest.json", k_largest_input, files);
     if (!formats::names_output(manifest, mechanism.filename().string(), file.sha256)) return std::nullopt;
-    if (!formats::names_output(manifest, csv.filename().string(), sha256(read_file(csv, k_largest_file, files))))
+    if (!formats::names_output(manifest, csv.filename().string(), sha256(read_file(csv, k_largest_input, files))))
       return std::nullopt;
     return csv;
   } catch (const InputError&) {
@@ -36,7 +36,7 @@ void take_compensation(formats::ModelProduct& product, const ModelOptions& optio
   const auto path = options.compensation ? options.compensation : compensation_beside(product.file, files);
   if (!path || path->empty()) return;
   const std::vector<model::TwoWayRow> rows =
-      model::read_compensation(read_file(*path, k_largest_file, files), path->string());
+      model::read_compensation(read_file(*path, k_largest_input, files), path->string());
   product.curves.sensed = model::two_way_curve(model::refined(rows, transmission::Transmission(product.file.mechanism)),
                                                model::CurveSource::compensation);
   product.compensation = path->filename().string();

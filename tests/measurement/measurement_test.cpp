@@ -55,7 +55,7 @@ ParsedRun parsed(const std::string& text, const MeasurementOptions& options = {}
   return result;
 }
 
-MeasurementOptions with_columns(const std::map<std::string, std::string>& columns) {
+MeasurementOptions column_options(const std::map<std::string, std::string>& columns) {
   MeasurementOptions options;
   options.columns = columns;
   return options;
@@ -176,14 +176,14 @@ TEST(Measurement, ReadsEverySeparator) {
 TEST(Measurement, TakesUnitFromColumnName) {
   const std::string text = "clock_ms,motor_rad,joint_rad\n500,0.5,0.1\n";
   const ParsedRun p =
-      parsed(text, with_columns({{"time", "clock_ms"}, {"alpha", "motor_rad"}, {"theta", "joint_rad"}}));
+      parsed(text, column_options({{"time", "clock_ms"}, {"alpha", "motor_rad"}, {"theta", "joint_rad"}}));
   EXPECT_DOUBLE_EQ(p.run.samples.at(0).time, 0.5);
   EXPECT_DOUBLE_EQ(p.run.samples.at(0).alpha, 0.5);
   EXPECT_DOUBLE_EQ(p.run.samples.at(0).theta, 0.1);
 }
 
 TEST(Measurement, RejectsColumnWithTwoRoles) {
-  EXPECT_THAT(error_of("alpha_deg,theta_deg\n1,2\n", with_columns({{"load", "theta_deg"}})),
+  EXPECT_THAT(error_of("alpha_deg,theta_deg\n1,2\n", column_options({{"load", "theta_deg"}})),
               HasSubstr("\"theta_deg\" is taken as theta and as load"));
 }
 
@@ -232,12 +232,12 @@ TEST(Measurement, OmitsTruncatedLastRow) {
 
 TEST(Measurement, AssignsRolesToColumns) {
   const std::string text = "alpha_deg,theta_deg,tau_out_Nm\n1,2,3\n";
-  const ParsedRun p = parsed(text, with_columns({{"load", "tau_out_Nm"}}));
+  const ParsedRun p = parsed(text, column_options({{"load", "tau_out_Nm"}}));
   EXPECT_TRUE(p.run.has_load);
   EXPECT_EQ(p.run.samples.at(0).load, 3);
   EXPECT_EQ(p.measurement.load_unit, "Nm");
-  EXPECT_THAT(error_of(text, with_columns({{"load", "tau_oat_Nm"}})), HasSubstr("the nearest is \"tau_out_Nm\""));
-  EXPECT_THAT(error_of(text, with_columns({{"loud", "tau_out_Nm"}})), HasSubstr("did you mean load?"));
+  EXPECT_THAT(error_of(text, column_options({{"load", "tau_oat_Nm"}})), HasSubstr("the nearest is \"tau_out_Nm\""));
+  EXPECT_THAT(error_of(text, column_options({{"loud", "tau_out_Nm"}})), HasSubstr("did you mean load?"));
 }
 
 TEST(Measurement, SuggestsNearestColumn) {
