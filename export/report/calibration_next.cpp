@@ -24,7 +24,7 @@ plan::PlanStep step_of(const plan::NextMeasurement& next, double minutes_before)
   step.words = next.words;
   step.minutes = next.minutes;
   step.end_minute = minutes_before + next.minutes;
-  if (!next.gain.empty()) step.tells = {next.gain};
+  if (!next.gain.empty()) step.resolves = {next.gain};
   return step;
 }
 

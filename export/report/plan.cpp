@@ -58,8 +58,8 @@ Json step_json(const plan::Plan& plan, const plan::PlanStep& step, const std::st
   json["minutes"] = result_json(step.minutes);
   json["setup_minutes"] = result_json(step.setup_minutes);
   json["by_minute"] = result_json(step.end_minute);
-  json["sees"] = step.sees;
-  json["tells"] = step.tells;
+  json["sees"] = step.detects;
+  json["tells"] = step.resolves;
   return json;
 }
 

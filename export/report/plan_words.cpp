@@ -30,8 +30,9 @@ std::vector<std::string> false_positive_words(const plan::Plan& plan) {
 
 std::string gain_words(const plan::PlanStep& step) {
   std::string text;
-  if (!step.sees.empty()) text = "detects " + list_of(step.sees, ", ");
-  if (!step.tells.empty()) text += std::string(text.empty() ? "" : "; ") + "distinguishes " + list_of(step.tells, "; ");
+  if (!step.detects.empty()) text = "detects " + list_of(step.detects, ", ");
+  if (!step.resolves.empty())
+    text += std::string(text.empty() ? "" : "; ") + "distinguishes " + list_of(step.resolves, "; ");
   return text.empty() ? "reduces the uncertainty of causes that are already distinguished" : text;
 }
 

@@ -34,8 +34,8 @@ struct Correction {
   std::string infeasible;    ///< why it is infeasible; empty if it is feasible or not needed
   joint::RoundChoice round;
   double assembly_angle = 0;  ///< motor angle at which the corrected pulley's tendons are tied, rad
-  // Rms error of the identified joint from its target motion over the measured strokes, rad, by simulation. For a joint
-  // declared by a ratio, the identified zero is left out.
+  // Rms error of the identified joint from its target motion over the measured strokes, rad, by simulation. The zero of
+  // a joint declared by a ratio is arbitrary: the identified zero is no part of its error.
   double error_now = 0;
   double error_with_pulley = 0;  ///< with the corrected pulley, assembled at α = 0
   double error_with_table = 0;   ///< with the corrected pulley and the table
@@ -73,10 +73,10 @@ struct LoadedStroke {
 /// Sizes of an effect, as multiples of the identified size.
 inline constexpr std::array k_rehearsed_shares{0.0, 0.5, 1.0, 1.5, 2.0};
 
-/// Change of the sensed joint angle by the effect alone, rad.
+/// Change of the sensed joint angle by the effect alone at one share of its size, rad.
 struct RehearsedShare {
   std::vector<calibration::FittedParameter> parameters;  ///< the effect's parameters at that share
-  std::vector<std::vector<double>> rising, falling;      ///< by load and place
+  std::vector<std::vector<double>> rising, falling;      ///< by load and point of the stroke; α rises, falls
 };
 
 /// Simulated influence of one effect.

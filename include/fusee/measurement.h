@@ -34,8 +34,8 @@ struct MeasurementOptions {
   /// alpha, theta → counts per turn; negative if counts fall while the angle grows
   std::map<std::string, double> ticks_per_turn;
   std::map<std::string, double> zero_ticks;  ///< alpha, theta → counts at home
-  double alpha_span = 0;                     ///< motor range of the declared joint, rad; 0: unknown. See expecting()
-  double theta_span = 0;
+  double alpha_span = 0;                     ///< range of α of the declared joint, rad; 0: unknown. See expecting()
+  double theta_span = 0;                     ///< range of θ of the declared joint, rad; 0: unknown
 };
 
 /// Adds the ranges of a declared joint, which distinguish degrees from radians where no name states the unit.
@@ -53,8 +53,8 @@ struct Sample {
   double theta = 0;  ///< rad, unwrapped
   double load = 0;   ///< in `load_unit`: N for load_N (a tip force, positive against +θ)
   double temperature_C = 0;
-  double tension1 = 0;  ///< N
-  double tension2 = 0;
+  double tension1 = 0;       ///< of tendon 1, N
+  double tension2 = 0;       ///< of tendon 2, N
   bool after_break = false;  ///< the log restarts here: the play state before this row is unknown
 };
 
@@ -63,8 +63,8 @@ struct Stroke {
   std::size_t first = 0;  ///< index into the run's samples
   std::size_t last = 0;   ///< included
   int direction = 0;  ///< +1: α grows, −1: α falls, 0: α is constant throughout the run and the load moves the joint
-  int cycle = 0;
-  bool partial = false;  ///< its play state is unknown: the first of a run, away from a reversal or unlike its repeats
+  int cycle = 0;      ///< number of the cycle, counted from the first complete stroke
+  bool partial = false;  ///< its play state is unknown: after a gap, or at the beginning of a run
 };
 
 /// Rows of a stroke that count as one observation: the whole stroke, one load level of it, or one dwell.
@@ -91,8 +91,8 @@ struct Run {
 /// All runs of one joint, with notes on their repair.
 struct Measurement {
   std::vector<Run> runs;
-  double alpha_quantum = 0;  ///< sensor step, rad; 0 if it is too fine to be detected
-  double theta_quantum = 0;
+  double alpha_quantum = 0;               ///< step of the motor's sensor, rad; 0 if it is too fine to be detected
+  double theta_quantum = 0;               ///< step of the joint's sensor, rad; 0 if it is too fine to be detected
   std::string load_unit;                  ///< of the loads: "N", "Nm", "Nmm"; "" without loads
   std::vector<std::string> notes;         ///< rows dropped or repaired and likely faults, with file and line
   std::vector<std::string> sources;       ///< of bags: topics and clock of the rows. No part of results
@@ -130,7 +130,7 @@ std::vector<Segment> segments_of(const Run& run);
 /// True if the motor stands in most rows: a log of dwells, or of loads changed at one motor angle.
 bool is_from_point_to_point(const Run& run);
 
-/// Motor angles, loads, temperatures and times of these runs, as input of a simulation.
+/// Motor angles, loads, temperatures and times of the runs, as input of a simulation.
 joint::BenchLog bench_log(const Measurement& measurement);
 
 /// Removes whole turns by which an encoder starts elsewhere (with a note). Converts torques to tip forces if the joint
@@ -146,7 +146,7 @@ struct NoiseLevel {
   double speed = 0;               ///< rad/s; 0 without time
   double rms = 0;                 ///< scatter between repeats, rad
   double degrees_of_freedom = 0;  ///< as in NoiseFloor
-  double largest_at = 0;          ///< α at which repeats differ most, rad
+  double largest_at = 0;          ///< α at which repeats differ most, rad; 0 if it is unknown
 };
 
 /// Scatter of θ between repeats at the same α, direction, load and speed, before any fit. Repeats are taken within

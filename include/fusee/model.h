@@ -1,5 +1,5 @@
 /// \file
-/// A joint for other programs: θ(α) in the forms of simulators and firmware, each with its error. rad, mm.
+/// A joint for other programs: θ(α) in the forms of simulators and firmware, each with its error. Units: rad, mm.
 ///
 /// Simulators use polynomials of degree 4, robot descriptions a straight line, firmware tables of 32-bit floats. The
 /// source is a JointCurve: the law that the file declares, the motion of an identified joint in each direction, or a
@@ -36,11 +36,11 @@ AngleMap angle_map(const transmission::Transmission& law);
 /// Linear interpolation between rows. Both columns must increase.
 AngleMap angle_map(std::vector<LawRow> rows);
 
-/// Motor angles for the joint angle `theta`: moving up, and moving down. rad
+/// Motor angles at which the joint is at `theta`, rad.
 struct TwoWayRow {
   double theta = 0;
-  double up = 0;
-  double down = 0;
+  double up = 0;    ///< while α increases
+  double down = 0;  ///< while α decreases
 };
 
 /// Origin of a curve.
@@ -53,8 +53,8 @@ enum class CurveSource {
 /// θ(α) of the joint, of both directions where they differ.
 struct JointCurve {
   CurveSource source = CurveSource::law;
-  AngleMap middle;                              ///< mean of both directions; the law itself
-  std::optional<std::array<AngleMap, 2>> ways;  ///< from below (α increases), from above
+  AngleMap middle;                              ///< the law, or the mean motor angle of both directions
+  std::optional<std::array<AngleMap, 2>> ways;  ///< both directions: from below (α increases), from above
   double half_hysteresis = 0;                   ///< half of the largest hysteresis at the joint, rad
 };
 
@@ -68,8 +68,8 @@ struct JointCurves {
   JointCurve sensed;
 };
 
-/// Uses the pulley that `fusee build` makes of the file. The law must exist and increase (grows()). Empty if the
-/// identified joint has no equilibrium on its way.
+/// The curves with the pulley that `fusee build` makes of the file. The law must exist and increase (grows()). Empty if
+/// the identified joint has no equilibrium somewhere in its range.
 std::optional<JointCurves> joint_curves(const DeclaredMechanism& declared);
 
 /// True if θ increases with α over the whole range. The law must exist.
@@ -93,7 +93,7 @@ struct Polynomial {
   double slope(double x) const;
 };
 
-/// A sample to be fitted, whose error is multiplied by `weight`.
+/// A point to be fitted. Its error is multiplied by `weight`.
 struct FitPoint {
   double x = 0;
   double y = 0;
@@ -137,20 +137,21 @@ struct WrappedTendon {
   Vec2 pin{0, 0};
   double rho = 0;          ///< radius of the cylinder to the tendon's centre line; 0: a point
   Vec2 anchor{0, 0};       ///< the fixed point below the pin, or the entrance of the sheath
-  Vec2 outer{0, 0};        ///< a point on the side of the pin that the tendon passes
+  Vec2 outer{0, 0};        ///< a point beyond the pin, on the side on which the tendon passes it
   double home_length = 0;  ///< length from its end to the anchor, or to the far exit of its sheath
   double most_wrap = 0;    ///< largest wrap angle at the pin over the range, rad
   /// Radius of the link's drum about O, to the tendon's centre line, if the tendon lies on it at every angle of the
   /// range; 0 otherwise.
   double drum = 0;
-  std::vector<Vec2> on_drum;  ///< points of the link that it always covers, from its end on, with short chords
-  Vec2 drum_outer{0, 0};      ///< a point beside the drum, on the side that the tendon passes after `on_drum`
-  Vec2 off_drum{0, 0};        ///< a fixed point on its straight line from drum to pin
-  std::optional<Vec2> sheath_exit = std::nullopt;  ///< exit of its sheath, beside the pulley
+  std::vector<Vec2>
+      on_drum;            ///< points of the link that the tendon covers at every angle, from its end on, close together
+  Vec2 drum_outer{0, 0};  ///< a point beyond the drum, on the side on which the tendon passes it after these points
+  Vec2 off_drum{0, 0};    ///< a fixed point on the tendon's straight part from drum to pin
+  std::optional<Vec2> sheath_exit = std::nullopt;  ///< exit of the tendon's sheath, beside the pulley
 };
 
-/// The law as tendons that are wrapped above the pins. A polynomial of α gives the length that the pulley winds in of
-/// one of them.
+/// The law as two tendons that are wrapped above the pins. A polynomial of α gives the length of one of
+/// them, from its end to the anchor.
 struct TendonModel {
   std::array<WrappedTendon, 2> tendons;
   std::array<std::string, 2> omission;  ///< reason why a simulator cannot represent a tendon; "": it can
@@ -173,8 +174,8 @@ double tendon_error(const WrappedTendon& tendon, const Polynomial& length, const
 /// The unit of the motor's angle in a table.
 struct MotorUnit {
   double per_turn = 360;  ///< degrees, or counts of an encoder; negative if they decrease as α increases
-  bool ticks = false;
-  double zero = 0;  ///< reading at α = 0
+  bool ticks = false;     ///< counts
+  double zero = 0;        ///< reading at α = 0
 
   /// Reading in this unit at a motor angle, rad.
   double of(double alpha) const;
@@ -182,9 +183,9 @@ struct MotorUnit {
   double alpha(double reading) const;
 };
 
-/// The tables of one direction, evenly spaced from the first to the last place.
+/// The tables of one direction, with evenly spaced entries.
 struct OneWayTable {
-  float first = 0, last = 0;     ///< motor angle in its MotorUnit minus its zero; the first is the smaller one
+  float first = 0, last = 0;  ///< motor angle of the first and last entry, in its MotorUnit minus its zero; ascending
   std::vector<float> theta_deg;  ///< θ, as a function of the motor angle
   std::vector<float> motor;      ///< motor angle in its MotorUnit minus its zero, as a function of θ
 };
@@ -199,12 +200,12 @@ struct TableErrors {
 /// Tables of both directions of conversion, for firmware.
 struct JointTable {
   MotorUnit unit;
-  int pieces = 0;  ///< number of linear pieces of each table
-  float theta_first_deg = 0, theta_last_deg = 0;
-  std::vector<OneWayTable> ways;  ///< one, or two: from below and from above
-  std::vector<float> slope;       ///< dθ/dα of the mean curve, over the first way's angles
-  std::vector<float> holding;     ///< motor torque that holds the declared load without friction, N·mm; may be empty
-  TableErrors errors;             ///< in 32-bit arithmetic, for the worse direction
+  int pieces = 0;                                 ///< number of linear pieces of each table
+  float theta_first_deg = 0, theta_last_deg = 0;  ///< θ of the first and last entry of the motor angles
+  std::vector<OneWayTable> ways;                  ///< one, or two: from below and from above
+  std::vector<float> slope;                       ///< dθ/dα of the mean curve, over the first way's angles
+  std::vector<float> holding;  ///< motor torque that holds the declared load without friction, N·mm; may be empty
+  TableErrors errors;          ///< in 32-bit arithmetic, for the worse direction
 };
 
 /// Limit of the size of a table.
@@ -214,10 +215,10 @@ constexpr int k_most_pieces = 4096;
 /// if k_most_pieces are too few.
 std::optional<JointTable> joint_table(const JointCurve& curve, const Mechanism& mechanism, const MotorUnit& unit,
                                       double most);
-/// Errors of a table with respect to its curve, in 32-bit arithmetic.
+/// Errors of a table with respect to its curve, in 32-bit arithmetic, at eight points of each piece.
 TableErrors measured(const JointTable& table, const JointCurve& curve);
 
-/// Interpolates as the generated header does. `at`: pieces from the first entry.
-float interpolated(const std::vector<float>& table, float at);
+/// Interpolates as the generated header does. `position`: in pieces from the first entry.
+float interpolated(const std::vector<float>& table, float position);
 
 }  // namespace fusee::model

@@ -42,8 +42,8 @@ struct PlannedRun {
   double to = 0;
   int cycles = 3;    ///< strokes there and back; the first stroke of a log only settles the play
   double speed = 0;  ///< of the motor, rad/s
-  double load = 0;   ///< tip force, N; for a joint declared by a ratio in the log's own unit
-  double dwell = 0;  ///< pause at either end of every stroke, s
+  double load = 0;   ///< tip force, N; for a joint declared by a ratio in the unit of the log
+  double dwell = 0;  ///< pause at the end of every stroke, s
   BenchChange change = BenchChange::none;
 };
 
@@ -53,7 +53,7 @@ double minutes_of(const PlannedRun& run);
 double setup_minutes_of(const PlannedRun& run);
 /// A phrase such as "3 slow cycles at 5 N". `slow`, rad/s, is the speed that is called slow.
 std::string words(const PlannedRun& run, double slow, const std::string& load_unit);
-/// Simulated rows: `rows_a_stroke` evenly over every stroke, then every dwell.
+/// Rows that drive a simulation: `rows_a_stroke` rows evenly over every stroke, then the rows of its dwell.
 joint::BenchRun driven(const PlannedRun& run, int rows_a_stroke);
 
 /// A measurement that distinguishes causes that the runs so far do not.
@@ -61,8 +61,8 @@ struct NextMeasurement {
   std::optional<PlannedRun> run;  ///< a run to drive
   /// Parameters of one effect to read by hand, if there is no run. Without both, see `words`.
   std::vector<const fusee::EffectParameter*> readings;
-  std::string words;                   ///< the instruction
-  std::string gain;                    ///< "backlash from creep (4 × the uncertainty)"; "" if unknown
+  std::string words;  ///< the instruction
+  std::string gain;   ///< what it distinguishes: "backlash from creep (4 × the uncertainty)"; "" if unknown
   std::vector<std::string> separates;  ///< names of effects; may include "unmodelled"
   double minutes = 0;                  ///< including the changes on the bench
 
@@ -80,7 +80,7 @@ NextMeasurement next_inspection(const std::string& words);
 /// Root mean square difference of two simulations of the same rows, rad. Rows without an angle do not count.
 double rms_apart(const std::vector<std::vector<double>>& one, const std::vector<std::vector<double>>& other);
 
-/// Parameters of this joint's effects that can be read by hand and that [prior] does not have yet.
+/// Parameters of this joint's effects that can be measured by hand and have no value in [prior] yet.
 std::vector<const fusee::EffectParameter*> unread_numbers(const DeclaredMechanism& declared);
 
 // ---- Plan -----------------------------------------------------------------------------------------------------------
@@ -108,11 +108,11 @@ struct PlanStep {
   std::optional<PlannedRun> run;
   const fusee::EffectParameter* reading = nullptr;
   std::string words;
-  double minutes = 0;              ///< including the changes on the bench
-  double setup_minutes = 0;        ///< part of `minutes` that the changes take
-  double end_minute = 0;           ///< from the beginning of the plan to the end of this step
-  std::vector<std::string> sees;   ///< causes that this step detects first
-  std::vector<std::string> tells;  ///< pairs that this step resolves first: "backlash from capstan_friction, creep"
+  double minutes = 0;                 ///< including the changes on the bench
+  double setup_minutes = 0;           ///< part of `minutes` that the changes take
+  double end_minute = 0;              ///< from the beginning of the plan to the end of this step
+  std::vector<std::string> detects;   ///< causes that this step detects first
+  std::vector<std::string> resolves;  ///< pairs that this step resolves first: "backlash from capstan_friction, creep"
 };
 
 /// A cause, and how well the planned runs detect it.
@@ -131,9 +131,9 @@ struct PlannedCause {
 /// Outcomes over synthetic data sets whose cause is known.
 struct FalsePositives {
   int samples = 0;
-  int wrong = 0;  ///< only causes that are not present were named
-  int alone = 0;  ///< the true cause was named alone
-  int group = 0;  ///< the true cause was named in a group
+  int wrong = 0;  ///< data sets for which only causes that are not present were reported
+  int alone = 0;  ///< data sets for which the true cause was reported alone
+  int group = 0;  ///< data sets for which the true cause was reported in a group
 };
 
 /// Result of plan_runs().
@@ -144,9 +144,11 @@ struct Plan {
   std::vector<PlannedCause> causes;                           ///< in the order of the drive chain
   std::vector<std::pair<std::string, std::string>> left_out;  ///< effects without a plan, and the reason
   std::vector<std::vector<std::string>> groups;               ///< causes that the runs do not resolve
-  FalsePositives nothing, one, unmodelled;  ///< without cause; with one cause; with one that is not in the catalogue
-  double slow = 0;                          ///< motor speed that is called slow, rad/s
-  double from = 0, to = 0;                  ///< motor range, rad
+  FalsePositives nothing;                                     ///< over data sets without a cause
+  FalsePositives one;                                         ///< over data sets with one cause
+  FalsePositives unmodelled;  ///< over data sets with one cause that is not in the catalogue
+  double slow = 0;            ///< rad/s
+  double from = 0, to = 0;    ///< motor range, rad
   std::string load_unit = "N";
   int first_run = 1;  ///< number of the first run's file
 };

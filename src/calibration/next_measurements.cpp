@@ -327,7 +327,7 @@ std::vector<plan::NextMeasurement> planned_measurements(const DeclaredMechanism&
   for (const plan::PlanStep& step : plan.steps) {
     next.push_back(step.run ? plan::next_run(*step.run, plan.slow, plan.load_unit)
                             : plan::next_reading({step.reading}));
-    next.back().separates = step.sees;
+    next.back().separates = step.detects;
   }
   return next;
 }

@@ -12,12 +12,13 @@
 #include "transmission/target_motion.h"
 
 // All errors are simulated with predict(), for the identified joint with its present pulley and with the pulley of
-// corrected.toml. The error is the deviation from the declared θ(α). The error that the corrected pulley leaves goes
-// into the table.
+// corrected.toml. The error is the deviation from the declared θ(α). The table corrects the residual error with the
+// corrected pulley.
 
 namespace fusee::correction {
 namespace {
 
+/// Joint angles or errors, rad, by run and sample.
 using Angles = std::vector<std::vector<double>>;
 
 // ---- identified joint -----------------------------------------------------------------------------------------------
@@ -34,20 +35,21 @@ double mean_load(const measurement::Measurement& measurement, const Mechanism& d
   return count > 0 ? sum / count : declared.load.tip_force;
 }
 
-/// Upper bound of the motor's lost motion after a reversal, rad of α. A cable's last contact holds twice the mean
-/// friction.
+/// Upper bound of the motor's lost motion after a reversal, rad of α: play, and the twist of a joint declared by a
+/// ratio until it overcomes friction. A cable's last contact holds twice the mean friction.
 double lost_motion(const Imperfections& found, const Mechanism& declared, double load) {
   const RatioJointError& joint = found.ratio_joint;
   const double play = 2 * (found.shaft.backlash + joint.slack);
   if (!declared.transmission) return play;
-  const double held = 2 * joint.friction.at(load);
-  const double turned = 2 * joint.compliance * held + joint.waves.gained(load + held) - joint.waves.gained(load - held);
-  return play + std::abs(declared.transmission->ratio * turned);
+  const double friction = 2 * joint.friction.at(load);
+  const double twist =
+      2 * joint.compliance * friction + joint.waves.gained(load + friction) - joint.waves.gained(load - friction);
+  return play + std::abs(declared.transmission->ratio * twist);
 }
 
-/// Combines earlier and new imperfections. Earlier ones that a mechanism has are part of the declared model; others are
-/// identified anew.
-Imperfections composed(const DeclaredMechanism& declared, const Imperfections& found) {
+/// Combines earlier and new imperfections. Earlier imperfections of the mechanism are part of the model of this
+/// calibration; others were identified anew.
+Imperfections combined(const DeclaredMechanism& declared, const Imperfections& found) {
   Imperfections total = merge_findings(declared.identified, found, kind_of(declared));
   total.joint.mean_load = declared.identified.joint.mean_load;
   return total;
@@ -71,6 +73,7 @@ bool has_same_pulley(const DeclaredMechanism& a, const DeclaredMechanism& b) {
          one.mechanism.pulley == other.mechanism.pulley && one.mechanism.material == other.mechanism.material;
 }
 
+/// The reason why the corrected pulley cannot be made; "" if it can.
 std::string why_infeasible(const DeclaredMechanism& corrected) {
   profile::SynthesisOptions options;
   options.advice = false;
@@ -83,7 +86,7 @@ std::string why_infeasible(const DeclaredMechanism& corrected) {
 
 // ---- errors ---------------------------------------------------------------------------------------------------------
 
-/// Deviation of simulated angles from the target motion.
+/// Deviation of angles from the target motion, rad, by run and sample.
 Angles errors(const measurement::Measurement& measurement, const transmission::TargetMotion& law, Angles theta) {
   for (std::size_t r = 0; r < theta.size(); ++r) {
     for (std::size_t i = 0; i < theta[r].size(); ++i) theta[r][i] -= law.theta(measurement.runs[r].samples[i].alpha);
@@ -102,7 +105,7 @@ void for_each_known(const measurement::Measurement& measurement, Visit visit) {
   }
 }
 
-/// Rms about `zero`.
+/// Rms of the error about `zero`, rad, over all samples with known play state.
 double rms(const measurement::Measurement& measurement, const Angles& error, double zero) {
   double squares = 0, count = 0;
   for_each_known(measurement, [&](std::size_t r, std::size_t i, const measurement::Stroke&) {
@@ -114,31 +117,31 @@ double rms(const measurement::Measurement& measurement, const Angles& error, dou
   return count > 0 ? std::sqrt(squares / count) : 0;
 }
 
-/// Rms of the removed part if `rest` remains of `all`; both are rms values.
-double removed_rms(double all, double rest) { return std::sqrt(std::max(0.0, all * all - rest * rest)); }
+/// Rms of the removed part of an error, from the rms values before and after.
+double removed_rms(double before, double after) { return std::sqrt(std::max(0.0, before * before - after * after)); }
 
 // ---- the table ------------------------------------------------------------------------------------------------------
 
 /// Piecewise linear function of α at even distances, constant beyond its ends.
 struct Curve {
-  measurement::ValueRange seen;
+  measurement::ValueRange alphas;
   std::vector<double> values;
 
   double at(double alpha) const {
-    const measurement::Bins pieces{seen, static_cast<int>(values.size()) - 1};
+    const measurement::Bins pieces{alphas, static_cast<int>(values.size()) - 1};
     const auto i = static_cast<std::size_t>(pieces.bin(alpha));
     const double share = pieces.place(alpha) - static_cast<double>(i);
     return values[i] + share * (values[i + 1] - values[i]);
   }
 };
 
-/// Mean in bins of α; empty bins take their nearest neighbour's value.
-class BinnedMean {
+/// Mean of values at evenly spaced nodes of α; a node without values takes those of its nearest neighbour.
+class NodeMeans {
  public:
-  explicit BinnedMean(const measurement::ValueRange& seen)
-      : bins_{seen, k_places}, sums_(k_places + 1, 0), weights_(k_places + 1, 0) {}
+  explicit NodeMeans(const measurement::ValueRange& alphas)
+      : bins_{alphas, k_intervals}, sums_(k_intervals + 1, 0), weights_(k_intervals + 1, 0) {}
 
-  /// Distributes the value over the two bins next to `alpha`.
+  /// Distributes the value over the two nodes next to `alpha`.
   void add(double alpha, double value) {
     const auto i = static_cast<std::size_t>(bins_.bin(alpha));
     const double share = bins_.place(alpha) - static_cast<double>(i);
@@ -149,12 +152,13 @@ class BinnedMean {
   }
 
   Curve curve() const {
-    Curve curve{bins_.span, std::vector<double>(k_places + 1, 0)};
-    for (int i = 0; i <= k_places; ++i) {
+    constexpr double k_least_weight = 0.2;
+    Curve curve{bins_.span, std::vector<double>(k_intervals + 1, 0)};
+    for (int i = 0; i <= k_intervals; ++i) {
       int nearest = -1;
-      for (int step = 0; step <= k_places && nearest < 0; ++step) {
+      for (int step = 0; step <= k_intervals && nearest < 0; ++step) {
         for (const int j : {i - step, i + step}) {
-          if (j >= 0 && j <= k_places && weights_[static_cast<std::size_t>(j)] > 0.2) nearest = j;
+          if (j >= 0 && j <= k_intervals && weights_[static_cast<std::size_t>(j)] > k_least_weight) nearest = j;
         }
       }
       const auto from = static_cast<std::size_t>(nearest);
@@ -164,29 +168,32 @@ class BinnedMean {
   }
 
  private:
-  static constexpr int k_places = 40;
+  static constexpr int k_intervals = 40;
   measurement::Bins bins_;
   std::vector<double> sums_, weights_;
 };
 
-/// Error on the way up and down, with play taken up. Samples just after a reversal, before the joint moves, are
-/// omitted.
+/// Error while α rises and while it falls.
 struct DirectionalCurves {
   Curve up, down;
 };
 
+/// Mean error of either direction. Samples just after a reversal are omitted: within `play`, rad of α, the joint does
+/// not move.
 DirectionalCurves directional_curves(const measurement::Measurement& measurement, const Angles& error, double play) {
-  const measurement::ValueRange seen = measurement::value_range(measurement, &measurement::Sample::alpha);
-  BinnedMean up(seen), down(seen);
+  const measurement::ValueRange alphas = measurement::value_range(measurement, &measurement::Sample::alpha);
+  NodeMeans up(alphas), down(alphas);
   for_each_known(measurement, [&](std::size_t r, std::size_t i, const measurement::Stroke& stroke) {
     const std::vector<measurement::Sample>& samples = measurement.runs[r].samples;
-    const bool taken_up = std::abs(samples[i].alpha - samples[stroke.first].alpha) > play;
-    if (std::isfinite(error[r][i]) && taken_up) (stroke.direction > 0 ? up : down).add(samples[i].alpha, error[r][i]);
+    const bool is_play_taken_up = std::abs(samples[i].alpha - samples[stroke.first].alpha) > play;
+    if (!std::isfinite(error[r][i]) || !is_play_taken_up) return;
+    NodeMeans& means = stroke.direction > 0 ? up : down;
+    means.add(samples[i].alpha, error[r][i]);
   });
   return {up.curve(), down.curve()};
 }
 
-/// Error that remains if the motor follows the table.
+/// Residual error if the motor follows the table.
 Angles with_table(const measurement::Measurement& measurement, Angles error, const DirectionalCurves& table) {
   for_each_known(measurement, [&](std::size_t r, std::size_t i, const measurement::Stroke& stroke) {
     error[r][i] -= (stroke.direction > 0 ? table.up : table.down).at(measurement.runs[r].samples[i].alpha);
@@ -194,7 +201,7 @@ Angles with_table(const measurement::Measurement& measurement, Angles error, con
   return error;
 }
 
-/// Interpolates α at `theta` in a curve of (θ, α) that is sorted by θ.
+/// Interpolates α at `theta` in rows that are sorted by θ.
 double alpha_at(const std::vector<LawRow>& rows, double theta) {
   const auto above = std::lower_bound(rows.begin() + 1, rows.end() - 1, theta,
                                       [](const LawRow& row, double value) { return row.theta < value; });
@@ -203,32 +210,32 @@ double alpha_at(const std::vector<LawRow>& rows, double theta) {
   return span > 0 ? low.alpha + (above->alpha - low.alpha) * (theta - low.theta) / span : low.alpha;
 }
 
-/// Error of the joint: from effects, and from the empirical curve of the unmodelled error.
+/// Error of the joint, rad: from effects, and from the empirical curve of the unmodelled error.
 struct JointDeviation {
   const DirectionalCurves& effects;
   const calibration::EmpiricalCurve* curve;  ///< null if there is none
-  measurement::ValueRange seen;              ///< range in which both are known
+  measurement::ValueRange alphas;            ///< range in which both are known
 
   double at(double alpha, bool rising) const {
-    const double known = (rising ? effects.up : effects.down).at(alpha);
-    return curve != nullptr ? known + curve->at(alpha, rising) : known;
+    const double by_effects = (rising ? effects.up : effects.down).at(alpha);
+    return curve != nullptr ? by_effects + curve->at(alpha, rising) : by_effects;
   }
 };
 
 measurement::ValueRange common_span(const DirectionalCurves& effects, const calibration::EmpiricalCurve* curve) {
-  measurement::ValueRange seen = effects.up.seen;
-  if (curve == nullptr) return seen;
-  seen.least = std::max(seen.least, curve->alpha.front());
-  seen.most = std::min(seen.most, curve->alpha.back());
-  return seen;
+  measurement::ValueRange alphas = effects.up.alphas;
+  if (curve == nullptr) return alphas;
+  alphas.least = std::max(alphas.least, curve->alpha.front());
+  alphas.most = std::min(alphas.most, curve->alpha.back());
+  return alphas;
 }
 
-/// Motion of the joint in one direction, by growing θ.
+/// Motion of the joint in one direction, sorted by θ. Rows in which θ does not grow are omitted.
 std::vector<LawRow> motion_rows(const transmission::TargetMotion& law, const JointDeviation& deviation, bool rising) {
   constexpr int places = 800;
   std::vector<LawRow> rows;
   for (int i = 0; i <= places; ++i) {
-    const double alpha = deviation.seen.least + deviation.seen.size() * i / places;
+    const double alpha = deviation.alphas.least + deviation.alphas.size() * i / places;
     rows.push_back({alpha, law.theta(alpha) + deviation.at(alpha, rising)});
   }
   if (rows.back().theta < rows.front().theta) std::reverse(rows.begin(), rows.end());
@@ -239,22 +246,25 @@ std::vector<LawRow> motion_rows(const transmission::TargetMotion& law, const Joi
   return growing;
 }
 
-/// Motor angles for one direction, complete and without the empirical curve.
+/// Motion of the joint in one direction, from which motor angles are read.
 struct MotorPath {
-  std::vector<LawRow> all, effects;
+  std::vector<LawRow> all;      ///< with effects and the empirical curve
+  std::vector<LawRow> effects;  ///< without the empirical curve
 
   bool any() const { return all.size() > 1 && effects.size() > 1; }
   double alpha(double theta) const { return alpha_at(all, theta); }
+  /// Part of alpha() from the empirical curve.
   double of_curve(double theta) const { return alpha_at(all, theta) - alpha_at(effects, theta); }
 };
 
 MotorPath motion_of(const transmission::TargetMotion& law, const JointDeviation& deviation, bool rising) {
   return {motion_rows(law, deviation, rising),
-          motion_rows(law, {deviation.effects, nullptr, deviation.effects.up.seen}, rising)};
+          motion_rows(law, {deviation.effects, nullptr, deviation.effects.up.alphas}, rising)};
 }
 
 std::vector<CompensationRow> compensation_rows(const transmission::TargetMotion& law, const JointDeviation& deviation) {
-  const MotorPath rising = motion_of(law, deviation, true), falling = motion_of(law, deviation, false);
+  const MotorPath rising = motion_of(law, deviation, /*rising=*/true),
+                  falling = motion_of(law, deviation, /*rising=*/false);
   if (!rising.any() || !falling.any()) return {};
   const double low = std::max(rising.all.front().theta, falling.all.front().theta),
                high = std::min(rising.all.back().theta, falling.all.back().theta);
@@ -270,6 +280,7 @@ std::vector<CompensationRow> compensation_rows(const transmission::TargetMotion&
 
 // ---- held-out rows --------------------------------------------------------------------------------------------------
 
+/// Reason for a file that is not written.
 constexpr const char* k_no_better = "it does not improve rows that were not fitted";
 
 /// Rows of a run on which a correction is evaluated.
@@ -282,75 +293,88 @@ struct CorrectedJoint {
   bool has_pulley = false;
   double assembly_angle = 0;  ///< motor angle at which the corrected pulley's tendons are tied, rad
 
-  Angles now(const Imperfections& at, const joint::BenchLog& log) const {
-    return joint::predict(joint::expected_joint(declared), at, log);
+  /// Joint angles with the present pulley.
+  Angles with_present_pulley(const Imperfections& found, const joint::BenchLog& log) const {
+    return joint::predict(joint::expected_joint(declared), found, log);
   }
-  Angles then(const Imperfections& at, const joint::BenchLog& log) const {
-    if (!has_pulley) return now(at, log);
-    Imperfections rest = beyond_mechanism(at, kind_of(declared));
-    rest.motor.offset -= assembly_angle;
-    return joint::predict(joint::expected_joint(corrected), rest, log);
+  /// Joint angles with the corrected pulley; with the present one if there is no corrected one.
+  Angles with_corrected_pulley(const Imperfections& found, const joint::BenchLog& log) const {
+    if (!has_pulley) return with_present_pulley(found, log);
+    // The corrected mechanism contains the other imperfections.
+    Imperfections further = beyond_mechanism(found, kind_of(declared));
+    further.motor.offset -= assembly_angle;
+    return joint::predict(joint::expected_joint(corrected), further, log);
   }
 };
 
+/// Error of the joint with the corrected pulley and these imperfections: the content of the table.
 DirectionalCurves table_of(const CorrectedJoint& joint, const measurement::Measurement& measurement,
-                           const transmission::TargetMotion& law, const Imperfections& at) {
-  return directional_curves(measurement, errors(measurement, law, joint.then(at, measurement::bench_log(measurement))),
-                            lost_motion(at, joint.declared, mean_load(measurement, joint.declared)));
+                           const transmission::TargetMotion& law, const Imperfections& found) {
+  return directional_curves(
+      measurement, errors(measurement, law, joint.with_corrected_pulley(found, measurement::bench_log(measurement))),
+      lost_motion(found, joint.declared, mean_load(measurement, joint.declared)));
 }
 
-/// Sums of squared errors on held-out rows: as measured, with the corrected pulley, and with the table.
+/// Sums of squared errors on held-out rows, rad²: as measured, with the corrected pulley, and with the table.
 struct HeldOutSquares {
-  double now = 0, with_pulley = 0, with_table = 0, rows = 0;
+  double as_measured = 0, with_pulley = 0, with_table = 0;
+  double rows = 0;
 
-  void add(const measurement::Measurement& held, const Angles& error, const Angles& change,
+  /// Adds rows. `error`: as measured; `change`: by the corrected pulley, simulated; `zero`: part of both that is no
+  /// error.
+  void add(const measurement::Measurement& held_out, const Angles& error, const Angles& change,
            const DirectionalCurves& table, double zero) {
-    for_each_known(held, [&](std::size_t r, std::size_t i, const measurement::Stroke& stroke) {
-      const double off = error[r][i] - zero, with = off + change[r][i];
-      if (!std::isfinite(with)) return;
-      const double taken = (stroke.direction > 0 ? table.up : table.down).at(held.runs[r].samples[i].alpha) - zero;
-      now += off * off;
-      with_pulley += with * with;
-      with_table += (with - taken) * (with - taken);
+    for_each_known(held_out, [&](std::size_t r, std::size_t i, const measurement::Stroke& stroke) {
+      const double measured_error = error[r][i] - zero, pulley_error = measured_error + change[r][i];
+      if (!std::isfinite(pulley_error)) return;
+      const Curve& correction = stroke.direction > 0 ? table.up : table.down;
+      const double table_error = pulley_error - (correction.at(held_out.runs[r].samples[i].alpha) - zero);
+      as_measured += measured_error * measured_error;
+      with_pulley += pulley_error * pulley_error;
+      with_table += table_error * table_error;
       rows += 1;
     });
   }
   double removed_by_pulley() const {
-    return rows > 0 ? removed_rms(std::sqrt(now / rows), std::sqrt(with_pulley / rows)) : 0;
+    return rows > 0 ? removed_rms(std::sqrt(as_measured / rows), std::sqrt(with_pulley / rows)) : 0;
   }
   double removed_by_table() const {
     return rows > 0 ? removed_rms(std::sqrt(with_pulley / rows), std::sqrt(with_table / rows)) : 0;
   }
 };
 
+/// The runs of these names, or with `others` all other runs.
 measurement::Measurement some_runs(measurement::Measurement measurement, const std::vector<std::string>& names,
-                                   bool those) {
+                                   bool others) {
   std::erase_if(measurement.runs, [&](const measurement::Run& run) {
-    return (std::find(names.begin(), names.end(), run.name) != names.end()) != those;
+    const bool is_named = std::find(names.begin(), names.end(), run.name) != names.end();
+    return is_named == others;
   });
   return measurement;
 }
 
 /// Evaluates each run with the parameters and table from the other runs. With a single run the table is made from it.
-HeldOutSquares measured(const CorrectedJoint& joint, const measurement::Measurement& measurement,
-                        const transmission::TargetMotion& law, const std::vector<calibration::HeldOutFit>& left_out) {
-  const measurement::Measurement thin = calibration::with_fewer_rows(measurement, k_rows_a_run);
+HeldOutSquares held_out_squares(const CorrectedJoint& joint, const measurement::Measurement& measurement,
+                                const transmission::TargetMotion& law,
+                                const std::vector<calibration::HeldOutFit>& fits) {
+  const measurement::Measurement thinned = calibration::with_fewer_rows(measurement, k_rows_a_run);
   HeldOutSquares all;
-  for (const calibration::HeldOutFit& left : left_out) {
-    const measurement::Measurement held = some_runs(thin, left.runs, true), others = some_runs(thin, left.runs, false);
-    const DirectionalCurves table = table_of(joint, others.runs.empty() ? held : others, law, left.identified);
-    const joint::BenchLog log = measurement::bench_log(held);
-    Angles theta, change = joint.then(left.identified, log);
-    const Angles now = joint.now(left.identified, log);
-    for (std::size_t r = 0; r < held.runs.size(); ++r) {
+  for (const calibration::HeldOutFit& fit : fits) {
+    const measurement::Measurement held_out = some_runs(thinned, fit.runs, /*others=*/false),
+                                   others = some_runs(thinned, fit.runs, /*others=*/true);
+    const DirectionalCurves table = table_of(joint, others.runs.empty() ? held_out : others, law, fit.identified);
+    const joint::BenchLog log = measurement::bench_log(held_out);
+    Angles theta, change = joint.with_corrected_pulley(fit.identified, log);
+    const Angles present = joint.with_present_pulley(fit.identified, log);
+    for (std::size_t r = 0; r < held_out.runs.size(); ++r) {
       theta.emplace_back();
-      for (std::size_t i = 0; i < held.runs[r].samples.size(); ++i) {
-        theta[r].push_back(held.runs[r].samples[i].theta);
-        change[r][i] -= now[r][i];
+      for (std::size_t i = 0; i < held_out.runs[r].samples.size(); ++i) {
+        theta[r].push_back(held_out.runs[r].samples[i].theta);
+        change[r][i] -= present[r][i];
       }
     }
-    const double zero = joint.declared.transmission ? left.identified.sensor.zero : 0.0;
-    all.add(held, errors(held, law, std::move(theta)), change, table, zero);
+    const double zero = joint.declared.transmission ? fit.identified.sensor.zero : 0.0;
+    all.add(held_out, errors(held_out, law, std::move(theta)), change, table, zero);
   }
   return all;
 }
@@ -376,7 +400,7 @@ Correction correct(const DeclaredMechanism& declared, const measurement::Measure
                    const calibration::Calibration& calibration) {
   const Imperfections& found = calibration.identified;
   Correction correction;
-  correction.identified = composed(declared, found);
+  correction.identified = combined(declared, found);
   const bool is_compliant =
       found.tendon.stretch != 0 || found.sheath.compliance != 0 || found.joint.weight != WeightError{};
   if (is_compliant && !declared.transmission)
@@ -393,30 +417,30 @@ Correction correct(const DeclaredMechanism& declared, const measurement::Measure
   if (correction.has_pulley) correction.infeasible = why_infeasible(corrected);
   if (!correction.infeasible.empty()) correction.has_pulley = false;
   const auto held_out_rows = [&](double assembly_angle) {
-    return measured({declared, corrected, correction.has_pulley, assembly_angle}, measurement, law,
-                    calibration.left_out);
+    return held_out_squares({declared, corrected, correction.has_pulley, assembly_angle}, measurement, law,
+                            calibration.left_out);
   };
   if (correction.has_pulley) {
     correction.by_pulley = held_out_rows(joint::assembly_angle(corrected)).removed_by_pulley();
     correction.has_pulley = correction.by_pulley > 0;
     if (!correction.has_pulley) correction.why_no_pulley_file = k_no_better;
   }
-  correction.by_table = held_out_rows(0).removed_by_table();
+  correction.by_table = held_out_rows(/*assembly_angle=*/0).removed_by_table();  // the table is for assembly at 0
   if (correction.has_pulley && declared.pulley.law == Law::compensate)
     correction.round = joint::round_choice(corrected);
   if (correction.has_pulley) correction.assembly_angle = joint::assembly_angle(corrected);
 
   const CorrectedJoint joint{declared, corrected, correction.has_pulley};
   const joint::BenchLog log = measurement::bench_log(measurement);
-  const Angles now = errors(measurement, law, joint.now(found, log)),
-               then = errors(measurement, law, joint.then(found, log));
+  const Angles present_error = errors(measurement, law, joint.with_present_pulley(found, log)),
+               corrected_error = errors(measurement, law, joint.with_corrected_pulley(found, log));
   const DirectionalCurves table =
-      directional_curves(measurement, then, lost_motion(found, declared, mean_load(measurement, declared)));
+      directional_curves(measurement, corrected_error, lost_motion(found, declared, mean_load(measurement, declared)));
   // The zero of a joint declared by a ratio is arbitrary, so its offset is not an error.
   const double zero = declared.transmission ? found.sensor.zero : 0.0;
-  correction.error_now = rms(measurement, now, zero);
-  correction.error_with_pulley = rms(measurement, then, zero);
-  correction.error_with_table = rms(measurement, with_table(measurement, then, table), 0.0);
+  correction.error_now = rms(measurement, present_error, zero);
+  correction.error_with_pulley = rms(measurement, corrected_error, zero);
+  correction.error_with_table = rms(measurement, with_table(measurement, corrected_error, table), 0.0);
   const calibration::EmpiricalCurve* curve = calibration.curve.used ? &calibration.curve : nullptr;
   if (curve != nullptr) correction.by_curve = curve->gain;
   correction.by_table = elementary::hypot(correction.by_table, correction.by_curve);

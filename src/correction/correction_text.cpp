@@ -10,6 +10,7 @@
 namespace fusee::correction {
 namespace {
 
+/// The text with a blank in place of each control character, so that it stays within a comment.
 std::string one_line(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
@@ -32,14 +33,14 @@ std::string found_text(const calibration::FoundEffect& effect) {
   }
   text += ": these data do not distinguish them";
   for (const calibration::GroupMember& member : effect.beside) {
-    text += "; perhaps with " + member.name + "";
+    text += "; perhaps with " + member.name;
     for (const calibration::FittedParameter& parameter : member.parameters) text += number_text(parameter);
   }
   return text;
 }
 
-/// Six digits exceed the accuracy of any bench and are shorter than a full double.
-double tidy(double value) {
+/// The value rounded to six digits: more than the accuracy of any bench, and shorter than a full double.
+double rounded_to_six_digits(double value) {
   if (value == 0 || !std::isfinite(value)) return 0;
   const double scale = elementary::pow(10.0, 5 - std::floor(elementary::log10(std::abs(value))));
   return std::isfinite(scale) ? std::round(value * scale) / scale : 0;
@@ -49,7 +50,7 @@ constexpr const char* k_title =
     "# ---- found by fusee calibrate: without this table this is the declared joint again ----\n";
 
 /// Removes the comment of an earlier calibration.
-std::string without_earlier_words(std::string text) {
+std::string without_earlier_comment(std::string text) {
   const std::size_t title = text.find(k_title);
   if (title == std::string::npos) return text;
   std::size_t end = title;
@@ -57,33 +58,38 @@ std::string without_earlier_words(std::string text) {
   return text.erase(title, end - title);
 }
 
-std::string words_of(const calibration::Calibration& calibration, const Correction& correction) {
-  std::string words = std::string(k_title) + "# verdict: " + std::string(calibration::word(calibration.verdict)) + "\n";
-  for (const calibration::FoundEffect& effect : calibration.effects) words += one_line(found_text(effect)) + "\n";
-  if (calibration.effects.empty()) words += "# no effect was found that the declared file lacks\n";
+/// The comment inside the table [identified].
+std::string comment_of(const calibration::Calibration& calibration, const Correction& correction) {
+  std::string comment =
+      std::string(k_title) + "# verdict: " + std::string(calibration::word(calibration.verdict)) + "\n";
+  for (const calibration::FoundEffect& effect : calibration.effects) comment += one_line(found_text(effect)) + "\n";
+  if (calibration.effects.empty()) comment += "# no effect was found that the declared file lacks\n";
   if (correction.by_curve > 0) {
-    words += "# compensation.csv corrects the unmodelled error by an empirical curve of place and direction: " +
-             rounded(degrees(correction.by_curve), 2) + " deg rms\n";
+    comment += "# compensation.csv corrects the unmodelled error by an empirical curve of place and direction: " +
+               rounded(degrees(correction.by_curve), 2) + " deg rms\n";
   }
   if (correction.assembly_angle != 0) {
-    words += "# Tie the tendons with the unloaded joint at home and the motor at " +
-             rounded(degrees(correction.assembly_angle), 4) +
-             " deg: the joint then follows the law under its mean load.\n# If assembled at 0 deg, use compensation.csv "
-             "for the motor angles.\n";
+    comment +=
+        "# Tie the tendons with the unloaded joint at home and the motor at " +
+        rounded(degrees(correction.assembly_angle), 4) +
+        " deg: the joint then follows the law under its mean load.\n# If assembled at 0 deg, use compensation.csv "
+        "for the motor angles.\n";
   }
-  return words;
+  return comment;
 }
 
+/// Edits that set the keys of [identified]. A key at its default is edited only if the file states another value.
 std::vector<ValueEdit> identified_edits(const DeclaredMechanism& declared, const Imperfections& identified) {
   DeclaredMechanism corrected = declared;
   corrected.identified = identified;
-  const DeclaredMechanism plain;
+  const DeclaredMechanism defaults;
   std::vector<ValueEdit> edits;
   for (const Field& field : fields()) {
     if (field.table != "identified") continue;
     const LengthUnit units = is_length(field.key) ? declared.units : LengthUnit::mm;
-    const double value = to_mm(tidy(from_mm(field.get(corrected, 0), units)), units), usual = field.get(plain, 0);
-    if (value != usual || field.get(declared, 0) != usual)
+    const double value = to_mm(rounded_to_six_digits(from_mm(field.get(corrected, 0), units)), units);
+    const double default_value = field.get(defaults, 0);
+    if (value != default_value || field.get(declared, 0) != default_value)
       edits.push_back({field.name(), std::min(std::max(value, field.least), field.most)});
   }
   return edits;
@@ -107,22 +113,22 @@ std::size_t below_header(const std::string& text) {
 // Comment and numbers stand inside the table: deleting the table restores the declared file byte for byte.
 std::string corrected_toml(std::string_view declared_text, const DeclaredMechanism& declared,
                            const calibration::Calibration& calibration, const Correction& correction) {
-  std::string text = without_earlier_words(std::string(declared_text));
+  std::string text = without_earlier_comment(std::string(declared_text));
   const std::vector<ValueEdit> edits = identified_edits(declared, correction.identified);
   if (edits.empty() && below_header(text) == std::string::npos)
     text += (!text.empty() && text.back() != '\n' ? "\n\n" : "\n") + std::string("[identified]\n");
   text = edit_values(text, edits);
-  const std::string words = words_of(calibration, correction);
-  const std::size_t place = below_header(text);
-  if (place == std::string::npos) return text + words;  // the file has an inline table
-  return text.insert(place, words);
+  const std::string comment = comment_of(calibration, correction);
+  const std::size_t start = below_header(text);
+  if (start == std::string::npos) return text + comment;  // the file has an inline table
+  return text.insert(start, comment);
 }
 
 std::string compensation_csv(const Correction& correction) {
   const bool has_curve = correction.by_curve > 0;
   std::string text = "theta_deg,alpha_up_deg,alpha_down_deg";
   text += has_curve ? ",empirical_up_deg,empirical_down_deg\n" : "\n";
-  const auto add = [&](double angle, char after) { text += fixed(degrees(angle), 4) + after; };
+  const auto add = [&](double angle, char separator) { text += fixed(degrees(angle), 4) + separator; };
   for (const CompensationRow& row : correction.table) {
     add(row.theta, ',');
     add(row.alpha_up, ',');

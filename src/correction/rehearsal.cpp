@@ -10,11 +10,12 @@
 namespace fusee::correction {
 namespace {
 
-constexpr int k_places = 60;            ///< intervals of the stroke
-constexpr double k_pace = radians(20);  ///< motor speed, 1/s: slow, as on a bench
-constexpr double k_seen = radians(1e-3);
+constexpr int k_intervals = 60;                      ///< of the stroke
+constexpr double k_speed = radians(20);              ///< motor speed, rad/s: slow, as on a bench
+constexpr double k_least_influence = radians(1e-3);  ///< smaller effects are not listed
 
-/// No load, and the largest logged loads in both directions; without logged loads the declared one.
+/// No load, and the largest logged loads in both directions, ascending; the declared load if none was logged as a
+/// force.
 std::vector<double> loads_of(const measurement::Measurement& measurement, const Mechanism& expected) {
   double low = 0, high = 0;
   bool logged = false;
@@ -37,7 +38,7 @@ std::vector<double> difference_of(std::vector<double> one, const std::vector<dou
   return one;
 }
 
-/// A stroke there and back, driven twice; the second is evaluated.
+/// A cycle of a stroke there and back under one load, driven twice; the second cycle is evaluated.
 class Drive {
  public:
   Drive(const Mechanism& expected, const std::vector<double>& alphas, double load)
@@ -45,8 +46,8 @@ class Drive {
     joint::BenchRun run;
     run.has_load = true;
     double time = 0, at = 0;
-    const auto go = [&](double alpha) {
-      time += std::abs(alpha - at) / k_pace;
+    const auto move_to = [&](double alpha) {
+      time += std::abs(alpha - at) / k_speed;
       at = alpha;
       joint::BenchRow row;
       row.time = time;
@@ -55,15 +56,15 @@ class Drive {
       run.rows.push_back(row);
     };
     for (auto alpha = alphas.rbegin(); alpha != alphas.rend(); ++alpha) {
-      if (*alpha <= 0) go(*alpha);  // from home to the lower end
+      if (*alpha <= 0) move_to(*alpha);  // from home to the lower end
     }
     first_ = run.rows.size();
     for (int cycle = 0; cycle < 2; ++cycle) {
-      std::for_each(alphas.begin(), alphas.end(), go);
-      std::for_each(alphas.rbegin(), alphas.rend(), go);
+      std::for_each(alphas.begin(), alphas.end(), move_to);
+      std::for_each(alphas.rbegin(), alphas.rend(), move_to);
     }
     log_ = {run};
-    without_ = shown({});
+    without_ = sensed_angles({});
   }
 
   struct DirectionalResponse {
@@ -71,25 +72,25 @@ class Drive {
   };
   /// Change of the sensed angle by the given imperfections.
   DirectionalResponse response_to(const Imperfections& imperfections) const {
-    const DirectionalResponse with = shown(imperfections);
+    const DirectionalResponse with = sensed_angles(imperfections);
     return {difference_of(with.rising, without_.rising), difference_of(with.falling, without_.falling)};
   }
 
  private:
-  DirectionalResponse shown(const Imperfections& imperfections) const {
+  DirectionalResponse sensed_angles(const Imperfections& imperfections) const {
     const std::vector<double> theta = joint::predict(expected_, imperfections, log_).front();
-    const auto from = theta.begin() + static_cast<std::ptrdiff_t>(first_ + 2 * count_);
-    const auto turn = from + static_cast<std::ptrdiff_t>(count_);
-    DirectionalResponse ways{{from, turn}, {turn, turn + static_cast<std::ptrdiff_t>(count_)}};
-    std::reverse(ways.falling.begin(), ways.falling.end());
-    return ways;
+    const auto start = theta.begin() + static_cast<std::ptrdiff_t>(first_ + 2 * count_);  // of the second cycle
+    const auto reversal = start + static_cast<std::ptrdiff_t>(count_);
+    DirectionalResponse angles{{start, reversal}, {reversal, reversal + static_cast<std::ptrdiff_t>(count_)}};
+    std::reverse(angles.falling.begin(), angles.falling.end());  // by increasing α
+    return angles;
   }
 
   const Mechanism& expected_;
-  std::size_t count_;
-  std::size_t first_ = 0;
+  std::size_t count_;      ///< rows of a stroke
+  std::size_t first_ = 0;  ///< row of the first cycle
   joint::BenchLog log_;
-  DirectionalResponse without_;
+  DirectionalResponse without_;  ///< sensed angles without imperfections
 };
 
 /// Imperfections with `effect` alone, at a share of its identified size.
@@ -115,11 +116,12 @@ std::vector<calibration::FittedParameter> numbers_of(const Effect& effect, const
   return numbers;
 }
 
-double largest(const RehearsedShare& share) {
+/// Largest change of the sensed angle, rad.
+double largest_change(const RehearsedShare& share) {
   double most = 0;
-  for (const auto* way : {&share.rising, &share.falling}) {
-    for (const std::vector<double>& places : *way) {
-      for (const double angle : places) most = std::isfinite(angle) ? std::max(most, std::abs(angle)) : most;
+  for (const auto* direction : {&share.rising, &share.falling}) {
+    for (const std::vector<double>& stroke : *direction) {
+      for (const double angle : stroke) most = std::isfinite(angle) ? std::max(most, std::abs(angle)) : most;
     }
   }
   return most;
@@ -130,13 +132,13 @@ RehearsedEffect rehearsed(const Effect& effect, const DeclaredMechanism& expecte
   RehearsedEffect result{effect.name, {}};
   for (const double share : k_rehearsed_shares) {
     const Imperfections joint = share_of(effect, found, share);
-    RehearsedShare shown{numbers_of(effect, joint, expected), {}, {}};
+    RehearsedShare rehearsed_share{numbers_of(effect, joint, expected), {}, {}};
     for (const Drive& drive : drives) {
-      Drive::DirectionalResponse ways = drive.response_to(joint);
-      shown.rising.push_back(std::move(ways.rising));
-      shown.falling.push_back(std::move(ways.falling));
+      Drive::DirectionalResponse response = drive.response_to(joint);
+      rehearsed_share.rising.push_back(std::move(response.rising));
+      rehearsed_share.falling.push_back(std::move(response.falling));
     }
-    result.shares.push_back(std::move(shown));
+    result.shares.push_back(std::move(rehearsed_share));
   }
   return result;
 }
@@ -147,7 +149,7 @@ Rehearsal rehearse(const DeclaredMechanism& expected, const measurement::Measure
                    const calibration::Calibration& calibration) {
   Rehearsal rehearsal;
   if (expected.transmission || calibration.effects.empty()) return rehearsal;
-  profile::SynthesisResult synthesis = profile::synthesise(expected, {.advice = false, .stroke_steps = k_places});
+  profile::SynthesisResult synthesis = profile::synthesise(expected, {.advice = false, .stroke_steps = k_intervals});
   if (!synthesis.made()) return rehearsal;
   std::vector<double> alphas;
   for (const transmission::TransmissionPoint& point : synthesis.stroke) alphas.push_back(point.alpha);
@@ -164,7 +166,7 @@ Rehearsal rehearse(const DeclaredMechanism& expected, const measurement::Measure
                                    [&](const calibration::FoundEffect& one) { return one.name == effect.name; });
     if (!found) continue;
     RehearsedEffect one = rehearsed(effect, expected, calibration.identified, drives);
-    if (largest(one.shares.back()) > k_seen) rehearsal.effects.push_back(std::move(one));
+    if (largest_change(one.shares.back()) > k_least_influence) rehearsal.effects.push_back(std::move(one));
   }
   rehearsal.mechanism = expected;
   rehearsal.synthesis = std::move(synthesis);

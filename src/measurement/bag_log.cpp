@@ -7,19 +7,20 @@
 
 #include "base/text.h"
 #include "measurement/csv_text.h"
+#include "measurement/log_text.h"
 #include "measurement/ros_names.h"
 #include "measurement/unpacking.h"
-#include "measurement/words.h"
 
 namespace fusee::measurement {
 namespace {
 
 constexpr std::size_t k_most_topics = 10000;
-constexpr std::size_t k_longest_topic = 1000;
-/// 256 MB of points.
+constexpr std::size_t k_longest_topic = 1000;  // bytes
+/// 256 MB, at 32 bytes a point.
 constexpr std::size_t k_most_points = std::size_t{1} << 23;
 /// ns; differences of times stay within 64 bits.
 constexpr std::int64_t k_latest_time = 4'000'000'000'000'000'000;
+/// Larger values are garbage. As k_largest_value of row_reader.cpp.
 constexpr double k_largest_number = 1e15;
 
 const char* const k_header_clock = "header_stamp";
@@ -36,6 +37,12 @@ struct TimeSpan {
   }
 };
 
+/// Times of one number by both clocks.
+struct ClockSpans {
+  TimeSpan stamps, log_times;
+};
+
+/// ns; negative if the spans are apart.
 double overlap(const TimeSpan& one, const TimeSpan& other) {
   return static_cast<double>(std::min(one.last, other.last)) - static_cast<double>(std::max(one.first, other.first));
 }
@@ -51,24 +58,24 @@ std::size_t BagLog::add_topic(std::string_view name, std::string_view type, std:
     if (index >= k_most_topics || name.empty() || name.size() > k_longest_topic || type.size() > k_longest_topic)
       return k_not_used;
     Topic topic{to_utf8(name), std::string(type), std::string(encoding.substr(0, k_longest_topic))};
-    if (encoding == "cdr") topic.kind = find_message_type(type);
+    if (encoding == "cdr") topic.type = find_message_type(type);
     if (topic.name.front() != '/') topic.name.insert(0, "/");
     topics_.push_back(std::move(topic));
     topic_by_name_.emplace(name, index);
   }
-  return topics_[index].kind == nullptr ? k_not_used : index;
+  return topics_[index].type == nullptr ? k_not_used : index;
 }
 
-void BagLog::take(std::size_t index, std::int64_t log_time, std::string_view message) {
+void BagLog::add_message(std::size_t index, std::int64_t log_time, std::string_view message) {
   Topic& topic = topics_[index];
   UnpackedBytes unpacked;  // of a bag that is compressed message by message
   if (is_zstd(message)) {
     unpacked = unpack(Packing::zstd, message, k_largest_message);
     message = unpacked.bytes;
   }
-  Point point{0, std::clamp(log_time, -k_latest_time, k_latest_time), 0, messages_++};
+  Point point{.log_time = std::clamp(log_time, -k_latest_time, k_latest_time), .order = messages_++};
   std::vector<std::pair<std::string, double>> values;
-  const auto stamp = decode_message(*topic.kind, message, [&](std::string_view part, double value) {
+  const auto stamp = decode_message(*topic.type, message, [&](std::string_view part, double value) {
     if (part.size() <= k_longest_topic) values.emplace_back(topic.name + "/" + to_utf8(part), value);
   });
   if (!stamp) {
@@ -85,16 +92,17 @@ void BagLog::take(std::size_t index, std::int64_t log_time, std::string_view mes
 void BagLog::add_value(const std::string& name, const Point& point) {
   auto found = series_.find(name);
   if (found == series_.end()) {
-    if (series_.size() >= 3 * k_most_columns)
+    constexpr std::size_t k_numbers_of_joint = 3;  // position, velocity and effort
+    if (series_.size() >= k_numbers_of_joint * k_most_columns)
       refuse("has more than " + std::to_string(k_most_columns) + " joints", "record only the motor and the joint");
     found = series_.emplace(name, Series{}).first;
-    found->second.is_kept = is_wanted(name);
+    found->second.is_wanted = is_wanted(name);
   }
   Series& series = found->second;
-  if (!series.is_kept || !(std::abs(point.value) <= k_largest_number)) return;
+  if (!series.is_wanted || !(std::abs(point.value) <= k_largest_number)) return;
   if (series.count++ % series.stride != 0) return;
   series.points.push_back(point);
-  if (++kept_ >= k_most_points) thin_out();
+  if (++kept_points_ >= k_most_points) thin_out();
 }
 
 /// Angles of joints and single numbers may be motor and joint; other numbers only if an option names them.
@@ -105,14 +113,14 @@ bool BagLog::is_wanted(const std::string& name) const {
 }
 
 void BagLog::thin_out() {
-  kept_ = 0;
+  kept_points_ = 0;
   for (auto& [name, series] : series_) {
     std::vector<Point>& points = series.points;
     for (std::size_t i = 0; 2 * i < points.size(); ++i) points[i] = points[2 * i];
     points.resize((points.size() + 1) / 2);
     series.stride *= 2;
     series.count = 0;
-    kept_ += points.size();
+    kept_points_ += points.size();
   }
 }
 
@@ -121,32 +129,33 @@ void BagLog::refuse(const std::string& message, const std::string& hint) const {
 }
 
 void BagLog::refuse_without_numbers() const {
-  const char* const k_record = "record sensor_msgs/msg/JointState of motor and joint";
+  constexpr std::size_t k_longest_list = 400;
+  const char* const k_advice = "record sensor_msgs/msg/JointState of motor and joint";
   std::string list;
   for (const Topic& topic : topics_) {
-    if (list.size() > 400) {
+    if (list.size() > k_longest_list) {
       list += ", …";
       break;
     }
-    list += (list.empty() ? "" : ", ") + shown(topic.name) + " (" + cleaned_line(topic.type) +
+    list += (list.empty() ? "" : ", ") + shown(topic.name) + " (" + cleaned_line(topic.type_name) +
             (topic.encoding == "cdr" ? "" : ", encoded as " + shown(topic.encoding) + ", not cdr") +
             (topic.malformed > 0     ? ", malformed"
-             : topic.kind != nullptr ? ", no messages"
+             : topic.type != nullptr ? ", no messages"
                                      : "") +
             ")";
   }
-  if (list.empty()) refuse("has no topics", k_record);
+  if (list.empty()) refuse("has no topics", k_advice);
   std::string damage;
-  for (const std::string& words : notes_) damage += "; " + words;
-  refuse("no topic has angles" + damage, "its topics: " + list + "; " + k_record);
+  for (const std::string& note : notes_) damage += "; " + note;
+  refuse("no topic has angles" + damage, "its topics: " + list + "; " + k_advice);
 }
 
 LoggedRows BagLog::finish(std::size_t most_samples) {
   if (series_.empty()) refuse_without_numbers();
   LoggedRows rows;
-  std::vector<ChosenColumn> chosen = choose(rows);
-  std::string why;
-  const Clock clock = choose_clock(chosen, why);
+  std::vector<ChosenColumn> chosen = choose_columns(rows);
+  std::string reason;
+  const Clock clock = choose_clock(chosen, reason);
   std::vector<Track> tracks;
   for (ChosenColumn& each : chosen) {
     Column& column = each.column;
@@ -169,19 +178,19 @@ LoggedRows BagLog::finish(std::size_t most_samples) {
                            " are malformed: omitted");
   }
   rows.notes.insert(rows.notes.end(), joined.notes.begin(), joined.notes.end());
-  add_source(chosen, clock, why, rows);
+  add_source(chosen, clock, reason, rows);
   rows.rows = joined.rows;
   rows.samples = std::move(keeper.samples);
   rows.stride = keeper.stride;
   std::vector<Column> columns;
   for (ChosenColumn& each : chosen) columns.push_back(std::move(each.column));
-  settle(columns, options_, name_, rows);
+  settle_rows(columns, options_, name_, rows);
   rows.has_time = true;
   return rows;
 }
 
 /// The columns of the options, and motor and joint where they are obvious.
-std::vector<BagLog::ChosenColumn> BagLog::choose(LoggedRows& rows) const {
+std::vector<BagLog::ChosenColumn> BagLog::choose_columns(LoggedRows& rows) const {
   std::vector<std::string> names;
   for (const auto& [name, series] : series_) names.push_back(name);
   MeasurementOptions options = options_;
@@ -208,48 +217,49 @@ std::vector<BagLog::ChosenColumn> BagLog::choose(LoggedRows& rows) const {
   return chosen;
 }
 
-/// The stamps of the headers are nearer to the measurement than the time of arrival at the recorder. They count if all
-/// topics have them and, for motor and joint, come from one clock.
-BagLog::Clock BagLog::choose_clock(const std::vector<ChosenColumn>& chosen, std::string& why) const {
+/// The stamps of the headers are nearer to the measurement than the time of arrival at the recorder. They are used if
+/// all topics have them and those of motor and joint come from one clock. Otherwise `reason` says why they are not.
+BagLog::Clock BagLog::choose_clock(const std::vector<ChosenColumn>& chosen, std::string& reason) const {
   const auto given = options_.columns.find("time");
   const std::string wanted = given == options_.columns.end() ? "" : given->second;
   if (!wanted.empty() && wanted != k_header_clock && wanted != k_recorder_clock)
     refuse("there is no time " + shown(wanted) + " in a bag",
            std::string("--column time=") + k_header_clock + " or time=" + k_recorder_clock);
   if (wanted == k_recorder_clock) return Clock::recorder;
-  std::vector<std::pair<TimeSpan, TimeSpan>> angles;  // by stamp, by log time
+  std::vector<ClockSpans> angles;
   for (const ChosenColumn& each : chosen) {
-    std::pair<TimeSpan, TimeSpan> spans;
+    ClockSpans spans;
     bool is_stamped = true;
     for (const Point& point : *each.points) {
-      spans.first.take(point.stamp);
-      spans.second.take(point.log_time);
+      spans.stamps.take(point.stamp);
+      spans.log_times.take(point.log_time);
       is_stamped = is_stamped && point.stamp != 0;
     }
-    const bool stands = spans.first.first == spans.first.last && spans.second.first != spans.second.last;
-    if (!is_stamped || stands) why = shown(each.column.name) + " has no stamps";
+    const bool is_constant = spans.stamps.first == spans.stamps.last && spans.log_times.first != spans.log_times.last;
+    if (!is_stamped || is_constant) reason = shown(each.column.name) + " has no stamps";
     if (each.column.quantity == Quantity::angle) angles.push_back(spans);
   }
-  if (why.empty() && angles.size() == 2 &&
-      overlap(angles[0].first, angles[1].first) < 0.5 * overlap(angles[0].second, angles[1].second))
-    why = "the stamps of motor and joint come from two clocks";
-  if (wanted == k_header_clock && !why.empty())
-    refuse("the stamps of the headers cannot be the time: " + why, std::string("--column time=") + k_recorder_clock);
-  return why.empty() ? Clock::header : Clock::recorder;
+  // Stamps of one clock overlap as long as the times of arrival do.
+  if (reason.empty() && angles.size() == 2 &&
+      overlap(angles[0].stamps, angles[1].stamps) < 0.5 * overlap(angles[0].log_times, angles[1].log_times))
+    reason = "the stamps of motor and joint come from two clocks";
+  if (wanted == k_header_clock && !reason.empty())
+    refuse("the stamps of the headers cannot be the time: " + reason, std::string("--column time=") + k_recorder_clock);
+  return reason.empty() ? Clock::header : Clock::recorder;
 }
 
-/// Says which topics and which clock the rows have.
-void BagLog::add_source(const std::vector<ChosenColumn>& chosen, Clock clock, const std::string& why,
+/// Reports the topics and the clock of the rows.
+void BagLog::add_source(const std::vector<ChosenColumn>& chosen, Clock clock, const std::string& reason,
                         LoggedRows& rows) const {
-  std::string words;
+  std::string source;
   for (const ChosenColumn& each : chosen) {
     const bool is_position = each.column.quantity == Quantity::angle && each.column.name.ends_with("/position");
-    words += (words.empty() ? "" : ", ") + each.column.role + " is " + cleaned_line(each.column.name) +
-             (is_position && each.column.unit != nullptr ? " in " + std::string(each.column.unit->name) : "");
+    source += (source.empty() ? "" : ", ") + each.column.role + " is " + cleaned_line(each.column.name) +
+              (is_position && each.column.unit != nullptr ? " in " + std::string(each.column.unit->name) : "");
   }
-  words += clock == Clock::header ? "; time is that of the message headers" : "; time is that of the recorder";
-  if (!why.empty()) words += ", as " + why;
-  rows.sources.push_back(words);
+  source += clock == Clock::header ? "; time is that of the message headers" : "; time is that of the recorder";
+  if (!reason.empty()) source += ", as " + reason;
+  rows.sources.push_back(source);
 }
 
 }  // namespace fusee::measurement

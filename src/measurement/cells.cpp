@@ -7,14 +7,14 @@
 #include <string>
 
 #include "base/text.h"
-#include "measurement/words.h"
+#include "measurement/log_text.h"
 
 namespace fusee::measurement {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// "1,020" and "-12,345,678.5" with `mark` ','.
+/// True if `mark` groups three digits: "1,020" and "-12,345,678.5" with the comma.
 bool is_grouped(std::string_view text, char mark) {
   if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
   std::size_t digits = 0, groups = 0;
@@ -32,7 +32,7 @@ bool is_grouped(std::string_view text, char mark) {
   return groups > 0 && digits == 3 && text.front() != '0';
 }
 
-/// Removes the other mark's groups and writes the decimal point for `mark`.
+/// The number with a decimal point in place of `mark`, and without the other mark.
 std::string with_point(std::string_view text, char mark) {
   std::string plain;
   for (const char c : text) {
@@ -45,14 +45,14 @@ std::string with_point(std::string_view text, char mark) {
   return plain;
 }
 
-/// The decimal mark that a cell proves; 0 if it is ambiguous.
+/// The decimal mark that a cell proves; 0 if it has none, or an ambiguous one as "1,020".
 char decimal_mark_of(std::string_view text) {
   double value = 0;
   const std::size_t comma = text.rfind(','), point = text.rfind('.');
   if (comma == std::string_view::npos && point == std::string_view::npos) return 0;
   const bool last_is_comma = point == std::string_view::npos || (comma != std::string_view::npos && comma > point);
   const char mark = last_is_comma ? ',' : '.';
-  if (read_number(with_point(text, mark), value) != Cell::number) return 0;
+  if (read_number(with_point(text, mark), value) != CellContent::number) return 0;
   const bool both = comma != std::string_view::npos && point != std::string_view::npos;
   return !both && mark == ',' && is_grouped(text, mark) ? 0 : mark;
 }
@@ -76,7 +76,7 @@ std::string plain_number(std::string_view text) {
     const auto mark = std::find_if(std::begin(k_group_marks), std::end(k_group_marks),
                                    [&](std::string_view candidate) { return text.starts_with(candidate); });
     const bool is_mark = mark != std::end(k_group_marks);
-    plain += is_mark ? '\'' : text.front();
+    plain += is_mark ? '\'' : text.front();  // one mark for all of them
     text.remove_prefix(is_mark ? mark->size() : 1);
     has_groups = has_groups || is_mark;
   }
@@ -102,18 +102,18 @@ bool is_missing(std::string_view text) {
 
 }  // namespace
 
-Cell read_number(std::string_view text, double& value) {
+CellContent read_number(std::string_view text, double& value) {
   value = std::numeric_limits<double>::quiet_NaN();
   if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
-  if (text.empty()) return Cell::missing;
+  if (text.empty()) return CellContent::missing;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = end == text.data() + text.size();
   if (!whole || (error != std::errc() && error != std::errc::result_out_of_range)) {
     value = std::numeric_limits<double>::quiet_NaN();
-    return is_missing(text) ? Cell::missing : Cell::text;
+    return is_missing(text) ? CellContent::missing : CellContent::text;
   }
   if (error != std::errc() || !std::isfinite(value)) value = std::numeric_limits<double>::quiet_NaN();
-  return std::isnan(value) ? Cell::missing : Cell::number;
+  return std::isnan(value) ? CellContent::missing : CellContent::number;
 }
 
 void NumberReader::settle_mark(const std::vector<std::string_view>& row) {
@@ -125,26 +125,28 @@ void NumberReader::settle_mark(const std::vector<std::string_view>& row) {
     if (mark_ != 0) return;
     ambiguous = ambiguous || is_grouped(cell, ',');
   }
-  if (ambiguous) mark_ = ',';  // only commas: three decimals
+  if (ambiguous) mark_ = ',';  // in a row of "1,020" alone, the comma counts as the decimal mark
 }
 
-Cell NumberReader::read(std::string_view text, double& value) const {
-  const Cell cell = read_number(text, value);
-  if (const std::string plain = cell == Cell::text ? plain_number(text) : ""; !plain.empty()) return read(plain, value);
+CellContent NumberReader::read(std::string_view text, double& value) const {
+  const CellContent content = read_number(text, value);
+  const std::string plain = content == CellContent::text ? plain_number(text) : "";
+  if (!plain.empty()) return read(plain, value);
   if (mark_ != ',') {
-    if (cell != Cell::text || !is_grouped(text, ',')) return cell;
+    if (content != CellContent::text || !is_grouped(text, ',')) return content;
     return read_number(with_point(text, '.'), value);
   }
+  // With a decimal comma, "1.5" is no number, and "1.020,5" is one.
   const bool has_point = text.find('.') != std::string_view::npos;
-  if (cell != Cell::text) return cell == Cell::number && has_point ? Cell::text : cell;
-  if (std::count(text.begin(), text.end(), ',') != 1) return Cell::text;
-  if (has_point && !is_grouped(text.substr(0, text.find(',')), '.')) return Cell::text;
+  if (content != CellContent::text) return content == CellContent::number && has_point ? CellContent::text : content;
+  if (std::count(text.begin(), text.end(), ',') != 1) return CellContent::text;
+  if (has_point && !is_grouped(text.substr(0, text.find(',')), '.')) return CellContent::text;
   return read_number(with_point(text, ','), value);
 }
 
 namespace {
 
-/// Reads the digits of a time stamp from left to right.
+/// Reads a time stamp from left to right.
 class Scanner {
  public:
   explicit Scanner(std::string_view text) : rest_(text) {}
@@ -159,6 +161,7 @@ class Scanner {
     return value;
   }
 
+  /// Skips one character if it is any of these.
   bool take(std::string_view any_of) {
     if (rest_.empty() || any_of.find(rest_.front()) == std::string_view::npos) return false;
     rest_.remove_prefix(1);
@@ -181,12 +184,14 @@ class Scanner {
   std::string_view rest_;
 };
 
-/// Days since 1970-01-01 in the Gregorian calendar.
+/// Days since 1970-01-01 in the Gregorian calendar, by days_from_civil() of Howard Hinnant's "chrono-Compatible
+/// Low-Level Date Algorithms". An era is 400 years. Years begin in March, so that the leap day is the last of its year.
 double days_since_1970(int year, int month, int day) {
   const int y = month <= 2 ? year - 1 : year;
-  const int era = y / 400, of_era = y - 400 * era;
-  const int of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
-  return 146097.0 * era + 365 * of_era + of_era / 4 - of_era / 100 + of_year - 719468;
+  const int era = y / 400, year_of_era = y - 400 * era;
+  const int month_from_march = month + (month > 2 ? -3 : 9);
+  const int day_of_year = (153 * month_from_march + 2) / 5 + day - 1;
+  return 146097.0 * era + 365 * year_of_era + year_of_era / 4 - year_of_era / 100 + day_of_year - 719468;
 }
 
 /// The hour of a clock of 12 hours: 12 AM is midnight. Without "AM" or "PM" the hour remains.
@@ -197,7 +202,7 @@ double hour_of_day(double hour, std::string_view rest) {
 }
 
 /// Skips "AM", "p.m.".
-void pass_half_of_day(Scanner& scanner) {
+void skip_half_of_day(Scanner& scanner) {
   scanner.take(" ");
   if (!scanner.take("aApP")) return;
   scanner.take(".");
@@ -205,9 +210,8 @@ void pass_half_of_day(Scanner& scanner) {
   scanner.take(".");
 }
 
-/// "10:00", "10:00:00.020", "2:00:00 PM": s since midnight. "05:00.020", as spreadsheets export times with
-/// milliseconds: s since the hour.
-/// `compact`: "101500.020" is one, too.
+/// "10:00", "10:00:00.020", "2:00:00 PM" as s since midnight. "05:00.020" is minutes and seconds, as spreadsheets
+/// export times with milliseconds: s since the hour. `compact`: "101500.020" is a time of day, too.
 std::optional<double> time_of_day(Scanner& scanner, bool compact) {
   const auto hour = scanner.number(1, 2);
   const bool has_colon = hour && scanner.take(":");
@@ -224,7 +228,7 @@ std::optional<double> time_of_day(Scanner& scanner, bool compact) {
     second = *whole + (scanner.take(".,") ? scanner.fraction() : 0);
   }
   const double seconds = 3600 * hour_of_day(*hour, scanner.rest()) + 60 * *minute + second;
-  pass_half_of_day(scanner);
+  skip_half_of_day(scanner);
   return seconds;
 }
 
@@ -292,8 +296,8 @@ std::optional<double> days_before_time(Scanner& scanner) {
   return scanner.take(" ") ? std::optional(86400 * *days) : std::nullopt;
 }
 
-/// Offset from UTC, s: "Z", "+01:00", "+0100", "-05".
-std::optional<double> zone(Scanner& scanner) {
+/// Offset from UTC, s: "Z", "+01:00", "+0100", "-05". Empty for other text.
+std::optional<double> utc_offset(Scanner& scanner) {
   if (scanner.rest().empty() || scanner.take("zZ")) return 0;
   const bool west = scanner.rest().front() == '-';
   if (!scanner.take("+-")) return std::nullopt;
@@ -308,6 +312,7 @@ std::optional<double> zone(Scanner& scanner) {
 
 std::optional<double> read_time_stamp(std::string_view text) {
   std::string plain(text);
+  // No-break spaces, U+00A0 and U+202F.
   for (const std::string_view blank : {std::string_view("\xC2\xA0"), std::string_view("\xE2\x80\xAF")}) {
     for (std::size_t at = plain.find(blank); at != std::string::npos; at = plain.find(blank))
       plain.replace(at, blank.size(), " ");
@@ -316,20 +321,20 @@ std::optional<double> read_time_stamp(std::string_view text) {
   double date = 0;
   bool has_date = false;
   for (const auto read_date : {date_by_year, date_by_day, days_before_time}) {
-    Scanner ahead{std::string_view(plain)};
-    const auto found = read_date(ahead);
+    Scanner after_date{std::string_view(plain)};
+    const auto found = read_date(after_date);
     if (!found) continue;
     date = *found;
     has_date = true;
-    scanner = ahead;
+    scanner = after_date;
     break;
   }
-  const auto of_day = time_of_day(scanner, has_date);
-  if (!of_day) return std::nullopt;
+  const auto seconds_of_day = time_of_day(scanner, has_date);
+  if (!seconds_of_day) return std::nullopt;
   scanner.take(" ");
-  const auto ahead = has_date ? zone(scanner) : 0;
-  if (!ahead || !scanner.rest().empty()) return std::nullopt;
-  return date + *of_day - *ahead;
+  const auto offset = has_date ? utc_offset(scanner) : 0;
+  if (!offset || !scanner.rest().empty()) return std::nullopt;
+  return date + *seconds_of_day - *offset;
 }
 
 }  // namespace fusee::measurement

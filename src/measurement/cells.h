@@ -8,18 +8,20 @@
 
 namespace fusee::measurement {
 
-enum class Cell { number, missing, text };
+enum class CellContent { number, missing, text };
 
-/// Reads "1.5". Text such as "", "nan", "inf" and "n/a" counts as missing: loggers write it for absent values.
-Cell read_number(std::string_view text, double& value);
+/// Reads "1.5". The value is NaN unless the cell is a number. Text such as "", "nan", "inf" and "n/a" counts as
+/// missing: loggers write it for absent values.
+CellContent read_number(std::string_view text, double& value);
 
 /// Number parser of one file. A file has one decimal mark, point or comma; the other mark groups thousands: "1,020.5",
 /// "1.020,5".
 class NumberReader {
  public:
-  /// If the separator is the comma, only quoted cells can hold a comma.
+  /// Determines the decimal mark from the first row with a cell in which it is certain. If the separator is the comma,
+  /// only quoted cells can hold a comma.
   void settle_mark(const std::vector<std::string_view>& row);
-  Cell read(std::string_view text, double& value) const;
+  CellContent read(std::string_view text, double& value) const;
   bool has_decimal_comma() const { return mark_ == ','; }
 
  private:

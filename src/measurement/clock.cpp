@@ -13,12 +13,12 @@ namespace fusee::measurement {
 namespace {
 
 constexpr double k_no_time = std::numeric_limits<double>::quiet_NaN();
-/// Periods of overflowing counters, s: microseconds, milliseconds and nanoseconds of 32 bits, milliseconds and
-/// microseconds of 16 bits, the first two of 31 bits, a day, half a day, an hour.
+/// Periods of overflowing counters, s: microseconds, milliseconds and nanoseconds of 32 bits; milliseconds and
+/// microseconds of 16 bits; microseconds and milliseconds of 31 bits; a day, half a day, an hour.
 constexpr std::array k_periods = {4294.967296, 4294967.296, 4.294967296, 65.536,  0.065536,
                                   2147.483648, 2147483.648, 86400.0,     43200.0, 3600.0};
-/// A row that follows more than this many later rows is a clock set back, not a late row.
-constexpr std::size_t k_latest = 3;
+/// Longest sequence of late rows. If more rows are below the latest time, the clock was set back.
+constexpr std::size_t k_most_late_rows = 3;
 
 void drop_time(Run& run) {
   run.has_time = false;
@@ -29,17 +29,17 @@ std::string times_text(std::size_t count) { return std::to_string(count) + (coun
 
 /// Interpolates missing times; false if more than one in ten rows, or an end, has none.
 bool fill_time(std::vector<Sample>& samples, const NoteSink& add_note) {
-  const auto is_lost = [](const Sample& sample) { return std::isnan(sample.time); };
-  const auto lost = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), is_lost));
+  const auto has_no_time = [](const Sample& sample) { return std::isnan(sample.time); };
+  const auto lost = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), has_no_time));
   if (lost == 0) return true;
-  if (10 * lost > samples.size() || is_lost(samples.front()) || is_lost(samples.back())) {
+  if (10 * lost > samples.size() || has_no_time(samples.front()) || has_no_time(samples.back())) {
     add_note(rows_text(lost) + " without a time: time is not used");
     return false;
   }
   for (std::size_t i = 1; i < samples.size(); ++i) {
-    if (!is_lost(samples[i])) continue;
+    if (!has_no_time(samples[i])) continue;
     std::size_t next = i;
-    while (is_lost(samples[next])) ++next;
+    while (has_no_time(samples[next])) ++next;
     samples[i].time =
         samples[i - 1].time + (samples[next].time - samples[i - 1].time) / static_cast<double>(next - i + 1);
   }
@@ -58,35 +58,38 @@ class ClockJoiner {
     for (std::size_t k = 1; k < rows_.size(); ++k) {
       if (const double step = time(k) - time(k - 1); step > 0) steps.push_back(step);
     }
-    usual_ = median_of(std::move(steps));
+    usual_step_ = median_of(std::move(steps));
   }
 
   /// False if the clock goes back so often that it is no clock.
   bool join(const NoteSink& add_note) {
     if (rows_.empty()) return true;
     std::vector<double> joined(rows_.size(), time(0));
-    double shift = 0, high = time(0), first = high;
+    double shift = 0;       // from the logged clock to the continued one
+    double high = time(0);  // latest logged time since the last restart
+    double first = high;    // logged time at the last restart
     for (std::size_t k = 1; k < rows_.size(); ++k) {
-      const bool begins_again = samples_[rows_[k]].after_break;
-      if (!begins_again && time(k) < high) {
+      const bool restarts_here = samples_[rows_[k]].after_break;  // as the log itself shows
+      if (!restarts_here && time(k) < high) {
         if (const double period = period_over(high, time(k)); period > 0) {
           shift += period;
-          ++overruns_;
+          ++overflows_;
         } else if (const std::size_t late = late_rows(k, first, high); late > 0) {
           for (const std::size_t end = k + late; k < end; ++k) joined[k] = time(k) + shift;
-          late_ += late;
+          late_count_ += late;
         } else {
           restarts_.push_back(k);
         }
       }
-      if (begins_again || (!restarts_.empty() && restarts_.back() == k)) {
-        shift += high - time(k) + usual_;
+      if (restarts_here || (!restarts_.empty() && restarts_.back() == k)) {
+        shift += high - time(k) + usual_step_;
         first = time(k);
       }
       high = time(k);
       joined[k] = high + shift;
     }
-    if (20 * restarts_.size() > rows_.size() && restarts_.size() > 1) {
+    const bool goes_back_often = 20 * restarts_.size() > rows_.size() && restarts_.size() > 1;
+    if (goes_back_often) {
       add_note("the clock goes back " + times_text(restarts_.size()) + " in " + rows_text(rows_.size()) +
                ": time is not used");
       return false;
@@ -98,12 +101,13 @@ class ClockJoiner {
  private:
   double time(std::size_t k) const { return samples_[rows_[k]].time; }
 
-  /// Period of the counter that overflowed between two times; 0 for none. A clock of 12 hours reaches 12:59:59.
+  /// Period of the counter that overflowed between two times; 0 for none. A clock of 12 hours reaches 12:59:59, 8 %
+  /// beyond its period.
   double period_over(double before, double here) const {
     for (const double period : k_periods) {
       if (std::max(std::abs(before), std::abs(here)) > 1.1 * period) continue;
       const double step = here - before + period;
-      if (step > 0 && step <= 3 * usual_) return period;
+      if (step > 0 && step <= 3 * usual_step_) return period;
     }
     return 0;
   }
@@ -113,17 +117,17 @@ class ClockJoiner {
     return one.alpha == two.alpha && one.theta == two.theta;
   }
 
-  /// Number of late rows from `k` on: the clock then continues beyond `high`, and each late row fits between earlier
-  /// rows.
+  /// Number of late rows from `k` on; 0 if they are not late. After late rows the clock continues beyond `high`, and
+  /// each of them fits between earlier rows.
   std::size_t late_rows(std::size_t k, double first, double high) const {
     std::size_t end = k;
-    while (end < rows_.size() && end < k + k_latest + 1 && !(time(end) > high)) ++end;
-    if (end == rows_.size() || end > k + k_latest) return 0;
-    const std::size_t begin = k > 3 * k_latest ? k - 3 * k_latest : 0;
+    while (end < rows_.size() && end < k + k_most_late_rows + 1 && !(time(end) > high)) ++end;
+    if (end == rows_.size() || end > k + k_most_late_rows) return 0;
+    const std::size_t begin = k > 3 * k_most_late_rows ? k - 3 * k_most_late_rows : 0;
     for (std::size_t row = k; row < end; ++row) {
       if (time(row) < first) return 0;
       for (std::size_t other = begin; other < end; ++other) {
-        const bool is_near = std::abs(time(row) - time(other)) < 0.5 * usual_;
+        const bool is_near = std::abs(time(row) - time(other)) < 0.5 * usual_step_;
         if (other != row && is_near && !same_reading(row, other)) return 0;
       }
     }
@@ -131,7 +135,7 @@ class ClockJoiner {
   }
 
   void apply(const std::vector<double>& joined, const NoteSink& add_note) {
-    if (overruns_ > 0) add_note("the clock's counter ran over " + times_text(overruns_) + ": the time is continued");
+    if (overflows_ > 0) add_note("the clock's counter ran over " + times_text(overflows_) + ": the time is continued");
     if (!restarts_.empty()) {
       const std::size_t k = restarts_.front();
       add_note("the clock goes back " + times_text(restarts_.size()) + ", first from " + rounded(time(k - 1)) + " to " +
@@ -139,8 +143,8 @@ class ClockJoiner {
     }
     for (const std::size_t k : restarts_) samples_[rows_[k]].after_break = true;
     for (std::size_t k = 0; k < rows_.size(); ++k) samples_[rows_[k]].time = joined[k];
-    if (late_ == 0) return;
-    add_note(rows_text(late_) + " delivered late, after rows of a later time: moved back between them");
+    if (late_count_ == 0) return;
+    add_note(rows_text(late_count_) + " delivered late, after rows of a later time: moved back between them");
     std::vector<Sample> in_order;
     for (const std::size_t row : rows_) in_order.push_back(samples_[row]);
     const auto by_time = [](const Sample& a, const Sample& b) { return a.time < b.time; };
@@ -149,10 +153,10 @@ class ClockJoiner {
   }
 
   std::vector<Sample>& samples_;
-  std::vector<std::size_t> rows_;  ///< with a time
-  double usual_ = 0;               ///< step of the clock
-  std::size_t overruns_ = 0, late_ = 0;
-  std::vector<std::size_t> restarts_;  ///< among rows_
+  std::vector<std::size_t> rows_;  ///< indices of the samples with a time
+  double usual_step_ = 0;          ///< median time between rows, s
+  std::size_t overflows_ = 0, late_count_ = 0;
+  std::vector<std::size_t> restarts_;  ///< indices into rows_
 };
 
 Sample mean_of(const std::vector<Sample>& samples, std::size_t first, std::size_t end) {
@@ -167,9 +171,9 @@ Sample mean_of(const std::vector<Sample>& samples, std::size_t first, std::size_
 }
 
 /// Handles rows of equal time: a row that was logged repeatedly, or a clock coarser than the log.
-void part_ticks(Run& run, const NoteSink& add_note) {
+void separate_equal_times(Run& run, const NoteSink& add_note) {
   std::vector<Sample>& samples = run.samples;
-  std::vector<std::size_t> ticks;  // the first row of each
+  std::vector<std::size_t> ticks;  // first row of each distinct time
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (i == 0 || samples[i].time != samples[i - 1].time) ticks.push_back(i);
   }
@@ -179,15 +183,16 @@ void part_ticks(Run& run, const NoteSink& add_note) {
     add_note("the clock stands still: time is not used");
     return drop_time(run);
   }
-  const bool coarse = samples.size() >= 3 * ticks.size();
+  const bool is_coarse = samples.size() >= 3 * ticks.size();  // several rows share a tick
   const std::vector<Sample> rows = std::move(samples);
   samples.clear();
   for (std::size_t k = 0; k < ticks.size(); ++k) {
     const std::size_t first = ticks[k], end = k + 1 < ticks.size() ? ticks[k + 1] : rows.size();
-    if (!coarse) {
+    if (!is_coarse) {
       samples.push_back(mean_of(rows, first, end));
       continue;
     }
+    // The last tick is as long as the one before it.
     const double tick =
         k + 1 < ticks.size() ? rows[end].time - rows[first].time : rows[first].time - rows[ticks[k - 1]].time;
     for (std::size_t i = first; i < end; ++i) {
@@ -196,14 +201,14 @@ void part_ticks(Run& run, const NoteSink& add_note) {
     }
   }
   add_note(rows_text(same) + " with the time of the preceding row: " +
-           (coarse ? "the clock is coarser than the log, they are spread over its ticks" : "averaged"));
+           (is_coarse ? "the clock is coarser than the log, they are spread over its ticks" : "averaged"));
 }
 
 }  // namespace
 
 void order_time(Run& run, const NoteSink& add_note) {
   if (!ClockJoiner(run.samples).join(add_note) || !fill_time(run.samples, add_note)) return drop_time(run);
-  part_ticks(run, add_note);
+  separate_equal_times(run, add_note);
 }
 
 }  // namespace fusee::measurement

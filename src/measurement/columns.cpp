@@ -7,8 +7,9 @@
 #include <utility>
 
 #include "base/text.h"
+#include "measurement/angle_words.h"
+#include "measurement/log_text.h"
 #include "measurement/ros_names.h"
-#include "measurement/words.h"
 
 namespace fusee::measurement {
 namespace {
@@ -33,10 +34,10 @@ std::string list_of(const std::vector<std::string>& names) {
   return list;
 }
 
-/// Quotes a name for --column in a shell.
-std::string argument(const std::string& name) {
-  const bool plain = name.find_first_of(" '\"$\\`;&()[]{}<>|*?#!~%") == std::string::npos;
-  return plain ? name : "\"" + name + "\"";
+/// A column name as an shell_argument of --column, quoted if the shell requires it.
+std::string shell_argument(const std::string& name) {
+  const bool is_plain = name.find_first_of(" '\"$\\`;&()[]{}<>|*?#!~%") == std::string::npos;
+  return is_plain ? name : "\"" + name + "\"";
 }
 
 class ColumnFinder {
@@ -50,26 +51,27 @@ class ColumnFinder {
     bool all_angles = true;
     for (const auto& [role, usual] : column_roles()) {
       const auto given = options_.columns.find(role);
-      std::optional<std::size_t> index =
-          given != options_.columns.end() ? index_of(to_utf8(given->second)) : usual_index(role, usual);
-      if (!index && given == options_.columns.end()) index = ros_index(role);
-      if (!index && given == options_.columns.end()) index = index_by_words(role);
+      const bool is_given = given != options_.columns.end();
+      std::optional<std::size_t> index = is_given ? index_of(to_utf8(given->second)) : usual_index(role, usual);
+      if (!index && !is_given) index = ros_index(role);
+      if (!index && !is_given) index = index_by_words(role);
       const bool is_needed = role == "alpha" || (role == "theta" && options_.needs_theta);
       if (index) {
-        take(role, *index, given != options_.columns.end());
-      } else if (is_needed || given != options_.columns.end()) {
-        missing(role, given != options_.columns.end() ? to_utf8(given->second) : usual);
+        add_column(role, *index, is_given);
+      } else if (is_needed || is_given) {
+        report_missing(role, is_given ? to_utf8(given->second) : usual);
         all_angles = all_angles && !is_needed;
       }
     }
     header_.has_angles = all_angles;
-    refuse_missing();
-    refuse_shared_columns();
+    report_missing_angles();
+    report_shared_columns();
     note_unread_load();
     return std::move(header_);
   }
 
  private:
+  /// The column of that name; else of that name in another case or between blanks; else the ROS name that it selects.
   std::optional<std::size_t> index_of(const std::string& wanted) {
     for (const bool exactly : {true, false}) {
       const auto same = [&](const std::string& name) {
@@ -78,7 +80,7 @@ class ColumnFinder {
       const auto found = std::find_if(names_.begin(), names_.end(), same);
       if (found == names_.end()) continue;
       if (std::find_if(found + 1, names_.end(), same) != names_.end())
-        problem("two columns are called " + shown(wanted), "each column needs a name of its own");
+        add_problem("two columns are called " + shown(wanted), "each column needs a name of its own");
       return static_cast<std::size_t>(found - names_.begin());
     }
     return index_of_part(wanted);
@@ -107,7 +109,7 @@ class ColumnFinder {
     return role == "alpha" ? pair.alpha : pair.theta;
   }
 
-  /// Columns of options and usual names.
+  /// The angles that an option or a usual name determines.
   AnglePair known_angles() {
     const auto known = [&](const char* role, const char* usual) {
       const auto given = options_.columns.find(role);
@@ -115,7 +117,7 @@ class ColumnFinder {
     };
     const Header before = header_;
     const AnglePair found{known("alpha", "alpha_deg"), known("theta", "theta_deg")};
-    header_ = before;  // find() reports problems and notes
+    header_ = before;  // without problems and notes of this search: find() reports them
     return found;
   }
 
@@ -128,6 +130,7 @@ class ColumnFinder {
     return index;
   }
 
+  /// A column with the usual name of the role, or with another recognised name in any unit.
   std::optional<std::size_t> usual_index(const std::string& role, const std::string& usual) {
     if (const auto index = index_of(usual)) return index;
     const std::vector<std::string>& words = words_of(role);
@@ -141,13 +144,14 @@ class ColumnFinder {
       if (!is_load && quantity_of(role) != Quantity::time) continue;
       header_.notes.push_back("column " + shown(names_[i]) + " is not used: " + shown(name.unknown_unit) +
                               (is_load ? " is no unit of a load" : " is no unit of time") +
-                              "; select the column and its unit with --column " + role + "=" + argument(names_[i]) +
-                              " --unit " + role + (is_load ? "=N" : "=s"));
+                              "; select the column and its unit with --column " + role + "=" +
+                              shell_argument(names_[i]) + " --unit " + role + (is_load ? "=N" : "=s"));
     }
     return std::nullopt;
   }
 
-  void take(const std::string& role, std::size_t index, bool by_option) {
+  /// `by_option`: --column names the column.
+  void add_column(const std::string& role, std::size_t index, bool by_option) {
     Column column;
     column.index = index;
     column.role = role;
@@ -159,7 +163,7 @@ class ColumnFinder {
     const bool has_ticks = ticks != options_.ticks_per_turn.end(), has_zero = zero != options_.zero_ticks.end();
     if (has_ticks || has_zero) {
       column.unit = find_unit(Quantity::angle, "counts");
-      column.ticks_per_turn = has_ticks ? ticks->second : 0;  // 0: settle_units()
+      column.ticks_per_turn = has_ticks ? ticks->second : 0;  // 0: determined by settle_units()
       column.zero_ticks = has_zero ? zero->second : 0;
       column.is_given = true;
     } else if (unit != options_.units.end()) {
@@ -169,7 +173,7 @@ class ColumnFinder {
       take_unit_of_name(column, by_option);
     }
     if (column.unit != nullptr && column.unit->base != "N" && role.substr(0, 7) == "tension")
-      problem(role + " in " + std::string(column.unit->name) + " is a torque", "a tension is a force: N, kg, lbf");
+      add_problem(role + " in " + std::string(column.unit->name) + " is a torque", "a tension is a force: N, kg, lbf");
     header_.columns.push_back(std::move(column));
   }
 
@@ -184,19 +188,20 @@ class ColumnFinder {
     const bool is_load = column.role == "load";
     const bool is_unknown = name.states_unit || (is_load && by_option && !name.unknown_unit.empty());
     if (is_unknown) {
-      problem("the unit of " + shown(column.name) + " is unknown: " + shown(name.unknown_unit),
-              "units: " + unit_names(column.quantity) + "; select one with --unit " + column.role + "=" +
-                  std::string(usual_unit(column.quantity)->name));
+      add_problem("the unit of " + shown(column.name) + " is unknown: " + shown(name.unknown_unit),
+                  "units: " + unit_names(column.quantity) + "; select one with --unit " + column.role + "=" +
+                      std::string(usual_unit(column.quantity)->name));
       return;
     }
-    if (column.quantity == Quantity::angle || column.quantity == Quantity::time) return;  // settle_units()
+    const bool values_decide = column.quantity == Quantity::angle || column.quantity == Quantity::time;
+    if (values_decide) return;  // see settle_units()
     column.unit = usual_unit(column.quantity);
     if (is_load)
       header_.notes.push_back("load: taken as N, as the name " + shown(column.name) +
                               " states no unit (--unit load=kg overrides this)");
   }
 
-  /// Without a load, a column whose name ends in a unit of one ("Last_N") may be it.
+  /// If there is no load, a column whose name ends in a unit of load ("Last_N") may be the load.
   void note_unread_load() {
     const auto has_role = [&](const Column& column) { return column.role == "load"; };
     if (std::any_of(header_.columns.begin(), header_.columns.end(), has_role)) return;
@@ -206,24 +211,24 @@ class ColumnFinder {
       if (name.unit == nullptr || name.base.empty()) continue;
       if (std::any_of(header_.columns.begin(), header_.columns.end(), is_this)) continue;
       header_.notes.push_back("column " + shown(names_[i]) +
-                              " is not used: if it is the load, add --column load=" + argument(names_[i]));
+                              " is not used: if it is the load, add --column load=" + shell_argument(names_[i]));
     }
   }
 
-  /// Refuses a column that is taken for two roles.
-  void refuse_shared_columns() {
+  /// Reports a column that is taken for two roles.
+  void report_shared_columns() {
     for (std::size_t i = 0; i < header_.columns.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         const Column &one = header_.columns[i], &other = header_.columns[j];
         if (one.index != other.index) continue;
-        problem("column " + shown(one.name) + " is taken as " + other.role + " and as " + one.role,
-                "give each role a column of its own with --column " + one.role + "=NAME");
+        add_problem("column " + shown(one.name) + " is taken as " + other.role + " and as " + one.role,
+                    "give each role a column of its own with --column " + one.role + "=NAME");
       }
     }
   }
 
-  /// Refuses angles that no option names, with the options to give.
-  void refuse_missing() {
+  /// Reports the missing angles in one problem, with the options to give.
+  void report_missing_angles() {
     if (missing_.empty()) return;
     const bool both = missing_.size() > 1;
     const AnglePair likely = likely_table_angles(names_, known_angles());
@@ -232,7 +237,7 @@ class ColumnFinder {
       const std::optional<std::size_t> index = role == "alpha" ? likely.alpha : likely.theta;
       if (!index) options.clear();
       if (!index) break;
-      options += (options.empty() ? "" : " ") + ("--column " + role + "=" + argument(names_[*index]));
+      options += (options.empty() ? "" : " ") + ("--column " + role + "=" + shell_argument(names_[*index]));
     }
     const std::string unit = " (in degrees, or its name ends in its unit: _rad, _turns, _counts)";
     std::string message = "there is no column " + missing_.front().second;
@@ -240,18 +245,20 @@ class ColumnFinder {
     if (options.empty()) {
       for (const auto& [role, usual] : missing_)
         options += (options.empty() ? "" : " ") + ("--column " + role + "=NAME");
-      problem(message,
-              "the columns are " + list_of(names_) + "; select " + (both ? "them" : "one") + " with " + options + unit);
+      add_problem(message, "the columns are " + list_of(names_) + "; select " + (both ? "them" : "one") + " with " +
+                               options + unit);
     } else {
-      problem(message, "the columns are " + list_of(names_) + "; add " + options +
-                           (both                                ? " if these are the angles of motor and joint"
-                            : missing_.front().first == "alpha" ? " if that is the motor's angle"
-                                                                : " if that is the joint's angle"));
+      add_problem(message, "the columns are " + list_of(names_) + "; add " + options +
+                               (both                                ? " if these are the angles of motor and joint"
+                                : missing_.front().first == "alpha" ? " if that is the motor's angle"
+                                                                    : " if that is the joint's angle"));
     }
   }
 
-  void missing(const std::string& role, const std::string& wanted) {
-    if (const std::vector<std::size_t> angles = ros_angles(names_); !angles.empty()) return missing_ros(role, angles);
+  /// Reports a missing column; an angle without a similar name is left to report_missing_angles().
+  void report_missing(const std::string& role, const std::string& wanted) {
+    if (const std::vector<std::size_t> angles = ros_angles(names_); !angles.empty())
+      return report_missing_ros(role, angles);
     std::vector<std::string> others;
     std::copy_if(names_.begin(), names_.end(), std::back_inserter(others), [](const std::string& name) {
       return std::none_of(column_roles().begin(), column_roles().end(),
@@ -268,15 +275,15 @@ class ColumnFinder {
     const std::string unit = quantity_of(role) == Quantity::angle
                                  ? " (in degrees, or its name ends in its unit: _rad, _turns, _counts)"
                                  : "";
-    problem(
-        "there is no column " + quoted_if_required(wanted),
-        nearest.empty()
-            ? "the columns are " + list_of(names_) + "; select one with --column " + role + "=NAME" + unit
-            : "the nearest is " + shown(nearest) + ": --column " + role + "=" + argument(nearest) + " takes it" + unit);
+    add_problem("there is no column " + quoted_if_required(wanted),
+                nearest.empty()
+                    ? "the columns are " + list_of(names_) + "; select one with --column " + role + "=NAME" + unit
+                    : "the nearest is " + shown(nearest) + ": --column " + role + "=" + shell_argument(nearest) +
+                          " takes it" + unit);
   }
 
   /// Lists the topics and joints of a ROS log.
-  void missing_ros(const std::string& role, const std::vector<std::size_t>& angles) {
+  void report_missing_ros(const std::string& role, const std::vector<std::size_t>& angles) {
     constexpr std::size_t k_longest_list = 600;
     const auto given = options_.columns.find(role);
     std::string list;
@@ -284,25 +291,28 @@ class ColumnFinder {
       const bool fits = quantity_of(role) != Quantity::angle || std::count(angles.begin(), angles.end(), i) > 0;
       if (fits && is_ros_name(names_[i])) list += (list.empty() ? "" : ", ") + cleaned_line(names_[i]);
     }
-    problem(given == options_.columns.end() ? "it is not obvious which joint is " + role +
-                                                  (role == "alpha" ? ", the motor's angle" : ", the joint's angle")
-                                            : "no topic or joint, or more than one, is " + shown(given->second),
-            "give one of these as --column " + role + "=NAME: " + list);
+    add_problem(given == options_.columns.end() ? "it is not obvious which joint is " + role +
+                                                      (role == "alpha" ? ", the motor's angle" : ", the joint's angle")
+                                                : "no topic or joint, or more than one, is " + shown(given->second),
+                "give one of these as --column " + role + "=NAME: " + list);
   }
 
+  /// The name for a message, in quotation marks only if the shell requires them.
   static std::string quoted_if_required(const std::string& name) {
-    return argument(name) == name ? shown(name).substr(1, shown(name).size() - 2) : shown(name);
+    const std::string quoted = shown(name);
+    const bool is_plain = shell_argument(name) == name;
+    return is_plain ? quoted.substr(1, quoted.size() - 2) : quoted;
   }
 
-  void problem(std::string message, std::string hint) {
+  void add_problem(std::string message, std::string hint) {
     header_.problems.push_back({Severity::error, {}, std::move(message), std::move(hint)});
   }
 
   const std::vector<std::string>& names_;
   const MeasurementOptions& options_;
   Header header_;
-  AnglePair by_words_;
-  std::vector<std::pair<std::string, std::string>> missing_;  ///< roles and their usual names
+  AnglePair by_words_;                                        ///< angles chosen by words of their names
+  std::vector<std::pair<std::string, std::string>> missing_;  ///< angles: roles and usual names
 };
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 namespace fusee::measurement {
 
+/// Larger values are not angles.
 constexpr double k_largest_deg = 1e7;
 /// Largest plausible time between rows of a moving joint, s.
 constexpr double k_longest_step = 2.0;
@@ -29,11 +30,11 @@ struct Column {
   const Unit* unit = nullptr;  ///< nullptr: determined from the values, see settle_units()
   bool is_given = false;       ///< by an option
   double ticks_per_turn = 0;   ///< for counts; 0: determined from the values
-  double zero_ticks = 0;
-  bool is_date = false;  ///< time stamps, in s
+  double zero_ticks = 0;       ///< counts at home
+  bool is_date = false;        ///< its cells are time stamps, read as s
 
   // Statistics of the values, in the column's own unit.
-  bool whole = true;
+  bool whole = true;  ///< all values are whole numbers
   double least = std::numeric_limits<double>::infinity();
   double most = -std::numeric_limits<double>::infinity();
 
@@ -49,11 +50,11 @@ struct Header {
   std::vector<Column> columns;
   std::vector<std::string> notes;
   std::vector<Diagnostic> problems;  ///< without file and line
-  bool has_angles = false;           ///< true: every required angle is named, so this line is the header
+  bool has_angles = false;           ///< every required angle is named, so this line is the header
 };
 
-/// `above_numbers`: the line stands above a row of as many numbers, so that words such as "servo" and "joint" in its
-/// names choose the angles.
+/// Finds the column of each role. `above_numbers`: the line stands above a row of as many numbers, so that words such
+/// as "servo" and "joint" in its names choose the angles.
 Header find_columns(const std::vector<std::string>& names, const MeasurementOptions& options,
                     bool above_numbers = false);
 

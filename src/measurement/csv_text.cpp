@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/text.h"
-#include "measurement/words.h"
+#include "measurement/log_text.h"
 
 namespace fusee::measurement {
 namespace {
@@ -83,8 +83,9 @@ void RecordSplitter::add(std::string_view bytes) {
     start_ = start.substr(0, 3);
     detect_encoding();
     start_.clear();
-    const std::size_t mark = encoding_ == Encoding::bytes ? (start.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0) : 2;
-    return add(std::string_view(start).substr(mark));
+    const bool has_utf8_mark = start.compare(0, 3, "\xEF\xBB\xBF") == 0;
+    const std::size_t mark_size = encoding_ != Encoding::bytes ? 2 : has_utf8_mark ? 3 : 0;
+    return add(std::string_view(start).substr(mark_size));
   }
   if (encoding_ == Encoding::bytes) return add_bytes(bytes);
   add_utf16(bytes);
@@ -103,8 +104,10 @@ void RecordSplitter::add_utf16(std::string_view bytes) {
     const auto first = static_cast<unsigned char>(start_[0]), second = static_cast<unsigned char>(start_[1]);
     start_.clear();
     const unsigned long unit = encoding_ == Encoding::utf16_little ? first | (second << 8U) : second | (first << 8U);
-    const bool is_low = unit >= 0xDC00 && unit < 0xE000;
-    if (unit >= 0xD800 && unit < 0xDC00) {
+    // A surrogate pair is a high code unit, then a low one (RFC 2781). A low one alone becomes the replacement
+    // character.
+    const bool is_high = unit >= 0xD800 && unit < 0xDC00, is_low = unit >= 0xDC00 && unit < 0xE000;
+    if (is_high) {
       high_ = unit;
     } else if (is_low && high_ != 0) {
       append_utf8(0x10000 + ((high_ - 0xD800) << 10U) + (unit - 0xDC00));
@@ -164,18 +167,18 @@ void RecordSplitter::end_line() {
     first_line_ = lines_;
     if (line_.find('"') == std::string::npos || is_comment(line_) || !ends_in_quotes(line_, false)) {
       std::swap(record_, line_);
-      return give(false);
+      return end_record(false);
     }
     record_.clear();
   }
   in_record_ = ends_in_quotes(line_, in_record_);
   record_ += line_;
   line_.clear();
-  if (!in_record_) return give(false);
+  if (!in_record_) return end_record(false);
   record_ += '\n';
 }
 
-void RecordSplitter::give(bool open_quote) {
+void RecordSplitter::end_record(bool open_quote) {
   if (!is_utf8(record_)) record_ = to_utf8(record_);
   take_({record_, first_line_, open_quote});
   record_.clear();
@@ -189,7 +192,7 @@ void RecordSplitter::finish() {
     add_bytes(std::exchange(start_, {}));
   }
   if (!line_.empty()) end_line();
-  if (in_record_) give(true);
+  if (in_record_) end_record(true);
 }
 
 }  // namespace fusee::measurement

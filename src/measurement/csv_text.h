@@ -10,7 +10,7 @@
 
 namespace fusee::measurement {
 
-constexpr std::size_t k_longest_record = std::size_t{1} << 16;
+constexpr std::size_t k_longest_record = std::size_t{1} << 16;  // bytes
 constexpr std::size_t k_most_columns = 1000;
 
 /// A record: one line, or several if a quoted cell holds line ends.
@@ -40,20 +40,21 @@ class RecordSplitter {
   void add_bytes(std::string_view bytes);
   void append(std::string_view piece);
   void end_line();
-  void give(bool open_quote);
+  void end_record(bool open_quote);
   void check_length() const;
 
   std::function<void(const Record&)> take_;
   std::function<void(long long, bool)> refuse_;
   Encoding encoding_ = Encoding::unknown;
-  std::string start_;       ///< bytes until the encoding is known; then an incomplete UTF-16 character
-  std::string decoded_;     ///< UTF-16 text as UTF-8
-  std::string record_;      ///< complete lines within an open quote
-  std::string line_;        ///< the current line so far
-  unsigned long high_ = 0;  ///< first half of a surrogate pair
-  bool after_return_ = false;
-  bool in_record_ = false;
-  long long lines_ = 0, first_line_ = 1;
+  std::string start_;          ///< first bytes, until the encoding is known; then an incomplete UTF-16 code unit
+  std::string decoded_;        ///< UTF-16 text as UTF-8
+  std::string record_;         ///< complete lines within an open quote
+  std::string line_;           ///< the current line so far
+  unsigned long high_ = 0;     ///< first half of a surrogate pair
+  bool after_return_ = false;  ///< the last line ended with CR, so that LF belongs to it
+  bool in_record_ = false;     ///< a quoted cell is open across lines
+  long long lines_ = 0;        ///< complete lines so far
+  long long first_line_ = 1;   ///< of the current record
 };
 
 /// Splits a record into cells, without surrounding blanks and quotation marks; a quotation mark inside a quoted cell

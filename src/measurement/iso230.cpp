@@ -1,5 +1,5 @@
-// ISO 230-2: positions i, directions ↑ and ↓, x̄ the mean deviation of a position and direction, s its standard
-// deviation.
+// ISO 230-2. Notation: position i, directions ↑ and ↓; x̄ is the mean deviation at a position in a direction, s the
+// standard deviation of its repeats.
 //   B = max |x̄i↑ − x̄i↓|            E = max x̄ − min x̄, all positions, both directions
 //   R = max over i of max[2si↑ + 2si↓ + |Bi|; 4si↑; 4si↓]
 //   M = range of (x̄i↑ + x̄i↓)/2     A = max(x̄ + 2s) − min(x̄ − 2s), both directions
@@ -15,7 +15,7 @@ namespace {
 
 struct Spread {
   double mean = 0;
-  double deviation = 0;  ///< 0 for a single repeat
+  double deviation = 0;  ///< standard deviation; 0 for a single repeat
 };
 
 Spread spread_of(const std::vector<double>& values) {
@@ -43,7 +43,8 @@ struct Extent {
 double residual_at(const Run& run, const Stroke& stroke, const std::vector<double>& residuals, double alpha) {
   for (std::size_t i = stroke.first; i < stroke.last; ++i) {
     const double before = run.samples[i].alpha, after = run.samples[i + 1].alpha;
-    if ((before - alpha) * (after - alpha) > 0 || before == after) continue;
+    const bool are_on_one_side = (before - alpha) * (after - alpha) > 0;
+    if (are_on_one_side || before == after) continue;
     return residuals[i] + (residuals[i + 1] - residuals[i]) * (alpha - before) / (after - before);
   }
   return std::numeric_limits<double>::quiet_NaN();
@@ -51,23 +52,24 @@ double residual_at(const Run& run, const Stroke& stroke, const std::vector<doubl
 
 constexpr int k_positions = 21;
 
-/// Location of a position as a share of the range of α.
+/// α of a position as a share of the range of α: evenly from 5 % to 95 %.
 double share_of(int position) { return 0.05 + 0.9 * position / (k_positions - 1); }
 
+/// `deviations[i][d][k]`, as in iso230().
 using Deviations = std::vector<std::array<std::vector<double>, 2>>;
 
 /// Adds the mean of each dwell to the position nearest to it.
-void add_dwells(const Run& run, const std::vector<double>& residuals, const Extent& seen, Deviations& deviations) {
+void add_dwells(const Run& run, const std::vector<double>& residuals, const Extent& alphas, Deviations& deviations) {
   for (const Segment& segment : run.segments) {
     const Stroke& stroke = run.strokes[segment.stroke];
     if (!segment.is_dwell || stroke.partial) continue;
     const std::vector<double> rows(residuals.begin() + static_cast<std::ptrdiff_t>(segment.first),
                                    residuals.begin() + static_cast<std::ptrdiff_t>(segment.last) + 1);
     const double mean = spread_of(rows).mean;
-    const double share = (run.samples[segment.first].alpha - seen.least) / seen.range();
-    const auto nearest = static_cast<std::size_t>(
-        std::clamp(std::lround((share - share_of(0)) / (share_of(1) - share_of(0))), 0L, k_positions - 1L));
-    if (std::isfinite(mean)) deviations[nearest][stroke.direction > 0 ? 0 : 1].push_back(mean);
+    const double share = (run.samples[segment.first].alpha - alphas.least) / alphas.range();
+    const long nearest = std::lround((share - share_of(0)) / (share_of(1) - share_of(0)));
+    const auto position = static_cast<std::size_t>(std::clamp(nearest, 0L, k_positions - 1L));
+    if (std::isfinite(mean)) deviations[position][stroke.direction > 0 ? 0 : 1].push_back(mean);
   }
 }
 
@@ -97,25 +99,25 @@ Iso230 iso230(const std::vector<std::array<std::vector<double>, 2>>& deviations)
 }
 
 Iso230 iso230(const Measurement& measurement, const std::vector<std::vector<double>>& residuals) {
-  // Positions cover all of the observed range: the range common to all strokes would be empty with one short stroke.
-  Extent seen;
+  // Positions cover the range of all strokes. The range common to all could be empty because of one short stroke.
+  Extent alphas;
   for (const Run& run : measurement.runs) {
     for (const Stroke& stroke : run.strokes) {
       if (stroke.partial) continue;
-      seen.add(run.samples[stroke.first].alpha);
-      seen.add(run.samples[stroke.last].alpha);
+      alphas.add(run.samples[stroke.first].alpha);
+      alphas.add(run.samples[stroke.last].alpha);
     }
   }
-  if (!(seen.range() > 0)) return {};
+  if (!(alphas.range() > 0)) return {};
   Deviations deviations(k_positions);
   for (std::size_t r = 0; r < measurement.runs.size() && r < residuals.size(); ++r) {
     const Run& run = measurement.runs[r];
     if (residuals[r].size() != run.samples.size()) continue;
-    if (is_from_point_to_point(run)) add_dwells(run, residuals[r], seen, deviations);
+    if (is_from_point_to_point(run)) add_dwells(run, residuals[r], alphas, deviations);
     for (const Stroke& stroke : run.strokes) {
       if (stroke.partial || is_from_point_to_point(run)) continue;
       for (int i = 0; i < k_positions; ++i) {
-        const double alpha = seen.least + seen.range() * share_of(i);
+        const double alpha = alphas.least + alphas.range() * share_of(i);
         const double value = residual_at(run, stroke, residuals[r], alpha);
         if (std::isfinite(value))
           deviations[static_cast<std::size_t>(i)][stroke.direction > 0 ? 0 : 1].push_back(value);

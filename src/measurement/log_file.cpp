@@ -17,8 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t k_any_size = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t k_longest_start = 16;
-constexpr std::size_t k_largest_metadata = std::size_t{1} << 20;
+/// Bytes from which every format is known.
+constexpr std::size_t k_format_bytes = 16;
+constexpr std::size_t k_largest_metadata = std::size_t{1} << 20;  // bytes
 constexpr std::string_view k_metadata = "metadata.yaml";
 constexpr std::array<std::string_view, 4> k_endings = {".mcap", ".db3", ".mcap.zstd", ".db3.zstd"};
 
@@ -28,7 +29,8 @@ std::string_view without_quotes(std::string_view text) {
   return is_quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-/// Names in the list "relative_file_paths:" of a metadata.yaml, without folders: older recorders wrote the bag's, too.
+/// Names in the list "relative_file_paths:" of a metadata.yaml. Older recorders wrote the bag's folder before each: it
+/// is removed.
 std::vector<std::string> listed_files(std::string_view yaml) {
   constexpr std::string_view k_list = "relative_file_paths:";
   std::vector<std::string> names;
@@ -50,12 +52,12 @@ std::vector<std::string> listed_files(std::string_view yaml) {
   return names;
 }
 
-bool is_part(const std::string& name) {
+bool is_recording(const std::string& name) {
   return std::any_of(std::begin(k_endings), std::end(k_endings),
                      [&](std::string_view ending) { return name.ends_with(ending); });
 }
 
-/// Parts of a recording by their numbers: bag_2 before bag_10.
+/// Orders the parts of a recording by their numbers: bag_2 before bag_10.
 bool is_before(const std::string& one, const std::string& other) {
   return one.size() != other.size() ? one.size() < other.size() : one < other;
 }
@@ -73,7 +75,7 @@ std::vector<std::string> parts_of(const fs::path& folder, const std::vector<std:
     }
   }
   if (!parts.empty()) return parts;
-  std::copy_if(names.begin(), names.end(), std::back_inserter(parts), is_part);
+  std::copy_if(names.begin(), names.end(), std::back_inserter(parts), is_recording);
   std::sort(parts.begin(), parts.end(), is_before);
   return parts;
 }
@@ -84,12 +86,12 @@ void read_file_into(LogFile& file, const fs::path& path, FileAccess& access) {
     try {
       return read_file(path.string() + "-wal", k_largest_database, access);
     } catch (const InputError&) {
-      return {};  // all is in the database
+      return {};  // without this file, the database is complete
     }
   });
 }
 
-/// Nothing for a folder without a bag.
+/// The rows of the bag in a folder; empty for a folder without a bag.
 std::optional<LoggedRows> read_folder(const fs::path& folder, const std::vector<std::string>& names,
                                       const std::string& name, const MeasurementOptions& options, FileAccess& access,
                                       std::size_t most_samples) {
@@ -119,7 +121,7 @@ LogFile::LogFile(const std::string& name, const MeasurementOptions& options, std
 void LogFile::add(std::string_view block) {
   if (format_) return take(block);
   held_ += block;
-  if (held_.size() >= k_longest_start) begin(format_of(held_));
+  if (held_.size() >= k_format_bytes) begin(format_of(held_));
 }
 
 void LogFile::begin(LogFormat format) {
@@ -159,7 +161,8 @@ void LogFile::end(const std::function<std::string()>& write_ahead_log) {
 void LogFile::unpack_held() {
   if (is_unpacked_) throw InputError(name_, "is packed twice", "unpack it: unzstd");
   UnpackingLimit limit;
-  const UnpackedBytes unpacked = unpack(Packing::zstd, held_, std::min(limit.after(held_.size()), k_largest_database));
+  const UnpackedBytes unpacked =
+      unpack(Packing::zstd, held_, std::min(limit.raise_for(held_.size()), k_largest_database));
   if (!unpacked.whole && unpacked.bytes.empty()) throw InputError(name_, "is a damaged zstd file", "copy it again");
   held_.clear();
   format_.reset();

@@ -23,11 +23,11 @@ LogFormat format_of(std::string_view start);
 /// Takes one file in blocks.
 class LogFile {
  public:
-  /// Without `bag` a CSV text may come; with it, a part of a bag in several files.
+  /// With `bag`, the file is one part of a bag in several files, and no CSV text.
   LogFile(const std::string& name, const MeasurementOptions& options, std::size_t most_samples, BagLog* bag = nullptr);
 
   void add(std::string_view block);
-  /// Ends the file. `write_ahead_log` gives the content of the file beside a database, if it needs that.
+  /// Ends the file. `write_ahead_log` reads the file FILE-wal beside a database; called only if the database has one.
   void end(const std::function<std::string()>& write_ahead_log);
   /// The rows, after end().
   LoggedRows finish();
@@ -43,10 +43,10 @@ class LogFile {
   BagLog* bag_;
   std::optional<BagLog> own_bag_;
   std::optional<LogFormat> format_;
-  std::string held_;  ///< the first bytes; then a database or a packed file
+  std::string held_;  ///< bytes until the format is known; then a whole database or packed file
   std::unique_ptr<CsvReader> csv_;
   std::unique_ptr<McapReader> mcap_;
-  bool is_unpacked_ = false;
+  bool is_unpacked_ = false;  ///< the bytes come from a packed file
 };
 
 }  // namespace fusee::measurement

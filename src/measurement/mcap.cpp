@@ -10,14 +10,14 @@
 namespace fusee::measurement {
 namespace {
 
-// Records are an opcode, a length of 8 bytes and a body. All numbers are little endian.
-constexpr std::size_t k_head = 9;
+// A record is an opcode of 1 byte, a length of 8 bytes and a body. All numbers are little endian.
+constexpr std::size_t k_head_size = 9;
 enum Opcode : unsigned char { k_invalid = 0, k_footer = 2, k_schema = 3, k_channel = 4, k_message = 5, k_chunk = 6 };
 
 /// A chunk is buffered as a whole; recorders write chunks of 1 to 4 MB.
 constexpr std::size_t k_largest_chunk = std::size_t{256} << 20;
 
-/// Fields of a record. After a fault all further reads are empty.
+/// Reads the fields of a record. After a fault all further reads are 0 or empty.
 class FieldReader {
  public:
   explicit FieldReader(std::string_view body) : rest_(body) {}
@@ -47,16 +47,16 @@ class FieldReader {
   bool ok_ = true;
 };
 
-/// CRC-32 as in zip and zlib.
+/// CRC-32 as in zip and zlib: reflected polynomial 0xEDB88320, by a table of all bytes.
 std::uint32_t crc32(std::string_view bytes) {
   static const std::array<std::uint32_t, 256> table = [] {
-    std::array<std::uint32_t, 256> made{};
-    for (std::uint32_t i = 0; i < made.size(); ++i) {
+    std::array<std::uint32_t, 256> entries{};
+    for (std::uint32_t i = 0; i < entries.size(); ++i) {
       std::uint32_t value = i;
       for (int bit = 0; bit < 8; ++bit) value = (value >> 1U) ^ ((value & 1U) != 0 ? 0xEDB88320U : 0U);
-      made[i] = value;
+      entries[i] = value;
     }
-    return made;
+    return entries;
   }();
   std::uint32_t sum = 0xFFFFFFFFU;
   for (const char c : bytes) sum = (sum >> 8U) ^ table[(sum ^ static_cast<unsigned char>(c)) & 0xFFU];
@@ -70,7 +70,8 @@ std::optional<Packing> packing_of(std::string_view name) {
   return std::nullopt;
 }
 
-bool is_kept(unsigned char opcode) {
+/// True for the records from which messages are read.
+bool is_needed(unsigned char opcode) {
   return opcode == k_schema || opcode == k_channel || opcode == k_message || opcode == k_chunk;
 }
 
@@ -83,8 +84,8 @@ void McapReader::add(std::string_view bytes) {
       taken = fill(bytes, k_mcap_magic.size());
       if (held_.size() == k_mcap_magic.size()) part_ = Part::head, held_.clear();
     } else if (part_ == Part::head) {
-      taken = fill(bytes, k_head);
-      if (held_.size() == k_head) begin_record();
+      taken = fill(bytes, k_head_size);
+      if (held_.size() == k_head_size) begin_record();
     } else {
       taken = static_cast<std::size_t>(std::min<std::uint64_t>(left_, bytes.size()));
       if (part_ == Part::body) held_.append(bytes.substr(0, taken));
@@ -113,8 +114,8 @@ void McapReader::begin_record() {
     return;
   }
   const std::size_t most = opcode_ == k_chunk ? k_largest_chunk : k_largest_message;
-  part_ = is_kept(opcode_) && left_ <= most ? Part::body : Part::skipped;
-  too_large_ += opcode_ == k_chunk && left_ > most;
+  part_ = is_needed(opcode_) && left_ <= most ? Part::body : Part::skipped;
+  if (opcode_ == k_chunk && left_ > most) ++too_large_chunks_;
   if (left_ == 0) end_record();
 }
 
@@ -136,8 +137,10 @@ void McapReader::finish() {
     into_.add_note("the recording is unfinished: it ends without a footer; the " + std::to_string(into_.messages()) +
                    " whole messages before its end are read");
   }
-  if (damaged_ > 0) into_.add_note(std::to_string(damaged_) + " chunks of the recording are damaged: omitted");
-  if (too_large_ > 0) into_.add_note(std::to_string(too_large_) + " chunks of the recording are too large: omitted");
+  if (damaged_chunks_ > 0)
+    into_.add_note(std::to_string(damaged_chunks_) + " chunks of the recording are damaged: omitted");
+  if (too_large_chunks_ > 0)
+    into_.add_note(std::to_string(too_large_chunks_) + " chunks of the recording are too large: omitted");
 }
 
 void McapReader::take_schema(std::string_view body) {
@@ -160,19 +163,19 @@ void McapReader::take_channel(std::string_view body) {
 void McapReader::take_message(std::string_view body) {
   FieldReader fields(body);
   const auto channel = channels_.find(fields.number<std::uint16_t>());
-  fields.number<std::uint32_t>();  // its number
+  fields.number<std::uint32_t>();  // sequence number
   const auto log_time = fields.number<std::uint64_t>();
-  fields.number<std::uint64_t>();  // time of publication, which most recorders do not know
+  fields.number<std::uint64_t>();  // time of publication, unknown to most recorders
   if (!fields.ok() || channel == channels_.end() || channel->second == BagLog::k_not_used) return;
   constexpr auto k_latest_stamp = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  into_.take(channel->second, static_cast<std::int64_t>(std::min(log_time, k_latest_stamp)), fields.rest());
+  into_.add_message(channel->second, static_cast<std::int64_t>(std::min(log_time, k_latest_stamp)), fields.rest());
 }
 
 /// `is_cut_off`: the file ends within the chunk.
 void McapReader::take_chunk(std::string_view body, bool is_cut_off) {
   FieldReader fields(body);
-  fields.number<std::uint64_t>();  // first and last time
-  fields.number<std::uint64_t>();
+  fields.number<std::uint64_t>();  // time of the first message
+  fields.number<std::uint64_t>();  // time of the last message
   const auto size = fields.number<std::uint64_t>();
   const auto crc = fields.number<std::uint32_t>();
   const std::optional<Packing> packing = packing_of(fields.text());
@@ -180,17 +183,21 @@ void McapReader::take_chunk(std::string_view body, bool is_cut_off) {
   std::string_view packed = fields.rest();
   if (!is_cut_off && fields.ok()) packed = fields.bytes(packed_size);
   if (!fields.ok() || !packing) {
-    damaged_ += !is_cut_off;
+    if (!is_cut_off) ++damaged_chunks_;
     return;
   }
-  const std::size_t most = std::min({limit_.after(packed.size()), k_largest_chunk, static_cast<std::size_t>(size)});
+  const std::size_t most = std::min({limit_.raise_for(packed.size()), k_largest_chunk, static_cast<std::size_t>(size)});
   const UnpackedBytes records = unpack(*packing, packed, most);
   limit_.use(records.bytes.size());
-  const bool is_whole = records.bytes.size() == size && (crc == 0 || crc32(records.bytes) == crc);
+  const bool has_checksum = crc != 0;
+  const bool is_whole = records.bytes.size() == size && (!has_checksum || crc32(records.bytes) == crc);
   std::vector<std::string_view> messages;
-  const bool ends_well = take_records(records.bytes, messages);
-  if (!is_cut_off && (!is_whole || !ends_well)) {
-    ++(size > most ? too_large_ : damaged_);
+  const bool records_fill_chunk = take_records(records.bytes, messages);
+  if (!is_cut_off && (!is_whole || !records_fill_chunk)) {
+    if (size > most)
+      ++too_large_chunks_;
+    else
+      ++damaged_chunks_;
     return;
   }
   for (const std::string_view message : messages) take_message(message);

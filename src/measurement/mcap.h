@@ -15,8 +15,8 @@ namespace fusee::measurement {
 
 constexpr std::string_view k_mcap_magic("\x89MCAP0\r\n", 8);
 
-/// Takes a file in blocks. It needs no summary, so that a recording without its end is read, too: every whole message
-/// of it counts. A damaged chunk is omitted. Both give a note.
+/// Takes a file in blocks. The summary at the end of the file is not needed: an unfinished recording is read up to its
+/// last whole message. A damaged chunk is omitted. Either adds a note.
 class McapReader {
  public:
   explicit McapReader(BagLog& into) : into_(into) {}
@@ -25,6 +25,8 @@ class McapReader {
   void finish();
 
  private:
+  /// Part of the file that comes next: its magic number, then head and body of each record. `skipped` is the body of a
+  /// record that is not needed, `over` all after the last record.
   enum class Part { magic, head, body, skipped, over };
 
   std::size_t fill(std::string_view bytes, std::size_t size);
@@ -39,12 +41,12 @@ class McapReader {
   BagLog& into_;
   UnpackingLimit limit_;
   Part part_ = Part::magic;
-  std::string held_;                                         ///< of the current part
+  std::string held_;                                         ///< bytes of the current part so far
   unsigned char opcode_ = 0;                                 ///< of the current record
   std::uint64_t left_ = 0;                                   ///< bytes of the current record that are still to come
   std::unordered_map<std::uint16_t, std::string> schemas_;   ///< names of message types
   std::unordered_map<std::uint16_t, std::size_t> channels_;  ///< topics in BagLog
-  std::size_t damaged_ = 0, too_large_ = 0;
+  std::size_t damaged_chunks_ = 0, too_large_chunks_ = 0;
 };
 
 }  // namespace fusee::measurement

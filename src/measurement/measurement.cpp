@@ -13,31 +13,32 @@
 #include "measurement/strokes.h"
 
 // From bytes to runs in three steps:
-//   1. Rows (log_file): the file is read in bounded memory; a run too long to keep is thinned as it comes. CSV
-//      (row_reader): bytes to records (csv_text), header to columns and their units (columns, units), cells to numbers
-//      (cells). Bags (mcap, sqlite_bag): bytes to messages, messages to numbers (ros_messages), numbers by topic to rows
+//   1. Rows (log_file): the file is read in blocks, and a long run is thinned meanwhile, so that memory is bounded.
+//      CSV (row_reader): bytes to records (csv_text), header to columns and units (columns, angle_words, units,
+//      settled_units), cells to numbers (cells).
+//      Bags (mcap, sqlite_bag): bytes to messages, messages to numbers (ros_messages), numbers by topic to rows
 //      (bag_log, tracks).
-// 2. Repair (repair): order in time, wrap-around, outliers; each with a note.
-// 3. Strokes (strokes), and the checks whether the runs can be evaluated at all (run_checks).
+//   2. Repair: order in time (clock), wrap-around and outliers (repair); each with a note.
+//   3. Strokes (strokes) and segments (segments), and checks whether the runs can be evaluated at all (run_checks).
 
 namespace fusee::measurement {
 namespace {
 
-/// A run file of `fusee plan` that is not filled in yet.
+/// True for a run file of `fusee plan` that is not filled in yet.
 bool is_unfilled(const LoggedRows& rows) { return rows.rows > 0 && rows.without_theta == rows.rows; }
 
-std::string all_of(std::size_t rows) { return rows == 1 ? "its only row" : "all " + rows_text(rows); }
+std::string all_rows_text(std::size_t rows) { return rows == 1 ? "its only row" : "all " + rows_text(rows); }
 
 void note_rows_read(const LoggedRows& rows, const std::string& name, const NoteSink& add_note, Measurement& into) {
-  for (const std::string& words : rows.notes) add_note(words);
-  for (const std::string& words : rows.sources) into.sources.push_back(name + ": " + words);
+  for (const std::string& note : rows.notes) add_note(note);
+  for (const std::string& source : rows.sources) into.sources.push_back(name + ": " + source);
   if (rows.stride > 1) {
     add_note("of " + std::to_string(rows.rows) + " rows one in " + std::to_string(rows.stride) +
              " is used: no more than " + std::to_string(k_most_samples) + " rows of all files are kept");
   }
   if (rows.without_angle == 0) return;
   if (is_unfilled(rows)) {
-    into.not_testable.push_back(name + ": no measured rows: theta is empty in " + all_of(rows.rows) +
+    into.not_testable.push_back(name + ": no measured rows: theta is empty in " + all_rows_text(rows.rows) +
                                 "; fill in the angles of the joint's sensor in this run of 'fusee plan'");
     return;
   }
@@ -57,7 +58,7 @@ void repair(Run& run, const NoteSink& add_note) {
   run.has_temperature = run.has_temperature && fill_gaps(run.samples, &Sample::temperature_C, "temperature", add_note);
 }
 
-void describe(Run& run) {
+void compute_speed_and_load(Run& run) {
   if (run.has_time) {
     std::vector<double> speeds;
     for (std::size_t i = 1; i < run.samples.size(); ++i) {
@@ -70,7 +71,7 @@ void describe(Run& run) {
   for (const Sample& sample : run.samples) run.mean_load += sample.load / static_cast<double>(run.samples.size());
 }
 
-/// A sweep with rows minutes apart was logged in another unit.
+/// Adds a note for a sweep whose rows are more than 2 s apart: its time may be in another unit.
 void note_implausible_steps(const Run& run, std::size_t stride, const NoteSink& add_note) {
   if (!run.has_time || run.samples.size() < 2 || is_from_point_to_point(run)) return;
   const double span = run.samples.back().time - run.samples.front().time;
@@ -80,14 +81,15 @@ void note_implausible_steps(const Run& run, std::size_t stride, const NoteSink& 
              " s apart: if the times are in ms, end their column's name in _ms, or give --unit time=ms");
 }
 
-/// Determines strokes and segments.
-void cut(Run& run, Measurement& into, double alpha_quantum) {
+/// Determines strokes, segments and the sensors' steps.
+void cut_run(Run& run, Measurement& into, double alpha_quantum) {
   std::vector<RowRange> dwells = dwells_in(run.samples, alpha_quantum);
   const double theta_quantum = quantum_of(run.samples, &Sample::theta);
   const double alpha_step = sensor_quantum(dwells, run.samples, &Sample::alpha, alpha_quantum);
   into.alpha_quantum = std::max(into.alpha_quantum, alpha_step);
   into.theta_quantum = std::max(into.theta_quantum, sensor_quantum(dwells, run.samples, &Sample::theta, theta_quantum));
   run.strokes = split_strokes(run.samples, dwells, alpha_step, run.has_time);
+  // At a constant α, load levels alone move the joint: one stroke without a direction.
   if (run.strokes.empty() && has_levels_of_load(run)) {
     dwells = {{0, run.samples.size() - 1}};
     run.strokes = {{0, run.samples.size() - 1, 0, 0, false}};
@@ -96,16 +98,17 @@ void cut(Run& run, Measurement& into, double alpha_quantum) {
 }
 
 /// N·mm in a unit of torque; 0 for N.
-double torque_of(const std::string& unit) { return unit == "Nm" ? 1000.0 : unit == "Nmm" ? 1.0 : 0.0; }
+double Nmm_in(const std::string& unit) { return unit == "Nm" ? 1000.0 : unit == "Nmm" ? 1.0 : 0.0; }
 
-/// The loads of all runs are in one unit, that of the first.
+/// Converts the loads of a run to the unit of the first run. Throws InputError if one is a force and the other a
+/// torque.
 void take_load_unit(const std::string& unit, Run& run, Measurement& into) {
   if (into.load_unit.empty()) into.load_unit = unit;
   if (into.load_unit == unit) return;
-  if (torque_of(unit) == 0 || torque_of(into.load_unit) == 0)
+  if (Nmm_in(unit) == 0 || Nmm_in(into.load_unit) == 0)
     throw InputError(run.name, "has loads in " + unit + ", and an earlier run in " + into.load_unit,
                      "log forces in all runs, or torques in all");
-  const double factor = torque_of(unit) / torque_of(into.load_unit);
+  const double factor = Nmm_in(unit) / Nmm_in(into.load_unit);
   for (Sample& sample : run.samples) sample.load *= factor;
   run.mean_load *= factor;
 }
@@ -121,10 +124,10 @@ Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
   run.has_temperature = rows.has_temperature;
   run.mounting = rows.mounting;
   if (!run.samples.empty()) {
-    const double alpha_quantum = quantum_of(run.samples, &Sample::alpha);
+    const double alpha_quantum = quantum_of(run.samples, &Sample::alpha);  // before rows are averaged
     repair(run, add_note);
-    cut(run, into, alpha_quantum);
-    describe(run);
+    cut_run(run, into, alpha_quantum);
+    compute_speed_and_load(run);
     note_implausible_steps(run, rows.stride, add_note);
   }
   if (!is_unfilled(rows)) check_run(run, into, add_note);
@@ -137,7 +140,7 @@ std::string run_name(const std::filesystem::path& file) {
   return (file.has_filename() ? file : file.parent_path()).filename().string();
 }
 
-/// Files of the same name in two folders are named by their paths.
+/// Names of the runs; files of the same name in two folders are named by their paths.
 std::vector<std::string> run_names(const std::vector<std::filesystem::path>& files) {
   std::vector<std::string> names;
   for (const auto& file : files) {
@@ -149,7 +152,7 @@ std::vector<std::string> run_names(const std::vector<std::filesystem::path>& fil
   return names;
 }
 
-/// Merges equal sources into one, with the names of their runs.
+/// Merges equal sources "RUN: WORDS" into one, with the name of the first run and the number of the others.
 void merge_sources(std::vector<std::string>& sources) {
   constexpr std::string_view k_mark = ": ";
   std::vector<std::pair<std::string, std::vector<std::string>>> runs_by_words;
@@ -177,7 +180,7 @@ bool same_rows(const std::vector<Sample>& a, const std::vector<Sample>& b) {
   return a.size() > 1 && std::equal(a.begin(), a.end(), b.begin(), b.end(), are_equal);
 }
 
-/// A run that is given twice would confirm itself.
+/// Throws InputError for a run that is given twice: it would confirm itself.
 void refuse_copies(const std::vector<std::filesystem::path>& files, const std::vector<Run>& runs) {
   std::vector<Diagnostic> problems;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -220,11 +223,12 @@ Measurement read_measurement(const std::vector<std::filesystem::path>& files, co
   Measurement measurement;
   std::vector<Diagnostic> problems;
   const std::vector<std::string> names = run_names(files);
-  const std::size_t share = std::max<std::size_t>(2, k_most_samples / std::max<std::size_t>(1, files.size()));
+  const std::size_t most_rows_per_file =
+      std::max<std::size_t>(2, k_most_samples / std::max<std::size_t>(1, files.size()));
   for (std::size_t i = 0; i < files.size(); ++i) {
     try {
       measurement.runs.push_back(
-          make_run(names[i], read_rows(files[i], files[i].string(), options, access, share), measurement));
+          make_run(names[i], read_rows(files[i], files[i].string(), options, access, most_rows_per_file), measurement));
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.diagnostics().begin(), error.diagnostics().end());
     }

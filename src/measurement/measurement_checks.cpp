@@ -12,7 +12,7 @@
 namespace fusee::measurement {
 namespace {
 
-/// Evenly spaced rows, enough to locate a long run.
+/// Evenly spaced rows, about 500: enough to compare a long run with the declared joint.
 std::vector<Sample> thinned(const Run& run) {
   constexpr std::size_t enough = 500;
   std::vector<Sample> samples;
@@ -23,45 +23,51 @@ std::vector<Sample> thinned(const Run& run) {
 
 // ---- whole turns ----------------------------------------------------------------------------------------------------
 
-/// Median of measured minus declared θ, with α shifted by `turn`; rad.
-double offset_from_declared(const std::vector<Sample>& samples, const transmission::TargetMotion& law, double turn) {
+/// Median of measured minus declared θ, with `alpha_shift` added to the measured α; rad.
+double offset_from_declared(const std::vector<Sample>& samples, const transmission::TargetMotion& law,
+                            double alpha_shift) {
   std::vector<double> values;
-  for (const Sample& sample : samples) values.push_back(sample.theta - law.theta_extrapolated(sample.alpha + turn));
+  for (const Sample& sample : samples)
+    values.push_back(sample.theta - law.theta_extrapolated(sample.alpha + alpha_shift));
   return median_of(std::move(values));
 }
 
+/// Whole turns to add to the angles of a run, rad.
 struct TurnOffset {
   double alpha = 0;
   double theta = 0;
-  double remaining = 0;  ///< offset from `expected`
+  double remaining = 0;  ///< offset of θ from the expected one, with these turns added
 };
 
-/// The smallest number of whole turns that removes the offset of a run.
+/// The smallest number of whole turns that removes the offset of a run from the declared motion, up to the `expected`
+/// offset, rad.
 TurnOffset best_turns(const std::vector<Sample>& samples, const transmission::TargetMotion& law, double expected) {
-  constexpr int most = 3;
+  constexpr int most = 3;  // turns of each angle
   TurnOffset best{0, 0, offset_from_declared(samples, law, 0) - expected};
   const double before = std::abs(best.remaining);
   std::vector<double> alphas;
   for (const Sample& sample : samples) alphas.push_back(sample.alpha);
   const double middle = median_of(std::move(alphas));
-  int fewest = 0;
-  for (int a = -most; a <= most; ++a) {
-    if (!law.reaches(middle + a * k_two_pi)) continue;
-    const double beside = offset_from_declared(samples, law, a * k_two_pi) - expected;
-    const int t = std::clamp(static_cast<int>(-std::round(beside / k_two_pi)), -most, most);
-    const double remaining = std::abs(beside + t * k_two_pi);
-    const int turns = std::abs(a) + std::abs(t);
+  int fewest = 0;  // turns of the best so far; 0: none is accepted yet
+  for (int alpha_turns = -most; alpha_turns <= most; ++alpha_turns) {
+    if (!law.reaches(middle + alpha_turns * k_two_pi)) continue;
+    const double offset = offset_from_declared(samples, law, alpha_turns * k_two_pi) - expected;
+    const int theta_turns = std::clamp(static_cast<int>(-std::round(offset / k_two_pi)), -most, most);
+    const double remaining = std::abs(offset + theta_turns * k_two_pi);
+    const int turns = std::abs(alpha_turns) + std::abs(theta_turns);
     // Turns are accepted only if they nearly remove a large offset: a wrong zero is another fault.
     if (remaining > 0.25 * before || before < radians(45.0)) continue;
-    if (fewest > 0 && (turns > fewest || (turns == fewest && remaining >= std::abs(best.remaining)))) continue;
+    const bool is_worse = turns > fewest || (turns == fewest && remaining >= std::abs(best.remaining));
+    if (fewest > 0 && is_worse) continue;
     fewest = turns;
-    best = {a * k_two_pi, t * k_two_pi, beside + t * k_two_pi};
+    best = {alpha_turns * k_two_pi, theta_turns * k_two_pi, offset + theta_turns * k_two_pi};
   }
   return best;
 }
 
-/// Removes offsets of whole turns, as of a single-turn encoder that had wrapped before the log began.
-void take_back_turns(const transmission::TargetMotion& law, Measurement& measurement) {
+/// Removes offsets of whole turns, as of a single-turn encoder that had wrapped before the log began. A joint declared
+/// without a zero takes the offset of its first run as expected.
+void remove_whole_turns(const transmission::TargetMotion& law, Measurement& measurement) {
   double expected = 0;
   for (std::size_t i = 0; i < measurement.runs.size(); ++i) {
     Run& run = measurement.runs[i];
@@ -86,8 +92,8 @@ void take_back_turns(const transmission::TargetMotion& law, Measurement& measure
   }
 }
 
-/// Reports an offset too large for a sensor's zero and for any effect.
-std::string wrong_zero(const transmission::TargetMotion& law, const Measurement& measurement) {
+/// Message about an offset too large for a sensor's zero and for any effect; "" if there is none.
+std::string wrong_zero_message(const transmission::TargetMotion& law, const Measurement& measurement) {
   if (!law.has_zero()) return {};
   for (const Run& run : measurement.runs) {
     const double off = offset_from_declared(thinned(run), law, 0);
@@ -103,9 +109,9 @@ std::string wrong_zero(const transmission::TargetMotion& law, const Measurement&
 
 /// Straight lines fitted to measured and declared θ over the same α.
 struct Slopes {
-  double measured = 0;  ///< dθ/dα
-  double declared = 0;
-  double alpha_span = 0;  ///< rad, of the samples
+  double measured = 0;    ///< dθ/dα
+  double declared = 0;    ///< dθ/dα
+  double alpha_span = 0;  ///< of the run that moves farthest, rad
   double scatter = 0;     ///< rms of θ about its line, rad
 };
 
@@ -142,7 +148,7 @@ Slopes slopes_of(const transmission::TargetMotion& law, const Measurement& measu
   return slopes;
 }
 
-/// Within a factor of 1.5 of `expected`: mistakes of unit or sign are far larger than errors of a joint.
+/// True within a factor of 1.5 of `expected`: mistakes of unit or sign are far larger than errors of a joint.
 bool is_about(double value, double expected) { return value / expected > 0.67 && value / expected < 1.5; }
 
 std::string slope_text(const Slopes& slopes) {
@@ -152,10 +158,12 @@ std::string slope_text(const Slopes& slopes) {
 
 const char* const k_radians_advice = "; end the column's name in _rad, or give --unit alpha=rad or theta=rad";
 
-std::string fault(const transmission::TargetMotion& law, const Slopes& slopes) {
+/// Message about a slope that cannot be the declared joint's, with its likely cause; "" if the slope agrees.
+std::string slope_message(const transmission::TargetMotion& law, const Slopes& slopes) {
   const double ratio = slopes.measured / slopes.declared;
-  const double exchanged = 1.0 / (law.slope() * law.slope());
+  const double exchanged = 1.0 / (law.slope() * law.slope());  // ratio if α and θ are exchanged
   const double degrees_per_rad = degrees(1.0), range = law.alpha_range();
+  // Both angles in radians, read as degrees: the slope agrees, and the range is 57 times too small.
   if (range > 0 && is_about(ratio, 1.0) && slopes.alpha_span < 0.06 * range &&
       slopes.alpha_span * degrees_per_rad > 0.25 * range) {
     return "alpha moves over " + rounded(degrees(slopes.alpha_span), 3) + " deg of the declared " +
@@ -182,8 +190,8 @@ std::string fault(const transmission::TargetMotion& law, const Slopes& slopes) {
   return slope_text(slopes) + "this is not the declared joint, or a column has another unit";
 }
 
-/// A joint declared by a ratio has no range to compare with.
-void check_for_radians(const transmission::TargetMotion& law, const Slopes& slopes, Measurement& measurement) {
+/// Adds a note if α moves very little. A joint declared by a ratio has no zero and no range to compare with.
+void note_small_range(const transmission::TargetMotion& law, const Slopes& slopes, Measurement& measurement) {
   if (law.has_zero() || slopes.declared == 0 || slopes.alpha_span > radians(k_two_pi)) return;
   measurement.notes.push_back("alpha moves over only " + rounded(degrees(slopes.alpha_span), 3) +
                               " deg in any run: if these are radians, end the columns' names in _rad");
@@ -199,17 +207,17 @@ void compare_with_law(const Mechanism& declared, Measurement& measurement) {
     return;
   }
   if (!std::isfinite(law.slope()) || law.slope() == 0) return;
-  take_back_turns(law, measurement);
+  remove_whole_turns(law, measurement);
   const Slopes slopes = slopes_of(law, measurement);
-  check_for_radians(law, slopes, measurement);
-  std::string found = slopes.declared != 0 ? fault(law, slopes) : "";
-  if (found.empty()) found = wrong_zero(law, measurement);
-  if (!found.empty()) measurement.not_testable.push_back(found);
+  note_small_range(law, slopes, measurement);
+  std::string problem = slopes.declared != 0 ? slope_message(law, slopes) : "";
+  if (problem.empty()) problem = wrong_zero_message(law, measurement);
+  if (!problem.empty()) measurement.not_testable.push_back(problem);
 }
 
 // ---- loads ----------------------------------------------------------------------------------------------------------
 
-/// Tip force across OC for one unit of the load column, N; 0 if it is not a torque.
+/// Tip force across OC for one unit of the load column, N; 0 if it is not a torque. `length`: OC, mm.
 double force_of_unit(const std::string& unit, double length) {
   return unit == "Nm" ? 1000.0 / length : unit == "Nmm" ? 1.0 / length : 0.0;
 }

@@ -14,12 +14,13 @@
 namespace fusee::measurement {
 namespace {
 
-/// Fewer rows do not show a usual scatter.
+/// The scatter of a log cannot be estimated from fewer rows.
 constexpr std::size_t k_fewest_rows = 20;
 
 // ---- outliers -------------------------------------------------------------------------------------------------------
 
-double middle_of_five(const std::vector<double>& values, std::size_t i) {
+/// Median of a value and its two neighbours on either side.
+double median_of_five(const std::vector<double>& values, std::size_t i) {
   std::array<double, 5> near{};
   std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i - 2), 5, near.begin());
   std::nth_element(near.begin(), near.begin() + 2, near.end());
@@ -29,26 +30,26 @@ double middle_of_five(const std::vector<double>& values, std::size_t i) {
 /// Outliers of a run: rows farther from the median of their neighbours than the scatter and the motion from row to row
 /// explain.
 struct Outliers {
-  double limit = 0;
+  double limit = 0;  ///< rad
   std::vector<std::size_t> rows;
 };
 
 Outliers outliers_in(const std::vector<double>& values) {
   std::vector<double> off(values.size()), steps;
   // At the ends of a log a spike is indistinguishable from a step.
-  for (std::size_t i = 2; i + 2 < values.size(); ++i) off[i] = std::abs(values[i] - middle_of_five(values, i));
+  for (std::size_t i = 2; i + 2 < values.size(); ++i) off[i] = std::abs(values[i] - median_of_five(values, i));
   for (std::size_t i = 1; i < values.size(); ++i) steps.push_back(std::abs(values[i] - values[i - 1]));
-  const auto ninth = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() * 9 / 10);
-  std::nth_element(steps.begin(), ninth, steps.end());
-  Outliers outliers{12 * median_of(off) + 4 * *ninth + radians(0.02), {}};
+  const auto large_step = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() * 9 / 10);  // 90th percentile
+  std::nth_element(steps.begin(), large_step, steps.end());
+  Outliers outliers{12 * median_of(off) + 4 * *large_step + radians(0.02), {}};
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (off[i] > outliers.limit) outliers.rows.push_back(i);
   }
   return outliers;
 }
 
-/// θ without its linear part in α: the remainder hardly changes from row to row.
-std::vector<double> beside_line(const std::vector<Sample>& samples) {
+/// θ without its linear part in α: this residual hardly changes from row to row.
+std::vector<double> residuals_of_line(const std::vector<Sample>& samples) {
   double alpha = 0, theta = 0, products = 0, squares = 0;
   for (const Sample& sample : samples) {
     alpha += sample.alpha / static_cast<double>(samples.size());
@@ -87,15 +88,15 @@ void drop_rows(std::vector<Sample>& samples, const Outliers& outliers, const std
   add_note(words + "dropped as outliers");
 }
 
-/// Range without the outermost 1 %, which may be outliers.
+/// Range of θ without the outermost 1 %, which may be outliers.
 double span_of_theta(const std::vector<Sample>& samples) {
   std::vector<double> thetas;
   for (const Sample& sample : samples) thetas.push_back(sample.theta);
-  const auto at = [&](std::size_t place) {
-    std::nth_element(thetas.begin(), thetas.begin() + static_cast<std::ptrdiff_t>(place), thetas.end());
-    return thetas[place];
+  const auto at_rank = [&](std::size_t rank) {
+    std::nth_element(thetas.begin(), thetas.begin() + static_cast<std::ptrdiff_t>(rank), thetas.end());
+    return thetas[rank];
   };
-  return at(thetas.size() - 1 - thetas.size() / 200) - at(thetas.size() / 200);
+  return at_rank(thetas.size() - 1 - thetas.size() / 200) - at_rank(thetas.size() / 200);
 }
 
 }  // namespace
@@ -105,13 +106,14 @@ void unwrap(std::vector<Sample>& samples, double Sample::*angle, const std::stri
   std::size_t wraps = 0;
   double before = samples.front().*angle;
   const bool of_motor = angle == &Sample::alpha;
-  const double far = of_motor ? 0.25 * span_of_theta(samples) : 0;
+  const double large_step_of_theta = of_motor ? 0.25 * span_of_theta(samples) : 0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const double here = samples[i].*angle;
     const double jump = here - before;
     before = here;
-    const bool joint_moves = of_motor && std::abs(samples[i].theta - samples[i - 1].theta) > far;
-    if (!joint_moves && std::abs(std::abs(jump) - k_two_pi) < radians(80.0)) {
+    const bool joint_moves = of_motor && std::abs(samples[i].theta - samples[i - 1].theta) > large_step_of_theta;
+    const bool is_about_a_turn = std::abs(std::abs(jump) - k_two_pi) < radians(80.0);
+    if (!joint_moves && is_about_a_turn) {
       shift -= jump > 0 ? k_two_pi : -k_two_pi;
       ++wraps;
     }
@@ -126,7 +128,7 @@ void drop_outliers(Run& run, const NoteSink& add_note) {
   std::vector<double> alphas;
   for (const Sample& sample : run.samples) alphas.push_back(sample.alpha);
   drop_rows(run.samples, outliers_in(alphas), "alpha", add_note);
-  drop_rows(run.samples, outliers_in(beside_line(run.samples)), "theta", add_note);
+  drop_rows(run.samples, outliers_in(residuals_of_line(run.samples)), "theta", add_note);
 }
 
 bool fill_gaps(std::vector<Sample>& samples, double Sample::*value, const std::string& name, const NoteSink& add_note) {
@@ -149,8 +151,8 @@ bool fill_gaps(std::vector<Sample>& samples, double Sample::*value, const std::s
 // Values on a grid have differences that are multiples of one step. A steady noiseless motion also has equal steps, but
 // always the same number of them from row to row; a quantised sensor alternates between one step, none and two.
 double quantum_of(const std::vector<Sample>& samples, double Sample::*angle) {
-  constexpr std::size_t enough = 20000;
-  constexpr double same = radians(1e-7);
+  constexpr std::size_t enough = 20000;   // rows
+  constexpr double same = radians(1e-7);  // closer values are equal
   std::vector<double> values;
   for (std::size_t i = 0; i < samples.size() && i < enough; ++i) values.push_back(samples[i].*angle);
   const std::vector<double> in_order = values;
@@ -161,11 +163,12 @@ double quantum_of(const std::vector<Sample>& samples, double Sample::*angle) {
   }
   if (steps.empty()) return 0;
   std::sort(steps.begin(), steps.end());
-  // One value off the grid does not hide it; decimal rounding makes single steps differ slightly.
-  const double least = steps[steps.size() / 20];
+  // The 5th percentile ignores a few values off the grid. Decimal rounding makes single steps differ slightly: their
+  // mean is the quantum.
+  const double single = steps[steps.size() / 20];
   double sum = 0, singles = 0;
   for (const double step : steps) {
-    if (step < 0.8 * least || step > 1.2 * least) continue;
+    if (step < 0.8 * single || step > 1.2 * single) continue;
     sum += step;
     singles += 1;
   }
@@ -175,11 +178,13 @@ double quantum_of(const std::vector<Sample>& samples, double Sample::*angle) {
     return multiple(step) >= 1 && std::abs(step / quantum - multiple(step)) < 0.15;
   };
   if (10 * std::count_if(steps.begin(), steps.end(), on_grid) < 9 * static_cast<std::ptrdiff_t>(steps.size())) return 0;
-  std::map<double, std::size_t> rows;
-  for (std::size_t i = 1; i < in_order.size(); ++i) ++rows[multiple(std::abs(in_order[i] - in_order[i - 1]))];
-  const auto often =
-      std::count_if(rows.begin(), rows.end(), [&](const auto& entry) { return 50 * entry.second > in_order.size(); });
-  return often > 1 ? quantum : 0;
+  std::map<double, std::size_t> rows_by_multiple;
+  for (std::size_t i = 1; i < in_order.size(); ++i)
+    ++rows_by_multiple[multiple(std::abs(in_order[i] - in_order[i - 1]))];
+  // Multiples by which more than 2 % of the rows differ from the preceding row.
+  const auto frequent_multiples = std::count_if(rows_by_multiple.begin(), rows_by_multiple.end(),
+                                                [&](const auto& entry) { return 50 * entry.second > in_order.size(); });
+  return frequent_multiples > 1 ? quantum : 0;
 }
 
 }  // namespace fusee::measurement

@@ -18,7 +18,8 @@ void unwrap(std::vector<Sample>& samples, double Sample::*angle, const std::stri
 /// Drops single rows far from their neighbours: sensor spikes. A lasting step is not an outlier.
 void drop_outliers(Run& run, const NoteSink& add_note);
 
-/// Replaces missing loads or temperatures by the last logged value. False if none was ever logged.
+/// Replaces missing loads or temperatures by the last logged value; at the beginning by the first. False if there is no
+/// value at all.
 bool fill_gaps(std::vector<Sample>& samples, double Sample::*value, const std::string& name, const NoteSink& add_note);
 
 /// Step of a quantised sensor; 0 if it is too fine to be detected.

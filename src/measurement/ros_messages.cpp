@@ -9,7 +9,7 @@
 
 namespace fusee::measurement {
 
-/// Numbers and texts of one message. After a fault all further reads give 0.
+/// Reads the numbers and texts of one message. After a fault all further reads are 0 or empty.
 class CdrReader {
  public:
   /// Byte 1 of the encapsulation: 0 big endian, 1 little endian. Others (parameter lists, XCDR2) are faults.
@@ -22,7 +22,7 @@ class CdrReader {
 
   template <typename Number>
   Number number() {
-    at_ = (at_ + sizeof(Number) - 1) / sizeof(Number) * sizeof(Number);
+    at_ = (at_ + sizeof(Number) - 1) / sizeof(Number) * sizeof(Number);  // CDR aligns a number to its own size
     std::array<char, sizeof(Number)> raw{};
     if (!can_read(sizeof(Number))) return Number{};
     std::memcpy(raw.data(), bytes_.data() + at_, raw.size());
@@ -40,10 +40,10 @@ class CdrReader {
     return text;
   }
 
-  /// Length of a sequence; a fault if its elements of at least `least` bytes do not fit into the message.
-  std::size_t count(std::size_t least) {
+  /// Number of elements of a sequence. It is a fault if they do not fit into the message with `least_size` bytes each.
+  std::size_t count(std::size_t least_size) {
     const std::size_t elements = number<std::uint32_t>();
-    return elements > 0 && !can_read(elements * least) ? 0 : elements;
+    return elements > 0 && !can_read(elements * least_size) ? 0 : elements;
   }
 
   std::vector<double> numbers() {
@@ -52,23 +52,24 @@ class CdrReader {
     return values;
   }
 
-  /// std_msgs/Header: stamp in ns.
+  /// Reads a std_msgs/Header. Returns its stamp in ns.
   std::int64_t header() {
     const std::int64_t seconds = number<std::int32_t>(), nanoseconds = number<std::uint32_t>();
-    text();
+    text();  // frame_id
     return seconds * 1'000'000'000 + nanoseconds;
   }
 
  private:
   static constexpr std::size_t k_encapsulation = 4;
 
+  /// True if `size` more bytes exist; otherwise it is a fault.
   bool can_read(std::size_t size) {
     ok_ = ok_ && at_ <= bytes_.size() && size <= bytes_.size() - at_;
     return ok_;
   }
 
   std::string_view bytes_;  ///< behind the encapsulation, from which alignment counts
-  std::size_t at_ = 0;
+  std::size_t at_ = 0;      ///< of the next byte
   bool ok_ = false, swapped_ = false;
 };
 

@@ -9,8 +9,8 @@
 
 namespace fusee::measurement {
 
-/// Reads the number of a std_msgs message; nullptr for types that are not one number.
 class CdrReader;
+/// Reads the number of a std_msgs message.
 using ReadNumber = double (*)(CdrReader&);
 
 enum class MessageKind { joint_state, wrench, wrench_stamped, temperature, number };
@@ -18,7 +18,7 @@ enum class MessageKind { joint_state, wrench, wrench_stamped, temperature, numbe
 struct MessageType {
   std::string_view name;  ///< "sensor_msgs/JointState"
   MessageKind kind = MessageKind::number;
-  ReadNumber read_number = nullptr;
+  ReadNumber read_number = nullptr;  ///< for MessageKind::number
 };
 
 /// The type of that name, "sensor_msgs/msg/JointState" or "sensor_msgs/JointState"; nullptr if it has no numbers for a

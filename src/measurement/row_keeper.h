@@ -9,12 +9,12 @@
 
 namespace fusee::measurement {
 
-/// Keeps all rows up to a number, of more the even ones, of more every fourth …
+/// Keeps at most `most` rows. Of a longer log every second row is kept, then every fourth, and so on.
 class RowKeeper {
  public:
   explicit RowKeeper(std::size_t most) : most_(most) {}
 
-  /// The log restarts before the next row.
+  /// Marks that the log restarts before the next row.
   void begin_again() { after_break_ = true; }
   void add(Sample sample);
 
@@ -25,8 +25,8 @@ class RowKeeper {
   void thin_out();
 
   std::size_t most_;
-  std::size_t counter_ = 0;
-  bool after_break_ = false;
+  std::size_t counter_ = 0;   ///< rows since the last thinning
+  bool after_break_ = false;  ///< the log restarts before the next kept row
 };
 
 }  // namespace fusee::measurement

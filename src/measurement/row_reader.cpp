@@ -12,15 +12,16 @@
 #include "measurement/cells.h"
 #include "measurement/columns.h"
 #include "measurement/csv_text.h"
+#include "measurement/log_text.h"
 #include "measurement/ros_names.h"
 #include "measurement/row_keeper.h"
 #include "measurement/tracks.h"
-#include "measurement/words.h"
 
 namespace fusee::measurement {
 namespace {
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+/// Problems that are listed before reading stops.
 constexpr std::size_t k_most_problems = 20;
 /// Faults after which reading stops, also if they are all of one kind.
 constexpr std::size_t k_most_faults = 1000;
@@ -32,7 +33,8 @@ constexpr double k_largest_value = 1e15, k_largest_time = 1e19;
 const char* const k_usual_header =
     "the first line names the columns: alpha_deg,theta_deg and, if logged, time_s,load_N";
 
-double* member(joint::Mounting& mounting, const std::string& role) {
+/// The mounting angle for a role; nullptr for other roles.
+double* mounting_of(joint::Mounting& mounting, const std::string& role) {
   if (role == k_motor_sensor_turned) return &mounting.motor_sensor_turned;
   if (role == k_joint_sensor_turned) return &mounting.joint_sensor_turned;
   return nullptr;
@@ -41,7 +43,7 @@ double* member(joint::Mounting& mounting, const std::string& role) {
 bool all_numbers(const std::vector<std::string>& cells) {
   double value = 0;
   return std::all_of(cells.begin(), cells.end(), [&](const std::string& cell) {
-    return read_number(cell, value) == Cell::number || read_time_stamp(cell);
+    return read_number(cell, value) == CellContent::number || read_time_stamp(cell);
   });
 }
 
@@ -53,6 +55,7 @@ char stated_separator(std::string_view line) {
 
 constexpr char k_separators[] = {',', ';', '\t', ' '};
 
+/// Cells of a header line, with single quotation marks and without line ends.
 std::vector<std::string> names_in(std::string_view line, char separator) {
   std::vector<std::string_view> cells;
   split_cells(line, separator, cells);
@@ -71,7 +74,7 @@ bool is_same_name(std::string_view cell, std::string_view name) {
   return std::equal(cell.begin(), cell.end(), name.begin(), name.end(), is_same);
 }
 
-/// "[deg]", "(deg)": the unit inside.
+/// "[deg]" and "(deg)" become "deg".
 std::string_view without_brackets(std::string_view cell) {
   const bool in_brackets = cell.size() > 2 && std::string_view("[({<").find(cell.front()) != std::string_view::npos &&
                            std::string_view("])}>").find(cell.back()) != std::string_view::npos;
@@ -81,8 +84,9 @@ std::string_view without_brackets(std::string_view cell) {
 /// Bytes that do not belong to the text: zero bytes of a log that was not closed, and the end mark of DOS.
 constexpr std::string_view k_padding{"\0\x1A", 2};
 
+/// The first of the usual separators that the line contains; a comma if it has none.
 char separator_of(std::string_view line) {
-  for (const char separator : {',', ';', '\t', ' '}) {
+  for (const char separator : k_separators) {
     if (line.find(separator) != std::string_view::npos) return separator;
   }
   return ',';
@@ -114,8 +118,8 @@ class RowReader {
     refuse_binary(text);
     std::string_view content = trimmed(text);
     if (content.empty()) return;
-    if (padding_ > 0) refuse_padding();
-    if (content.front() == '#' && !is_row_without_first(content)) {
+    if (padded_lines_ > 0) refuse_padding();
+    if (content.front() == '#' && !is_row_without_first_value(content)) {
       if (columns_.empty()) comment_ = content.substr(1);
       return;
     }
@@ -125,30 +129,32 @@ class RowReader {
       if (std::exchange(is_header_above_, false)) take(record);
       return;
     }
-    row(separator_ == '\t' && !is_stamped_ ? text : unstamped);
+    take_row(separator_ == '\t' && !is_stamped_ ? text : unstamped);  // a tab at either end borders an empty cell
   }
 
   LoggedRows finish() {
     if (columns_.empty()) refuse_without_header();
-    // A truncated log ends in the middle of a row.
-    if (padding_ > 0 && !columns_.empty()) {
-      found_.notes.push_back("zero bytes at the end (line " + std::to_string(padding_line_) +
-                             "): the log was not closed, they are omitted");
+    if (padded_lines_ > 0) {
+      logged_.notes.push_back("zero bytes at the end (line " + std::to_string(first_padded_line_) +
+                              "): the log was not closed, they are omitted");
     }
-    if (!cut_off_.message.empty() && problems_.empty()) {
-      found_.notes.push_back("the last row (line " + std::to_string(cut_off_.place.line) + ") is truncated: omitted");
+    // A truncated log ends in the middle of a row.
+    if (!short_row_.message.empty() && problems_.empty()) {
+      logged_.notes.push_back("the last row (line " + std::to_string(short_row_.place.line) +
+                              ") is truncated: omitted");
     }
     if (!problems_.empty()) refuse();
-    if (headers_ > 0) {
-      found_.notes.push_back("the header is repeated " + times(headers_) + ", first in line " +
-                             std::to_string(second_header_) + ": a new motion begins there" +
-                             (dropped_ > 0 ? ", and " + rows_text(dropped_) + " before it were not data" : ""));
+    if (repeated_headers_ > 0) {
+      logged_.notes.push_back(
+          "the header is repeated " + times(repeated_headers_) + ", first in line " + std::to_string(first_repeat_) +
+          ": a new motion begins there" +
+          (dropped_rows_ > 0 ? ", and " + rows_text(dropped_rows_) + " before it were not data" : ""));
     }
     if (!tracks_.empty()) join_tracks();
-    found_.samples = std::move(keeper_.samples);
-    found_.stride = keeper_.stride;
-    settle(columns_, options_, name_, found_);
-    return std::move(found_);
+    logged_.samples = std::move(keeper_.samples);
+    logged_.stride = keeper_.stride;
+    settle_rows(columns_, options_, name_, logged_);
+    return std::move(logged_);
   }
 
   [[noreturn]] void refuse_long(long long line, bool open_quote) const {
@@ -175,8 +181,8 @@ class RowReader {
   /// One fault, or the first of its kind.
   struct Fault {
     Diagnostic problem;
-    std::string kind;
-    std::size_t others = 0;  ///< of its kind, in later rows
+    std::string kind;        ///< "number alpha"; "" if it is reported for itself
+    std::size_t others = 0;  ///< faults of its kind in later rows
   };
 
   /// Faults of one kind in several rows are reported once.
@@ -210,28 +216,30 @@ class RowReader {
 
   // ---- bytes that are no text
 
+  /// The text without padding at its end, which is noted.
   std::string_view without_padding(std::string_view text) {
-    padding_is_here_ = false;
+    line_is_padded_ = false;
     const std::size_t end = text.find_last_not_of(k_padding) + 1;  // 0 if there is nothing else
     if (end == text.size()) return text;
-    if (padding_++ == 0) padding_line_ = line_;
-    padding_is_here_ = true;
+    if (padded_lines_++ == 0) first_padded_line_ = line_;
+    line_is_padded_ = true;
     return text.substr(0, end);
   }
 
-  /// Text follows the padding.
+  /// Refuses padding that text follows: it is not at the end of the log.
   void refuse_padding() {
-    if (std::exchange(padding_is_here_, false)) return;
-    line_ = padding_line_;
+    if (std::exchange(line_is_padded_, false)) return;  // the text stands before the padding of this line
+    line_ = first_padded_line_;
     refuse_binary(k_padding);
   }
 
-  /// The serial monitors of Arduino's IDE and PlatformIO can write the time of day before each line, as in
-  /// "10:00:00.020 -> 1.5,2.5". It becomes the last cell of a row.
+  /// The line without the time of day that the serial monitors of Arduino's IDE and PlatformIO can write before it, as
+  /// in "10:00:00.020 -> 1.5,2.5". The time becomes the last cell of a row.
   std::string_view without_stamp(std::string_view content) {
     if (columns_.empty()) is_stamped_ = false;
     for (const std::string_view arrow : {std::string_view(" -> "), std::string_view(" > ")}) {
-      const std::size_t end = content.substr(0, 20).find(arrow);
+      constexpr std::size_t k_longest_stamp = 20;
+      const std::size_t end = content.substr(0, k_longest_stamp).find(arrow);
       if (end == std::string_view::npos || !read_time_stamp(content.substr(0, end))) continue;
       const std::string_view rest = trimmed(content.substr(end + arrow.size()));
       if (columns_.empty()) is_stamped_ = true;
@@ -243,12 +251,13 @@ class RowReader {
     return content;
   }
 
-  /// "#N/A" in the first column is no comment.
-  bool is_row_without_first(std::string_view content) {
+  /// True for a row with "#N/A" in the first column: it is no comment.
+  bool is_row_without_first_value(std::string_view content) {
     if (columns_.empty()) return false;
     split_cells(content, separator_, values_);
     double value = 0;
-    return values_.size() > 1 && values_.size() == count_ && read_number(values_.front(), value) == Cell::missing;
+    return values_.size() > 1 && values_.size() == column_count_ &&
+           read_number(values_.front(), value) == CellContent::missing;
   }
 
   void refuse_binary(std::string_view text) const {
@@ -290,7 +299,7 @@ class RowReader {
       separator_ = separator;
       return take_header(names, std::move(header));
     }
-    remember(text);
+    remember_likely_header(text);
   }
 
   [[noreturn]] void refuse_many_columns() const {
@@ -304,73 +313,75 @@ class RowReader {
     for (Diagnostic& problem : header.problems) fail(1, std::move(problem.message), std::move(problem.hint));
     if (!problems_.empty()) refuse();
     columns_ = std::move(header.columns);
-    found_.notes = std::move(header.notes);
-    count_ = names.size();
+    logged_.notes = std::move(header.notes);
+    column_count_ = names.size();
     begin_tracks();
-    if (preamble_ > 0)
-      found_.notes.push_back("the header is line " + std::to_string(line_) + ": the lines above are omitted");
+    if (preamble_lines_ > 0)
+      logged_.notes.push_back("the header is line " + std::to_string(line_) + ": the lines above are omitted");
   }
 
   /// Remembers the likeliest header of a file without known names: the first line above a row of as many numbers, else
-  /// the first line.
-  void remember(std::string_view text) {
+  /// the first line. Takes it as the header if words in its names choose the angles.
+  void remember_likely_header(std::string_view text) {
     HeaderLine here{std::string(text), names_in(text, stated_separator_ ? stated_separator_ : separator_of(text)),
                     line_};
-    const bool numbers = all_numbers(here.names);
-    if (preamble_ == 0) {
-      likely_ = here;
-    } else if (!above_row_ && numbers && !all_numbers(last_.names) && last_.names.size() == here.names.size()) {
-      likely_ = last_;
-      above_row_ = true;
+    const bool is_row_below_names =
+        all_numbers(here.names) && !all_numbers(line_above_.names) && line_above_.names.size() == here.names.size();
+    if (preamble_lines_ == 0) {
+      likely_header_ = here;
+    } else if (!is_likely_above_numbers_ && is_row_below_names) {
+      likely_header_ = line_above_;
+      is_likely_above_numbers_ = true;
       if (take_likely_header()) return;
     }
-    last_ = std::move(here);
-    if (++preamble_ > k_longest_preamble) refuse_without_header();
+    line_above_ = std::move(here);
+    if (++preamble_lines_ > k_longest_preamble) refuse_without_header();
   }
 
   /// Takes the line above a row of numbers if words in its names choose the angles.
   bool take_likely_header() {
-    std::vector<std::string> names = likely_.names;
+    std::vector<std::string> names = likely_header_.names;
     if (is_stamped_) names.emplace_back("time");
     Header header = find_columns(names, options_, true);
     if (!header.has_angles) return false;
-    separator_ = stated_separator_ != 0 ? stated_separator_ : separator_of(likely_.text);
-    header_text_ = likely_.text;
-    --preamble_;  // the header is none
-    const long long row = std::exchange(line_, likely_.line);
+    separator_ = stated_separator_ != 0 ? stated_separator_ : separator_of(likely_header_.text);
+    header_text_ = likely_header_.text;
+    --preamble_lines_;  // the header itself does not count
+    const long long row_line = std::exchange(line_, likely_header_.line);
     take_header(names, std::move(header));
-    line_ = row;
+    line_ = row_line;
     is_header_above_ = true;
     return true;
   }
 
   [[noreturn]] void refuse_without_header() {
-    if (preamble_ == 0) {
+    if (preamble_lines_ == 0) {
       const Diagnostic problem{Severity::error, place(0, 0), "has no header", k_usual_header};
       throw InputError(problem);
     }
-    line_ = likely_.line;
-    if (all_numbers(likely_.names)) {
+    line_ = likely_header_.line;
+    if (all_numbers(likely_header_.names)) {
       const bool in_comment = comment_.find("alpha") != std::string::npos;
       fail(1, "the first line has numbers: there is no header",
            in_comment ? "line " + std::to_string(line_) + " follows a comment that may be the header: remove its #"
                       : k_usual_header);
     } else {
-      for (Diagnostic& problem : find_columns(likely_.names, options_).problems)
+      for (Diagnostic& problem : find_columns(likely_header_.names, options_).problems)
         fail(1, std::move(problem.message), std::move(problem.hint));
     }
     refuse();
   }
 
-  const Column* find(const std::string& role) const {
+  const Column* column_of_role(const std::string& role) const {
     const auto found =
         std::find_if(columns_.begin(), columns_.end(), [&](const Column& column) { return column.role == role; });
     return found == columns_.end() ? nullptr : &*found;
   }
 
+  /// True if the row repeats the header.
   bool is_header(const std::vector<std::string_view>& values) const {
     return std::all_of(columns_.begin(), columns_.end(), [&](const Column& column) {
-      return (is_stamped_ && column.index + 1 == count_) || is_same_name(values[column.index], column.name);
+      return (is_stamped_ && column.index + 1 == column_count_) || is_same_name(values[column.index], column.name);
     });
   }
 
@@ -382,6 +393,7 @@ class RowReader {
 
   // ---- units below the header
 
+  /// True if the row has units for the columns, and nothing else.
   bool is_units_row() const {
     bool has_unit = false;
     for (const Column& column : columns_) {
@@ -407,20 +419,20 @@ class RowReader {
         continue;
       }
       column.unit = unit;
-      std::erase_if(found_.notes,
+      std::erase_if(logged_.notes,
                     [&](const std::string& note) { return note.starts_with(column.role + ": taken as "); });
     }
     if (!problems_.empty()) refuse();
-    found_.notes.push_back("line " + std::to_string(line_) + " has the units of the columns");
+    logged_.notes.push_back("line " + std::to_string(line_) + " has the units of the columns");
   }
 
-  /// The logger restarted: its output since the last row is not data.
+  /// A repeated header: the logger restarted, and its output since the last row is not data.
   void begin_again() {
-    if (headers_++ == 0) second_header_ = line_;
-    dropped_ += faults_ - faults_at_last_row_ + (cut_off_.message.empty() ? 0 : 1);
+    if (repeated_headers_++ == 0) first_repeat_ = line_;
+    dropped_rows_ += faults_ - faults_at_last_row_ + (short_row_.message.empty() ? 0 : 1);
     problems_ = problems_at_last_row_;
     faults_ = faults_at_last_row_;
-    cut_off_ = {};
+    short_row_ = {};
     may_have_units_ = true;
     keeper_.begin_again();
   }
@@ -430,7 +442,7 @@ class RowReader {
   /// A table of PlotJuggler has a row for each time at which any number was logged, with empty cells for the others.
   /// The numbers are joined as those of a bag.
   void begin_tracks() {
-    const Column* const time = find("time");
+    const Column* const time = column_of_role("time");
     const bool is_ros = std::any_of(columns_.begin(), columns_.end(), [](const Column& column) {
       return column.quantity == Quantity::angle && is_ros_name(column.name);
     });
@@ -444,22 +456,23 @@ class RowReader {
   }
 
   void add_to_tracks(const Sample& sample) {
-    const double time = sample.time * find("time")->unit->factor;
-    constexpr double k_last_second = 4e9, k_since_1970 = 9e8;  // s
+    const double time = sample.time * column_of_role("time")->unit->factor;  // s
+    constexpr double k_last_second = 4e9, k_since_1970 = 9e8;                // s; the years 2096 and 1998
     if (!(std::abs(time) < k_last_second)) return;
-    // Times since 1970 have microseconds in a double.
-    const std::int64_t tick = time > k_since_1970 ? 1000 : 1;
-    const std::int64_t exact = std::llround(time * 1e9 / static_cast<double>(tick)) * tick;
+    // In s since 1970, a double resolves microseconds; else nanoseconds.
+    const std::int64_t tick = time > k_since_1970 ? 1000 : 1;  // ns
+    const std::int64_t rounded_time = std::llround(time * 1e9 / static_cast<double>(tick)) * tick;
     for (Track& track : tracks_) {
       const double value = sample.*member_of(track.role);
-      if (!std::isnan(value)) track.add({exact, value, found_.rows});
+      if (!std::isnan(value)) track.add({rounded_time, value, logged_.rows});
     }
   }
 
   void join_tracks() {
     const JoinedRows joined = join(tracks_, options_.needs_theta, keeper_);
-    found_.notes.insert(found_.notes.end(), joined.notes.begin(), joined.notes.end());
-    found_.rows = joined.rows;
+    logged_.notes.insert(logged_.notes.end(), joined.notes.begin(), joined.notes.end());
+    logged_.rows = joined.rows;
+    // The joined rows have their time in s.
     for (Column& column : columns_) {
       if (column.role == "time")
         column = {.index = column.index,
@@ -472,23 +485,23 @@ class RowReader {
 
   // ---- rows
 
-  void row(std::string_view text) {
+  void take_row(std::string_view text) {
     split_cells(text, separator_, values_);
-    while (values_.size() > count_ && values_.back().empty())
+    while (values_.size() > column_count_ && values_.back().empty())
       values_.pop_back();  // some loggers and spreadsheets end each row with separators
-    if (values_.size() == count_ && is_header(values_)) return begin_again();
+    if (values_.size() == column_count_ && is_header(values_)) return begin_again();
     if (text.size() > header_text_.size() && text.ends_with(header_text_)) {
-      ++dropped_;  // the restart came in the middle of a row
+      ++dropped_rows_;  // the restart came in the middle of a row
       return begin_again();
     }
-    if (std::exchange(may_have_units_, false) && values_.size() == count_ && is_units_row()) {
-      if (found_.rows == 0) take_units_row();
+    if (std::exchange(may_have_units_, false) && values_.size() == column_count_ && is_units_row()) {
+      if (logged_.rows == 0) take_units_row();
       return;
     }
-    if (found_.rows == 0 && headers_ == 0 && names_columns(text)) return replace_header(text);
-    if (!cut_off_.message.empty()) fail(std::exchange(cut_off_, {}), "count");
-    ++found_.rows;
-    if (values_.size() != count_) return wrong_count(values_.size());
+    if (logged_.rows == 0 && repeated_headers_ == 0 && names_columns(text)) return replace_header(text);
+    if (!short_row_.message.empty()) fail(std::exchange(short_row_, {}), "count");
+    ++logged_.rows;
+    if (values_.size() != column_count_) return report_wrong_count(values_.size());
     numbers_.settle_mark(values_);
     Sample sample{k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, false};
     for (Column& column : columns_) {
@@ -501,8 +514,8 @@ class RowReader {
   void replace_header(std::string_view text) {
     columns_.clear();
     tracks_.clear();
-    found_.notes.clear();
-    ++preamble_;
+    logged_.notes.clear();
+    ++preamble_lines_;
     find_header(text);
   }
 
@@ -510,22 +523,23 @@ class RowReader {
   bool take_cell(Column& column, std::string_view cell, Sample& sample) {
     double value = k_nan;
     if (!read_value(column, cell, value)) {
-      not_a_number(column, cell);
+      report_text(column, cell);
       return false;
     }
     if (std::isnan(value)) return true;
     if (!is_possible(column, cell, value)) return false;
     column.take_value(value);
     if (double Sample::*const to = member_of(column.role)) sample.*to = value;
-    double* const mounting = member(found_.mounting, column.role);
+    double* const mounting = mounting_of(logged_.mounting, column.role);
     return mounting == nullptr || take_mounting(column, cell, value * column.unit->factor, *mounting);
   }
 
   bool read_value(Column& column, std::string_view cell, double& value) {
-    const Cell kind = numbers_.read(cell, value);
-    if (column.quantity != Quantity::time) return kind != Cell::text;
+    const CellContent content = numbers_.read(cell, value);
+    if (column.quantity != Quantity::time) return content != CellContent::text;
+    // Either all times are numbers, or all are time stamps.
     const bool had_numbers = !column.is_date && column.most >= column.least;
-    if (kind != Cell::text) return kind == Cell::missing || !column.is_date;
+    if (content != CellContent::text) return content == CellContent::missing || !column.is_date;
     const std::optional<double> stamp = had_numbers ? std::nullopt : read_time_stamp(cell);
     if (!stamp) return false;
     column.is_date = true;
@@ -549,7 +563,8 @@ class RowReader {
   }
 
   bool take_mounting(const Column& column, std::string_view cell, double angle, double& mounting) {
-    if (mounted_.insert(column.role).second) {
+    const bool is_first_value = mounted_.insert(column.role).second;
+    if (is_first_value) {
       mounting = angle;
     } else if (mounting != angle) {
       fail(column_of(cell), column.name + " changes within the run", "use one file for each mounting of the encoders",
@@ -559,21 +574,21 @@ class RowReader {
     return true;
   }
 
-  void wrong_count(std::size_t count) {
+  void report_wrong_count(std::size_t count) {
     const std::string message =
-        "the row has " + std::to_string(count) + " values, the header " + std::to_string(count_);
-    if (count > count_ && separator_ == ',' && found_.rows == 1) {
+        "the row has " + std::to_string(count) + " values, the header " + std::to_string(column_count_);
+    if (count > column_count_ && separator_ == ',' && logged_.rows == 1) {
       fail(1, message,
            "if commas are the decimal marks, separate the values with ; as in 1,5;2,5; otherwise name every column");
       refuse();
     }
     if (names_columns(line_text_)) refuse_other_header();
-    const std::string hint = count == 1       ? "separate the values by the same mark as the names"
-                             : count > count_ ? "name every column, also one of row numbers, or remove the value"
-                                              : "remove or complete the row";
+    const std::string hint = count == 1              ? "separate the values by the same mark as the names"
+                             : count > column_count_ ? "name every column, also one of row numbers, or remove the value"
+                                                     : "remove or complete the row";
     Diagnostic problem{Severity::error, place(line_, 1), message, hint};
-    if (count < count_) {
-      cut_off_ = problem;  // not a fault if it is the last row
+    if (count < column_count_) {
+      short_row_ = problem;
     } else {
       fail(std::move(problem), "count");
     }
@@ -586,12 +601,12 @@ class RowReader {
     refuse();
   }
 
-  void not_a_number(const Column& column, std::string_view cell) {
+  void report_text(const Column& column, std::string_view cell) {
     const std::string message = column.name + ": " + shown(cell) + " is not a number";
     double value = 0;
     const bool all_text = std::all_of(values_.begin(), values_.end(),
-                                      [&](std::string_view v) { return read_number(v, value) != Cell::number; });
-    if (all_text && found_.rows == 1) {
+                                      [&](std::string_view v) { return read_number(v, value) != CellContent::number; });
+    if (all_text && logged_.rows == 1) {
       return fail(column_of(cell), message, "is this a second header line? Begin it with #");
     }
     if (all_text && names_columns(line_text_)) refuse_other_header();
@@ -608,8 +623,8 @@ class RowReader {
     faults_at_last_row_ = faults_;
     if (!tracks_.empty()) return add_to_tracks(sample);
     if (std::isnan(sample.alpha) || (options_.needs_theta && std::isnan(sample.theta))) {
-      found_.without_theta += !std::isnan(sample.alpha);
-      if (found_.without_angle++ == 0) found_.first_without_angle = line_;
+      logged_.without_theta += !std::isnan(sample.alpha);
+      if (logged_.without_angle++ == 0) logged_.first_without_angle = line_;
       return;
     }
     keeper_.add(sample);
@@ -619,23 +634,31 @@ class RowReader {
   const MeasurementOptions& options_;
   RowKeeper keeper_;
   std::vector<Track> tracks_;  ///< empty: each row is complete
-  LoggedRows found_;
-  std::vector<Column> columns_;
-  std::vector<std::string_view> values_;
+  LoggedRows logged_;
+  std::vector<Column> columns_;           ///< empty until the header is found
+  std::vector<std::string_view> values_;  ///< cells of the current row
   NumberReader numbers_;
   std::set<std::string> mounted_;  ///< mounting roles that already have their value
   std::vector<Fault> problems_, problems_at_last_row_;
-  Diagnostic cut_off_;
-  std::string_view line_text_;
-  std::string comment_, header_text_, stamped_row_;
-  HeaderLine likely_, last_;
-  char separator_ = ',', stated_separator_ = 0;
-  bool above_row_ = false, is_header_above_ = false, is_stamped_ = false, may_have_units_ = true,
-       padding_is_here_ = false;
-  std::size_t preamble_ = 0, headers_ = 0, dropped_ = 0, padding_ = 0;
+  Diagnostic short_row_;        ///< the last row has too few values; no fault if the log ends there
+  std::string_view line_text_;  ///< the current record, for column numbers in messages
+  std::string comment_;         ///< the last comment above the header
+  std::string header_text_;
+  std::string stamped_row_;  ///< the current row with its stamp as the last cell
+  HeaderLine likely_header_, line_above_;
+  char separator_ = ',';
+  char stated_separator_ = 0;             ///< of a "sep=;" line; 0 without one
+  bool is_likely_above_numbers_ = false;  ///< the likely header stands above a row of as many numbers
+  bool is_header_above_ = false;          ///< the header was found only with the row below it
+  bool is_stamped_ = false;               ///< a serial monitor put the time of day before the header
+  bool may_have_units_ = true;            ///< the next row may state the units
+  bool line_is_padded_ = false;
+  std::size_t preamble_lines_ = 0, repeated_headers_ = 0, dropped_rows_ = 0, padded_lines_ = 0;
   std::size_t faults_ = 0, faults_at_last_row_ = 0;
-  std::size_t count_ = 0;
-  long long line_ = 0, second_header_ = 0, padding_line_ = 0;
+  std::size_t column_count_ = 0;
+  long long line_ = 0;          ///< of the current record
+  long long first_repeat_ = 0;  ///< line of the first repeated header
+  long long first_padded_line_ = 0;
 };
 
 std::string rows_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " row" : " rows"); }
@@ -697,8 +720,8 @@ LoggedRows CsvReader::finish() {
   return parts_->rows.finish();
 }
 
-void settle(std::vector<Column>& columns, const MeasurementOptions& options, const std::string& name,
-            LoggedRows& rows) {
+void settle_rows(std::vector<Column>& columns, const MeasurementOptions& options, const std::string& name,
+                 LoggedRows& rows) {
   const auto has = [&](const std::string& role) {
     return std::any_of(columns.begin(), columns.end(), [&](const Column& column) { return column.role == role; });
   };

@@ -22,14 +22,14 @@ constexpr std::size_t k_most_samples = std::size_t{1} << 20;
 struct LoggedRows {
   std::vector<Sample> samples;  ///< every `stride`-th row that holds both angles
   std::vector<std::string> notes;
-  std::vector<std::string> sources;  ///< of a bag: topics and clock of the rows; no part of results
+  std::vector<std::string> sources;  ///< for a bag: topics and clock of the rows. No part of results
   std::string load_unit;
   bool has_time = false, has_load = false, has_temperature = false;
   joint::Mounting mounting;
-  std::size_t rows = 0;  ///< in the file
-  std::size_t without_angle = 0;
-  std::size_t without_theta = 0;      ///< rows with α alone
-  long long first_without_angle = 0;  ///< line number
+  std::size_t rows = 0;               ///< in the file
+  std::size_t without_angle = 0;      ///< rows without α or θ
+  std::size_t without_theta = 0;      ///< those of them with α
+  long long first_without_angle = 0;  ///< line number of the first of them
   std::size_t stride = 1;
 };
 
@@ -50,10 +50,11 @@ class CsvReader {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Determines the remaining units of the rows and converts them, as settle_units().
-void settle(std::vector<Column>& columns, const MeasurementOptions& options, const std::string& name, LoggedRows& rows);
+/// Calls settle_units() for the rows, and records which columns they have.
+void settle_rows(std::vector<Column>& columns, const MeasurementOptions& options, const std::string& name,
+                 LoggedRows& rows);
 
-/// The content of a file decides how it is read. Throws InputError.
+/// Reads a file's content, whose first bytes decide its format. Throws InputError.
 LoggedRows read_rows(std::string_view text, const std::string& name, const MeasurementOptions& options,
                      std::size_t most_samples = k_most_samples);
 /// Reads a file, or the folder of a bag; `name` appears in messages.

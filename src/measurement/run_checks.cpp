@@ -24,12 +24,13 @@ double span_of(const std::vector<Sample>& samples, double Sample::*value) {
   return most - least;
 }
 
-/// Rows in which one value stays exactly constant.
+/// Rows in which one value is exactly constant.
 struct Standstill {
   std::size_t first = 0;
   std::size_t last = 0;
 };
 
+/// Standstills of at least six rows between `first` and `last`.
 std::vector<Standstill> standstills(const std::vector<Sample>& samples, double Sample::*value, std::size_t first,
                                     std::size_t last) {
   constexpr std::size_t fewest_rows = 6;
@@ -48,11 +49,11 @@ std::string place_of(const Run& run, const Standstill& still) {
   return "at alpha " + rounded(degrees(run.samples[still.first].alpha)) + " deg";
 }
 
-/// The longest motion of α during which θ is constant. Standstill at a stroke's beginning may be play and counts a
-/// quarter.
+/// The longest motion of α during which θ is constant. A standstill at a stroke's beginning may be play: its length
+/// counts a quarter.
 struct FrozenSpan {
-  double way = 0;
-  Standstill where;
+  double alpha_span = 0;  ///< rad, weighted
+  Standstill rows;
 };
 
 FrozenSpan frozen_theta(const Run& run) {
@@ -60,9 +61,9 @@ FrozenSpan frozen_theta(const Run& run) {
   for (const Stroke& stroke : run.strokes) {
     for (const Standstill& still : standstills(run.samples, &Sample::theta, stroke.first, stroke.last)) {
       const bool may_be_play = still.first <= stroke.first + 2;
-      const double way =
+      const double alpha_span =
           std::abs(run.samples[still.last].alpha - run.samples[still.first].alpha) * (may_be_play ? 0.25 : 1.0);
-      if (way > worst.way) worst = {way, still};
+      if (alpha_span > worst.alpha_span) worst = {alpha_span, still};
     }
   }
   return worst;
@@ -70,18 +71,18 @@ FrozenSpan frozen_theta(const Run& run) {
 
 void check_frozen_theta(const Run& run, Measurement& into) {
   const double alpha_span = span_of(run.samples, &Sample::alpha), theta_span = span_of(run.samples, &Sample::theta);
-  // A coarse sensor is constant over the motion of one step.
+  // A coarse sensor is constant while α moves over one of its steps.
   const double one_step = alpha_span * into.theta_quantum / theta_span;
   const FrozenSpan frozen = frozen_theta(run);
-  if (frozen.way <= std::max(0.1 * alpha_span, 3.0 * one_step)) return;
-  const double way = std::abs(run.samples[frozen.where.last].alpha - run.samples[frozen.where.first].alpha);
+  if (frozen.alpha_span <= std::max(0.1 * alpha_span, 3.0 * one_step)) return;
+  const double moved = std::abs(run.samples[frozen.rows.last].alpha - run.samples[frozen.rows.first].alpha);
   into.not_testable.push_back(
-      run.name + ": theta is constant at " + rounded(degrees(run.samples[frozen.where.first].theta)) +
-      " deg while alpha moves over " + rounded(degrees(way), 3) + " deg (" + place_of(run, frozen.where) +
+      run.name + ": theta is constant at " + rounded(degrees(run.samples[frozen.rows.first].theta)) +
+      " deg while alpha moves over " + rounded(degrees(moved), 3) + " deg (" + place_of(run, frozen.rows) +
       "): the sensor is frozen or saturated, or the joint is at a stop; log again without that");
 }
 
-/// θ may move at constant α when the load changes, but only by a part of its span.
+/// θ may move at constant α where the load changes: such rows are no fault.
 void check_frozen_alpha(const Run& run, Measurement& into) {
   const double theta_span = span_of(run.samples, &Sample::theta);
   const double load_span = run.has_load ? span_of(run.samples, &Sample::load) : 0;
@@ -89,10 +90,10 @@ void check_frozen_alpha(const Run& run, Measurement& into) {
     const std::vector<Sample> rows(run.samples.begin() + static_cast<std::ptrdiff_t>(still.first),
                                    run.samples.begin() + static_cast<std::ptrdiff_t>(still.last) + 1);
     if (run.has_load && span_of(rows, &Sample::load) > 0.1 * load_span) continue;
-    const double way = span_of(rows, &Sample::theta);
-    if (way <= 0.25 * theta_span) continue;
+    const double moved = span_of(rows, &Sample::theta);
+    if (moved <= 0.25 * theta_span) continue;
     into.not_testable.push_back(
-        run.name + ": alpha is constant while theta moves over " + rounded(degrees(way), 3) + " deg (" +
+        run.name + ": alpha is constant while theta moves over " + rounded(degrees(moved), 3) + " deg (" +
         place_of(run, still) +
         "): the motor's sensor is frozen, or the pulley slips on its shaft; log again without it");
     return;
@@ -102,11 +103,11 @@ void check_frozen_alpha(const Run& run, Measurement& into) {
 void note_gaps(const Run& run, const NoteSink& add_note) {
   for (const std::size_t gap : gaps_in(run.samples, run.has_time)) {
     if (run.samples[gap].after_break) continue;  // already reported when the log was read
-    const double way = std::abs(run.samples[gap].alpha - run.samples[gap - 1].alpha);
+    const double moved = std::abs(run.samples[gap].alpha - run.samples[gap - 1].alpha);
     const std::string time =
         run.has_time ? "of " + rounded(run.samples[gap].time - run.samples[gap - 1].time) + " s " : "";
     add_note("a gap " + time + "(" + place_of(run, {gap, gap}) + ") over which alpha moves " +
-             rounded(degrees(way), 3) + " deg: the play after it is unknown, the stroke is omitted");
+             rounded(degrees(moved), 3) + " deg: the play after it is unknown, the stroke is omitted");
   }
 }
 

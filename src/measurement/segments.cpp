@@ -8,31 +8,31 @@
 #include "measurement/strokes.h"
 #include "measurement/value_range.h"
 
-// A point-to-point log has few rows, or none, during motion. In place of a stroke's shape it shows the level of θ at
-// each dwell, approached from one side, under one load. Thresholds are shares of the run's own span and scatter;
+// A point-to-point log has few rows, or none, during motion. It does not show the shape of a stroke, but θ at each
+// dwell, approached from one side, under one load. Thresholds are shares of the run's own span and scatter;
 // tests/measurement/segments_test.cpp checks them against sweeps, sines, quantised and noisy logs without dwells.
 
 namespace fusee::measurement {
 namespace {
 
-/// Fewer rows are a slow part of a motion.
+/// Fewer rows at one α are a slow part of a motion.
 constexpr std::size_t k_min_dwell_rows = 3;
-/// A stroke of fewer rows is a sequence of dwells of one row each: no shape is visible between them. As for a block in
+/// A stroke of fewer rows shows no shape: it is taken as a sequence of dwells of one row each. As for a block in
 /// evidence.cpp.
 constexpr std::size_t k_min_shape_rows = 6;
-/// Drift of α during a dwell, as a share of its span.
+/// Largest drift of α during a dwell, as a share of the run's span of α.
 constexpr double k_drift = 1e-3;
-/// A quantised sensor shows more levels over a motion; dwell angles are fewer.
-constexpr double k_steps_of_a_sensor = 40;
-/// Rows within a width form a dwell if at the run's pace they would have moved by this many widths; in a slow sweep, by
-/// one.
+/// Number of levels from which on they are steps of a sensor. Fewer levels are dwell angles.
+constexpr double k_fewest_sensor_steps = 40;
+/// Rows whose α lies within a width form a dwell if at the run's mean pace they would have moved by this many widths.
+/// Rows of a slow sweep would have moved by one width.
 constexpr double k_widths_of_a_dwell = 5;
 /// Smallest distance of load levels, as a share of the load's range in the run.
-constexpr double k_one_level = 0.12;
+constexpr double k_level_distance = 0.12;
 /// Width of the pieces that a load ramp is cut into, as a share of the load's range: three or four pieces.
-constexpr double k_piece_of_ramp = 0.3;
+constexpr double k_ramp_piece = 0.3;
 /// Half the range of 10⁶ normal samples, in standard deviations.
-constexpr double k_beyond_noise = 5;
+constexpr double k_noise_limit = 5;
 
 double mean_of(const std::vector<Sample>& samples, double Sample::*value, const RowRange& rows) {
   double sum = 0;
@@ -42,9 +42,9 @@ double mean_of(const std::vector<Sample>& samples, double Sample::*value, const 
 
 std::size_t count_of(const RowRange& rows) { return rows.last - rows.first + 1; }
 
-/// Rows from `first`, before or at `end`, whose values lie within `width`.
-RowRange within(const std::vector<Sample>& samples, double Sample::*value, std::size_t first, std::size_t end,
-                double width) {
+/// The longest range of rows from `first` up to `end` whose values lie within `width` of each other.
+RowRange rows_within(const std::vector<Sample>& samples, double Sample::*value, std::size_t first, std::size_t end,
+                     double width) {
   ValueRange span;
   std::size_t last = first;
   for (std::size_t i = first; i <= end; ++i) {
@@ -55,7 +55,7 @@ RowRange within(const std::vector<Sample>& samples, double Sample::*value, std::
   return {first, last};
 }
 
-/// Joins dwells that are split by a noise peak.
+/// Adds a dwell, or joins it to the preceding one if a noise peak split the two.
 void add_or_join(std::vector<RowRange>& dwells, const RowRange& next, const std::vector<Sample>& samples,
                  double width) {
   const bool follows = !dwells.empty() && dwells.back().last + 1 == next.first;
@@ -67,22 +67,23 @@ void add_or_join(std::vector<RowRange>& dwells, const RowRange& next, const std:
   }
 }
 
-/// Probable step of the motor's sensor; 0 if steps are as wide as between dwells.
+/// Step of the motor's sensor; 0 if `quantum` is so wide that it may be the distance of dwells.
 double sensor_step(const std::vector<Sample>& samples, double quantum) {
-  return k_steps_of_a_sensor * quantum < value_range(samples, &Sample::alpha).size() ? quantum : 0;
+  return k_fewest_sensor_steps * quantum < value_range(samples, &Sample::alpha).size() ? quantum : 0;
 }
 
+/// All dwells of a log. `step`: of the sensor; `noise`: standard deviation of α, both rad.
 std::vector<RowRange> dwells_among(const std::vector<Sample>& samples, double step, double noise) {
-  double way = 0;
-  for (std::size_t i = 1; i < samples.size(); ++i) way += std::abs(samples[i].alpha - samples[i - 1].alpha);
+  double path = 0;  // of α, rad
+  for (std::size_t i = 1; i < samples.size(); ++i) path += std::abs(samples[i].alpha - samples[i - 1].alpha);
   const double width =
-      std::max({k_drift * value_range(samples, &Sample::alpha).size(), 1.5 * step, 2 * k_beyond_noise * noise});
-  // Noise adds to the path length: 2/√π of its standard deviation from row to row.
+      std::max({k_drift * value_range(samples, &Sample::alpha).size(), 1.5 * step, 2 * k_noise_limit * noise});
+  // White noise adds 2/√π = 1.13 of its standard deviation to the path from row to row.
   const double rows = static_cast<double>(samples.size());
-  const double pace = way / rows - 1.13 * noise;
+  const double pace = path / rows - 1.13 * noise;  // rad a row
   std::vector<RowRange> dwells;
   for (std::size_t i = 0; i < samples.size();) {
-    const RowRange next = within(samples, &Sample::alpha, i, samples.size() - 1, width);
+    const RowRange next = rows_within(samples, &Sample::alpha, i, samples.size() - 1, width);
     const std::size_t count = count_of(next);
     const bool is_dwell = count >= k_min_dwell_rows && static_cast<double>(count) * pace > k_widths_of_a_dwell * width;
     if (is_dwell) add_or_join(dwells, next, samples, width);
@@ -91,26 +92,27 @@ std::vector<RowRange> dwells_among(const std::vector<Sample>& samples, double st
   return dwells;
 }
 
-/// True for a sweep with a coarse sensor: α seems constant while θ moves on to its next level.
+/// True for a sweep with a coarse sensor of α. Then θ moves during the apparent dwells: by more than a quarter of its
+/// change to the next one.
 bool is_coarse_sweep(const std::vector<Sample>& samples, const std::vector<RowRange>& dwells) {
   std::vector<double> shares;
   for (std::size_t k = 1; k < dwells.size(); ++k) {
     const RowRange& here = dwells[k - 1];
     const std::size_t third = count_of(here) / 3;
-    const double next = mean_of(samples, &Sample::theta, dwells[k]) - mean_of(samples, &Sample::theta, here);
-    const double meanwhile = mean_of(samples, &Sample::theta, {here.last + 1 - third, here.last}) -
-                             mean_of(samples, &Sample::theta, {here.first, here.first + third - 1});
-    if (next != 0) shares.push_back(meanwhile / next);
+    const double to_next = mean_of(samples, &Sample::theta, dwells[k]) - mean_of(samples, &Sample::theta, here);
+    const double within_dwell = mean_of(samples, &Sample::theta, {here.last + 1 - third, here.last}) -
+                                mean_of(samples, &Sample::theta, {here.first, here.first + third - 1});
+    if (to_next != 0) shares.push_back(within_dwell / to_next);
   }
   return median_of(std::move(shares)) > 0.25;
 }
 
 // ---- levels of load -------------------------------------------------------------------------------------------------
 
-/// Range and level width of a run's load.
+/// Load levels of a run, in the unit of the loads.
 struct Levels {
-  double width = 0;  ///< of one level
-  double span = 0;
+  double width = 0;  ///< loads within this width are one level
+  double span = 0;   ///< range of all loads
 };
 
 /// Empty if the load changes by less than a tenth of itself, or than its noise.
@@ -118,7 +120,8 @@ std::optional<Levels> levels_of(const Run& run) {
   if (!run.has_load || run.samples.empty()) return std::nullopt;
   const ValueRange span = value_range(run.samples, &Sample::load);
   const double largest = std::max(std::abs(span.least), std::abs(span.most));
-  const double width = std::max(k_one_level * span.size(), 2 * k_beyond_noise * noise_of(run.samples, &Sample::load));
+  const double width =
+      std::max(k_level_distance * span.size(), 2 * k_noise_limit * noise_of(run.samples, &Sample::load));
   if (span.size() <= 0.1 * largest || span.size() <= 1.5 * width) return std::nullopt;
   return Levels{width, span.size()};
 }
@@ -134,11 +137,11 @@ bool is_stepped(const Run& run, const RowRange& rows) {
   return span.any() && step >= 0.5 * span.size();
 }
 
-/// Cuts rows into pieces of loads within `width`; pieces shorter than `fewest` join a neighbour.
+/// Cuts rows into pieces whose loads lie within `width`. Pieces of fewer than `fewest` rows join a neighbour.
 std::vector<RowRange> pieces_of(const Run& run, const RowRange& rows, double width, std::size_t fewest) {
   std::vector<RowRange> pieces;
   for (std::size_t i = rows.first; i <= rows.last;) {
-    const RowRange next = within(run.samples, &Sample::load, i, rows.last, width);
+    const RowRange next = rows_within(run.samples, &Sample::load, i, rows.last, width);
     // Rows between two levels form no piece of their own.
     if (!pieces.empty() && (count_of(next) < fewest || count_of(pieces.back()) < fewest)) {
       pieces.back().last = next.last;
@@ -155,10 +158,10 @@ std::vector<RowRange> pieces_of(const Run& run, const RowRange& rows, double wid
 }
 
 /// Mean load of a stroke in eight bins of α; empty where there are no rows.
-using LoadByPlace = std::array<std::optional<double>, 8>;
+using LoadByAlpha = std::array<std::optional<double>, 8>;
 
-LoadByPlace load_by_place(const Run& run, const Stroke& stroke, const ValueRange& alphas) {
-  LoadByPlace loads;
+LoadByAlpha load_by_alpha(const Run& run, const Stroke& stroke, const ValueRange& alphas) {
+  LoadByAlpha loads;
   std::array<double, 8> counts{};
   const Bins bins{alphas, 8};
   for (std::size_t i = stroke.first; i <= stroke.last; ++i) {
@@ -172,13 +175,13 @@ LoadByPlace load_by_place(const Run& run, const Stroke& stroke, const ValueRange
   return loads;
 }
 
-/// True if all strokes of a direction have the same load at the same place: a spring, or a weight on a link.
-bool is_bound_to_place(const Run& run, const Levels& levels) {
+/// True if all strokes of a direction have the same load at the same α, as with a spring or a weight on a link.
+bool is_function_of_alpha(const Run& run, const Levels& levels) {
   const ValueRange alphas = value_range(run.samples, &Sample::alpha);
-  std::array<std::optional<LoadByPlace>, 2> first;
+  std::array<std::optional<LoadByAlpha>, 2> first;  // stroke of each direction
   for (const Stroke& stroke : run.strokes) {
-    const LoadByPlace loads = load_by_place(run, stroke, alphas);
-    std::optional<LoadByPlace>& other = first[stroke.direction > 0 ? 0 : 1];
+    const LoadByAlpha loads = load_by_alpha(run, stroke, alphas);
+    std::optional<LoadByAlpha>& other = first[stroke.direction > 0 ? 0 : 1];
     if (!other) other = loads;
     for (std::size_t i = 0; i < loads.size(); ++i) {
       if (loads[i] && (*other)[i] && std::abs(*loads[i] - *(*other)[i]) > levels.width) return false;
@@ -189,14 +192,14 @@ bool is_bound_to_place(const Run& run, const Levels& levels) {
 
 // ---- cutting --------------------------------------------------------------------------------------------------------
 
-class Cutter {
+class SegmentCutter {
  public:
-  Cutter(const Run& run, const std::vector<RowRange>& dwells)
+  SegmentCutter(const Run& run, const std::vector<RowRange>& dwells)
       : run_(run),
         dwells_(dwells),
         levels_(levels_of(run)),
-        ramps_(levels_ && !is_bound_to_place(run, *levels_)),
-        steps_(ramps_ || run.strokes.size() < 3) {}
+        cuts_ramps_(levels_ && !is_function_of_alpha(run, *levels_)),
+        cuts_steps_(cuts_ramps_ || run.strokes.size() < 3) {}
 
   std::vector<Segment> cut() {
     for (std::size_t s = 0; s < run_.strokes.size(); ++s) cut_stroke(s);
@@ -212,48 +215,49 @@ class Cutter {
       const RowRange inside{std::max(dwell.first, stroke.first), std::min(dwell.last, stroke.last)};
       if (inside.last < inside.first) continue;
       if (inside.first > from) add_moving(s, {from, inside.first - 1});
-      add_held(s, inside);
+      add_dwell(s, inside);
       from = inside.last + 1;
       if (dwell.last > stroke.last) break;  // the remainder belongs to the next stroke
     }
     if (from <= stroke.last) add_moving(s, {from, stroke.last});
   }
 
-  void add(std::size_t stroke, const RowRange& rows, bool held, int pull) {
-    segments_.push_back({rows.first, rows.last, stroke, held, pull});
+  void add(std::size_t stroke, const RowRange& rows, bool is_dwell, int pull) {
+    segments_.push_back({rows.first, rows.last, stroke, is_dwell, pull});
   }
 
   void add_moving(std::size_t stroke, const RowRange& rows) {
-    if (count_of(rows) < k_min_shape_rows &&
-        count_of(rows) == count_of({run_.strokes[stroke].first, run_.strokes[stroke].last})) {
-      for (std::size_t i = rows.first; i <= rows.last; ++i) add(stroke, {i, i}, true, 0);
+    const bool is_whole_stroke = count_of(rows) == count_of({run_.strokes[stroke].first, run_.strokes[stroke].last});
+    if (is_whole_stroke && count_of(rows) < k_min_shape_rows) {
+      for (std::size_t i = rows.first; i <= rows.last; ++i) add(stroke, {i, i}, /*is_dwell=*/true, 0);
       return;
     }
-    for (const RowRange& piece : moving_pieces(rows)) add(stroke, piece, false, 0);
+    for (const RowRange& piece : moving_pieces(rows)) add(stroke, piece, /*is_dwell=*/false, 0);
   }
 
   std::vector<RowRange> moving_pieces(const RowRange& rows) const {
     if (!levels_) return {rows};
-    if (steps_ && is_stepped(run_, rows)) return pieces_of(run_, rows, levels_->width, k_min_shape_rows);
-    return ramps_ ? pieces_of(run_, rows, k_piece_of_ramp * levels_->span, k_min_shape_rows)
-                  : std::vector<RowRange>{rows};
+    if (cuts_steps_ && is_stepped(run_, rows)) return pieces_of(run_, rows, levels_->width, k_min_shape_rows);
+    return cuts_ramps_ ? pieces_of(run_, rows, k_ramp_piece * levels_->span, k_min_shape_rows)
+                       : std::vector<RowRange>{rows};
   }
 
-  void add_held(std::size_t stroke, const RowRange& rows) {
-    if (!levels_) return add(stroke, rows, true, 0);
-    double before = 0;
+  void add_dwell(std::size_t stroke, const RowRange& rows) {
+    if (!levels_) return add(stroke, rows, /*is_dwell=*/true, 0);
+    double load_before = 0;
     for (const RowRange& piece : pieces_of(run_, rows, levels_->width, k_min_dwell_rows)) {
       const double load = mean_of(run_.samples, &Sample::load, piece);
-      add(stroke, piece, true, piece.first == rows.first ? 0 : load > before ? 1 : -1);
-      before = load;
+      const int pull = piece.first == rows.first ? 0 : load > load_before ? 1 : -1;
+      add(stroke, piece, /*is_dwell=*/true, pull);
+      load_before = load;
     }
   }
 
   const Run& run_;
   const std::vector<RowRange>& dwells_;
   std::optional<Levels> levels_;
-  bool ramps_ = false;  ///< slow load changes are not a function of place
-  bool steps_ = false;  ///< nor are sudden ones; a single stroke each way cannot show a dependence on place
+  bool cuts_ramps_ = false;  ///< cut slow load changes: they are no function of α
+  bool cuts_steps_ = false;  ///< cut sudden ones; also with a single stroke each way, which shows no dependence on α
   std::size_t next_dwell_ = 0;
   std::vector<Segment> segments_;
 };
@@ -274,10 +278,10 @@ std::vector<RowRange> dwells_in(const std::vector<Sample>& samples, double alpha
 
 double sensor_quantum(const std::vector<RowRange>& dwells, const std::vector<Sample>& samples, double Sample::*angle,
                       double quantum) {
-  return dwells.empty() || k_steps_of_a_sensor * quantum < value_range(samples, angle).size() ? quantum : 0;
+  return dwells.empty() || k_fewest_sensor_steps * quantum < value_range(samples, angle).size() ? quantum : 0;
 }
 
-std::vector<Sample> settled(std::vector<Sample> samples, const std::vector<RowRange>& dwells) {
+std::vector<Sample> with_mean_alpha_in_dwells(std::vector<Sample> samples, const std::vector<RowRange>& dwells) {
   for (const RowRange& dwell : dwells) {
     const double alpha = mean_of(samples, &Sample::alpha, dwell);
     for (std::size_t i = dwell.first; i <= dwell.last; ++i) samples[i].alpha = alpha;
@@ -288,7 +292,7 @@ std::vector<Sample> settled(std::vector<Sample> samples, const std::vector<RowRa
 bool has_levels_of_load(const Run& run) { return levels_of(run).has_value(); }
 
 std::vector<Segment> cut_segments(const Run& run, const std::vector<RowRange>& dwells) {
-  return Cutter(run, dwells).cut();
+  return SegmentCutter(run, dwells).cut();
 }
 
 std::vector<Segment> segments_of(const Run& run) {

@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "fusee/base.h"
 #include "measurement/columns.h"
-#include "measurement/words.h"
+#include "measurement/log_text.h"
 
 namespace fusee::measurement {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 /// Plausible as s since 1970: years 2000 to 2100.
 bool is_since_1970(double seconds) { return seconds > 9.4e8 && seconds < 4.2e9; }
 
-/// Typical distance of rows, robust to restarts of the clock.
+/// Mean time between rows, in the unit of the column. Steps back in time, where the clock restarts, are omitted.
 double mean_step(const std::vector<Sample>& samples) {
   double sum = 0, steps = 0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -33,7 +33,7 @@ double mean_step(const std::vector<Sample>& samples) {
 
 /// Counts a turn of absolute encoders in joints and servos.
 constexpr std::array k_absolute_encoders = {4096.0, 16384.0};
-/// Counts a turn that a jump over a whole turn confirms.
+/// Counts a turn of further encoders, accepted only if the values jump by a whole turn.
 constexpr std::array k_wrapping_encoders = {256.0,   400.0,   512.0,    600.0,    800.0,    1000.0,   1024.0,  1200.0,
                                             1600.0,  2000.0,  2048.0,   2400.0,   2500.0,   3200.0,   3600.0,  4000.0,
                                             4096.0,  5000.0,  8000.0,   8192.0,   10000.0,  16384.0,  20000.0, 32768.0,
@@ -64,9 +64,9 @@ std::size_t unwrap_counter(std::vector<Sample>& samples, double Sample::*value, 
   for (Sample& sample : samples) {
     const double here = sample.*value, jump = here - before;
     if (!std::isnan(here)) before = here;
-    for (const double size : {65536.0, 4294967296.0}) {
-      const bool ran_over = size > std::abs(ticks_per_turn) && std::abs(std::abs(jump) - size) < 0.1 * size;
-      if (!ran_over) continue;
+    for (const double size : {65536.0, 4294967296.0}) {  // 16 and 32 bits
+      const bool is_overflow = size > std::abs(ticks_per_turn) && std::abs(std::abs(jump) - size) < 0.1 * size;
+      if (!is_overflow) continue;
       shift -= std::copysign(size, jump);
       ++wraps;
     }
@@ -93,13 +93,13 @@ class UnitFinder {
     if (!problems_.empty()) throw InputError(problems_);
     for (Column& column : columns_) convert(column);
     if (!problems_.empty()) throw InputError(problems_);
-    return words_;
+    return notes_;
   }
 
  private:
-  void add_note(const std::string& words) { words_ += (words_.empty() ? "" : "; ") + words; }
+  void add_note(const std::string& note) { notes_ += (notes_.empty() ? "" : "; ") + note; }
 
-  void refuse(const std::string& message, const std::string& hint) {
+  void add_problem(const std::string& message, const std::string& hint) {
     problems_.push_back(InputError(name_, message, hint).diagnostics().front());
   }
 
@@ -127,12 +127,12 @@ class UnitFinder {
     const double step = mean_step(samples_);
     constexpr double k_shortest_step = 1e-6;  // s
     if (step > 0 && step < k_shortest_step) {
-      return refuse(
+      return add_problem(
           "the unit of " + shown(column.name) + " is unknown: as s, the rows are " + rounded(step, 3) + " s apart",
           "end the column's name in its unit (_s, _min, _days), or give --unit time=d for days");
     }
     if (step > k_longest_step || (column.whole && step >= 1)) {
-      return refuse(
+      return add_problem(
           "the unit of " + shown(column.name) + " is unknown: as s, the rows are " + rounded(step, 3) + " s apart",
           "end the column's name in its unit (_s, _ms, _us, _ns), or give --unit time=ms");
     }
@@ -141,12 +141,13 @@ class UnitFinder {
   }
 
   void find_angle_unit(Column& column) {
-    if (!(column.most >= column.least)) column.unit = usual_unit(Quantity::angle);  // empty
+    if (!(column.most >= column.least)) column.unit = usual_unit(Quantity::angle);  // no values
     if (column.unit != nullptr && column.unit->is_counts() && !column.whole && column.ticks_per_turn == 0) {
       if (column.is_given)
-        return refuse(shown(column.name) + " has " + values_of(column) + ", which are no counts of an encoder",
-                      "leave out --zero-ticks " + column.role + ", or give --ticks-per-turn " + column.role + "=N too");
-      column.unit = nullptr;  // "raw" data of something else
+        return add_problem(
+            shown(column.name) + " has " + values_of(column) + ", which are no counts of an encoder",
+            "leave out --zero-ticks " + column.role + ", or give --ticks-per-turn " + column.role + "=N too");
+      column.unit = nullptr;  // a name such as "raw" does not mean counts here
     }
     if (column.unit == nullptr) {
       find_unit_of_values(column);
@@ -170,10 +171,10 @@ class UnitFinder {
     if (column.ticks_per_turn == 0 && column.least >= 0 && column.most < found_ticks_)
       column.ticks_per_turn = found_ticks_;  // of α's encoder, assumed to be of the same type
     if (column.ticks_per_turn == 0) {
-      return refuse(column.role + ": " + shown(column.name) + " has " + values_of(column) +
-                        ", which look like counts of an encoder",
-                    "give the counts a turn, --ticks-per-turn " + column.role + "=4096, or their unit: --unit " +
-                        column.role + "=deg");
+      return add_problem(column.role + ": " + shown(column.name) + " has " + values_of(column) +
+                             ", which look like counts of an encoder",
+                         "give the counts a turn, --ticks-per-turn " + column.role + "=4096, or their unit: --unit " +
+                             column.role + "=deg");
     }
     found_ticks_ = column.ticks_per_turn;
     add_note(column.role + ": " + values_of(column) + ", taken as counts of " + rounded(column.ticks_per_turn, 9) +
@@ -182,28 +183,28 @@ class UnitFinder {
   }
 
   void find_unit_of_values(Column& column) {
-    const double span = column.role == "alpha" ? options_.alpha_span : options_.theta_span;
+    const double declared_span = column.role == "alpha" ? options_.alpha_span : options_.theta_span;  // rad; 0: unknown
     const bool within_a_turn = column.least >= -360 && column.most <= 360;
     const bool counts_by_values = column.whole && plausible_ticks(column, samples_) > 0;
     if (column.whole && (!within_a_turn || counts_by_values || found_ticks_ > 0)) {
       column.unit = find_unit(Quantity::angle, "counts");
       return find_ticks(column);
     }
-    column.unit = find_unit(Quantity::angle, column.whole ? "deg"
-                                             : span > 0   ? nearest_to(span, column)
-                                                          : guess(column));
+    column.unit = find_unit(Quantity::angle, column.whole        ? "deg"
+                                             : declared_span > 0 ? nearest_unit(declared_span, column)
+                                                                 : likely_unit(column));
     add_note(column.role + " taken as " + std::string(column.unit->name) + ", as the name " + shown(column.name) +
              " states no unit (--unit " + column.role + "=" + (column.unit->name == "deg" ? "rad" : "deg") +
              " overrides this)");
   }
 
   /// The unit in which the range of the values is nearest to the declared range.
-  static const char* nearest_to(double span, const Column& column) {
+  static const char* nearest_unit(double declared_span, const Column& column) {
     const char* best = "deg";
     double least = 1e300;
     for (const char* const spelling : {"deg", "rad", "turns", "mdeg"}) {
-      const double off =
-          std::abs(elementary::log((column.most - column.least) * find_unit(Quantity::angle, spelling)->factor / span));
+      const double ratio = (column.most - column.least) * find_unit(Quantity::angle, spelling)->factor / declared_span;
+      const double off = std::abs(elementary::log(ratio));
       if (off >= least) continue;
       least = off;
       best = spelling;
@@ -212,7 +213,7 @@ class UnitFinder {
   }
 
   /// Without a declared range: ROS positions are radians, and so are motions below 2π in the column's unit.
-  static const char* guess(const Column& column) {
+  static const char* likely_unit(const Column& column) {
     const bool is_position = lower(column.name).find("position") != std::string::npos;
     return is_position || column.most - column.least <= k_two_pi ? "rad" : "deg";
   }
@@ -227,15 +228,16 @@ class UnitFinder {
         add_note("load in " + std::string(column.unit->name) + ", converted to " + std::string(column.unit->base));
       scale(value, column.unit->factor, column.unit->offset);
     }
-    if (column.quantity == Quantity::angle) refuse_wild_angle(column, value);
+    if (column.quantity == Quantity::angle) check_for_wild_angles(column, value);
   }
 
-  void refuse_wild_angle(const Column& column, double Sample::*value) {
+  void check_for_wild_angles(const Column& column, double Sample::*value) {
     const auto is_implausible = [&](const Sample& sample) { return std::abs(sample.*value) > radians(k_largest_deg); };
     const auto implausible = std::find_if(samples_.begin(), samples_.end(), is_implausible);
     if (implausible == samples_.end()) return;
-    refuse(shown(column.name) + " reaches " + rounded(degrees((*implausible).*value)) + " deg, which is not an angle",
-           "leave the cell empty where nothing was logged");
+    add_problem(
+        shown(column.name) + " reaches " + rounded(degrees((*implausible).*value)) + " deg, which is not an angle",
+        "leave the cell empty where nothing was logged");
   }
 
   void scale(double Sample::*value, double factor, double offset) {
@@ -256,9 +258,9 @@ class UnitFinder {
   std::vector<Sample>& samples_;
   const MeasurementOptions& options_;
   std::string name_;
-  std::string words_;
+  std::string notes_;  ///< in one line
   std::vector<Diagnostic> problems_;
-  double found_ticks_ = 0;
+  double found_ticks_ = 0;  ///< counts a turn of the last column whose values determined them; 0: none
 };
 
 }  // namespace

@@ -22,21 +22,23 @@ void put_big_endian(std::string& bytes, std::size_t at, std::uint32_t value) {
   for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(value >> (8 * (3 - i)));
 }
 
-// ---- the file as it is in memory (sqlite.org/fileformat.html) -------------------------------------------------------
+// ---- file format (sqlite.org/fileformat.html) -----------------------------------------------------------------------
 
-constexpr std::size_t k_header = 100;
-constexpr std::size_t k_write_version = 18, k_read_version = 19;                   // 2: with a write-ahead log
-constexpr std::size_t k_page_count = 28, k_change_counter = 24, k_valid_for = 92;  // the count is valid if they agree
+constexpr std::size_t k_header_size = 100;
+// Offsets in the header of a database.
+constexpr std::size_t k_write_version = 18, k_read_version = 19;  // value 2: with a write-ahead log
+constexpr std::size_t k_page_count = 28;
+constexpr std::size_t k_change_counter = 24, k_valid_for = 92;  // the page count is valid if these two agree
 
 std::size_t page_size(std::string_view database) {
   const std::size_t size = big_endian(database, 14) & 0xFFFFU;  // bytes 16 and 17
-  return size == 1 ? 65536 : size;
+  return size == 1 ? 65536 : size;                              // 1 stands for 65536
 }
 
-/// Running checksum of a write-ahead log, over pairs of words.
+/// Running checksum of a write-ahead log, over pairs of 32-bit words.
 struct Checksum {
   std::uint32_t first = 0, second = 0;
-  bool big = false;
+  bool is_big_endian = false;
 
   void add(std::string_view bytes) {
     for (std::size_t at = 0; at + 8 <= bytes.size(); at += 8) {
@@ -48,17 +50,19 @@ struct Checksum {
  private:
   std::uint32_t word(std::string_view bytes, std::size_t at) const {
     const std::uint32_t value = big_endian(bytes, at);
-    return big ? value : (value >> 24U) | ((value >> 8U) & 0xFF00U) | ((value << 8U) & 0xFF0000U) | (value << 24U);
+    return is_big_endian ? value
+                         : (value >> 24U) | ((value >> 8U) & 0xFF00U) | ((value << 8U) & 0xFF0000U) | (value << 24U);
   }
 };
 
-/// Puts the committed pages of a write-ahead log into the database: those that a killed recorder had not moved yet.
-void apply(std::string_view log, std::string& database) {
-  constexpr std::size_t k_log_header = 32, k_frame_header = 24;
+/// Puts the committed pages of a write-ahead log into the database. A recorder that was killed had not moved them yet.
+void apply_write_ahead_log(std::string_view log, std::string& database) {
+  constexpr std::size_t k_log_header = 32, k_frame_header = 24;  // bytes
+  constexpr std::uint32_t k_magic = 0x377F0682U;                 // its last bit: checksums are big endian
   const std::size_t size = page_size(database);
-  if (log.size() < k_log_header || (big_endian(log, 0) & ~1U) != 0x377F0682U || big_endian(log, 8) != size) return;
+  if (log.size() < k_log_header || (big_endian(log, 0) & ~1U) != k_magic || big_endian(log, 8) != size) return;
   Checksum sum;
-  sum.big = (big_endian(log, 0) & 1U) != 0;
+  sum.is_big_endian = (big_endian(log, 0) & 1U) != 0;
   sum.add(log.substr(0, 24));
   if (sum.first != big_endian(log, 24) || sum.second != big_endian(log, 28)) return;
   const std::string_view salt = log.substr(16, 8);
@@ -68,20 +72,21 @@ void apply(std::string_view log, std::string& database) {
     sum.add(head.substr(0, 8));
     sum.add(page);
     if (head.substr(8, 8) != salt || sum.first != big_endian(head, 16) || sum.second != big_endian(head, 20)) return;
-    const std::uint32_t number = big_endian(head, 0), pages_after_commit = big_endian(head, 4);
+    const std::uint32_t number = big_endian(head, 0);              // of the page, from 1
+    const std::uint32_t pages_after_commit = big_endian(head, 4);  // 0 for all but the last frame of a transaction
     if (number == 0) return;
     pages[number] = page;
     if (pages_after_commit == 0) continue;
-    if (pages_after_commit > k_largest_database / size ||
-        pages_after_commit > (database.size() + log.size()) / size + 1 || pages.rbegin()->first > pages_after_commit)
-      return;
+    const bool is_too_large = pages_after_commit > k_largest_database / size ||
+                              pages_after_commit > (database.size() + log.size()) / size + 1;
+    if (is_too_large || pages.rbegin()->first > pages_after_commit) return;
     database.resize(pages_after_commit * size);
     for (const auto& [index, bytes] : pages) std::memcpy(database.data() + (index - 1) * size, bytes.data(), size);
     pages.clear();
   }
 }
 
-/// Makes a file that is cut off readable: the pages that exist are all it has. True if some are missing.
+/// Makes a file that is cut off readable: it is reduced to its whole pages. True if pages are missing.
 bool cut_to_whole_pages(std::string& database) {
   const std::size_t size = page_size(database), pages = database.size() / size;
   const bool is_count_valid = big_endian(database, k_change_counter) == big_endian(database, k_valid_for);
@@ -98,7 +103,7 @@ struct SqliteCloser {
   void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 };
 
-/// A database in memory, only to read, in which nothing but plain tables is trusted.
+/// A read-only database in memory. It may be untrusted: views, triggers and functions in its schema are disabled.
 class Database {
  public:
   explicit Database(std::string& bytes) {
@@ -113,10 +118,11 @@ class Database {
     const auto size = static_cast<sqlite3_int64>(bytes.size());
     sqlite3_deserialize(opened, "main", reinterpret_cast<unsigned char*>(bytes.data()), size, size,
                         SQLITE_DESERIALIZE_READONLY);
-    // Pages that refer to each other could be followed without end.
-    constexpr int k_steps_between = 10'000;
-    steps_left_ = 1'000 + static_cast<std::int64_t>(bytes.size()) / k_steps_between * 4;
-    sqlite3_progress_handler(opened, k_steps_between, &Database::is_too_long, this);
+    // Damaged pages that refer to each other could be followed without end. The limit is 10⁷ steps, and four
+    // for each byte.
+    constexpr int k_steps_between_calls = 10'000;
+    calls_left_ = 1'000 + static_cast<std::int64_t>(bytes.size()) / k_steps_between_calls * 4;
+    sqlite3_progress_handler(opened, k_steps_between_calls, &Database::is_too_long, this);
   }
 
   /// Calls `take` for each row; false if the database is damaged there.
@@ -133,10 +139,10 @@ class Database {
   }
 
  private:
-  static int is_too_long(void* self) { return --static_cast<Database*>(self)->steps_left_ < 0 ? 1 : 0; }
+  static int is_too_long(void* self) { return --static_cast<Database*>(self)->calls_left_ < 0 ? 1 : 0; }
 
   std::unique_ptr<sqlite3, SqliteCloser> database_;
-  std::int64_t steps_left_ = 0;
+  std::int64_t calls_left_ = 0;  ///< of the progress handler, before a query is stopped
 };
 
 std::string_view blob(sqlite3_stmt* row, int column) {
@@ -160,14 +166,15 @@ std::optional<std::map<sqlite3_int64, std::size_t>> read_topics(Database& databa
 }  // namespace
 
 bool has_write_ahead_log(std::string_view database) {
-  return database.size() >= k_header && database[k_read_version] == 2;
+  return database.size() >= k_header_size && database[k_read_version] == 2;
 }
 
 void read_sqlite_bag(std::string bytes, std::string_view write_ahead_log, const std::string& name, BagLog& into) {
-  const std::size_t page = bytes.size() < k_header ? 0 : page_size(bytes);
-  if (page < 512 || (page & (page - 1)) != 0 || bytes.size() < page)
+  const std::size_t page = bytes.size() < k_header_size ? 0 : page_size(bytes);
+  const bool is_power_of_two = (page & (page - 1)) == 0;
+  if (page < 512 || !is_power_of_two || bytes.size() < page)
     throw InputError(name, "is a SQLite file that is cut off in its first page", "record it again");
-  apply(write_ahead_log, bytes);
+  apply_write_ahead_log(write_ahead_log, bytes);
   bytes[k_write_version] = bytes[k_read_version] = 1;  // a database in memory has no write-ahead log
   const bool is_cut_off = cut_to_whole_pages(bytes);
   Database database(bytes);
@@ -183,7 +190,7 @@ void read_sqlite_bag(std::string bytes, std::string_view write_ahead_log, const 
                        const auto topic = topics->find(sqlite3_column_int64(row, 0));
                        const std::string_view data = blob(row, 2);
                        if (topic != topics->end() && data.size() <= k_largest_message)
-                         into.take(topic->second, sqlite3_column_int64(row, 1), data);
+                         into.add_message(topic->second, sqlite3_column_int64(row, 1), data);
                      });
   if (is_cut_off || !is_whole)
     into.add_note(std::string("the recording is ") + (is_cut_off ? "unfinished: its file is cut off" : "damaged") +

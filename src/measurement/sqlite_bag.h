@@ -10,7 +10,7 @@
 namespace fusee::measurement {
 
 constexpr std::string_view k_sqlite_magic("SQLite format 3", 16);  // with its final 0
-/// A database is read from memory.
+/// Bytes. A database is read from memory.
 constexpr std::size_t k_largest_database = std::size_t{2} << 30;
 
 /// True if the database has a write-ahead log beside it, FILE-wal, that belongs to it.

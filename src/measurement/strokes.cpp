@@ -11,24 +11,26 @@
 namespace fusee::measurement {
 namespace {
 
-/// Return of α from its extreme that counts as a reversal. `dwells`: α is constant in most rows.
-double reversal_threshold(const std::vector<Sample>& samples, double quantum, bool dwells) {
+/// Return of α from its extreme that counts as a reversal, rad. `has_dwells`: α is constant in most rows.
+double reversal_threshold(const std::vector<Sample>& samples, double quantum, bool has_dwells) {
   double least = samples.front().alpha, most = least;
   for (const Sample& sample : samples) {
     least = std::min(least, sample.alpha);
     most = std::max(most, sample.alpha);
   }
-  const double noise = dwells ? noise_of_dwells(samples, &Sample::alpha) : noise_of(samples, &Sample::alpha);
+  const double noise = has_dwells ? noise_of_dwells(samples, &Sample::alpha) : noise_of(samples, &Sample::alpha);
   return std::min(std::max({0.01 * (most - least), 2.5 * quantum, 5.0 * noise}), 0.25 * (most - least));
 }
 
-/// True for scatter about one place: successive values are independent (von Neumann ratio, 2 for white noise), and the
-/// steps are below a degree or uncorrelated with θ. Alternation between two ends, row by row, is a motion.
+/// True for scatter about one angle: successive values are independent, and the steps are below a degree or
+/// uncorrelated with θ. Alternation between two ends, row by row, is a motion. Independence is tested by the von
+/// Neumann ratio, the mean square step over the variance: it is 2 for white noise, and at least 1 counts as
+/// independent.
 bool only_jitters(const std::vector<Sample>& samples) {
   const double n = static_cast<double>(samples.size());
-  double mean = 0, spread = 0, steps = 0, steps_of_theta = 0, covariance = 0;
+  double mean = 0, variance = 0, steps = 0, steps_of_theta = 0, covariance = 0;  // mean squares of steps
   for (const Sample& sample : samples) mean += sample.alpha / n;
-  for (const Sample& sample : samples) spread += (sample.alpha - mean) * (sample.alpha - mean) / n;
+  for (const Sample& sample : samples) variance += (sample.alpha - mean) * (sample.alpha - mean) / n;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const double alpha = samples[i].alpha - samples[i - 1].alpha, theta = samples[i].theta - samples[i - 1].theta;
     steps += alpha * alpha / (n - 1);
@@ -37,27 +39,28 @@ bool only_jitters(const std::vector<Sample>& samples) {
   }
   const bool joint_follows =
       steps > radians(1.0) * radians(1.0) && covariance * covariance > 0.8 * steps * steps_of_theta;
-  return steps >= spread && !joint_follows;
+  return steps >= variance && !joint_follows;
 }
 
-std::vector<bool> marked(const std::vector<std::size_t>& places, std::size_t count) {
+/// One flag for each of `count` rows: true for the given rows.
+std::vector<bool> flags_of(const std::vector<std::size_t>& rows, std::size_t count) {
   std::vector<bool> marks(count, false);
-  for (const std::size_t place : places) marks[place] = true;
+  for (const std::size_t row : rows) marks[row] = true;
   return marks;
 }
 
-class Splitter {
+class StrokeSplitter {
  public:
-  Splitter(const std::vector<Sample>& samples, double threshold, std::vector<bool> broken)
-      : samples_(samples), threshold_(threshold), broken_(std::move(broken)) {}
+  StrokeSplitter(const std::vector<Sample>& samples, double threshold, std::vector<bool> follows_gap)
+      : samples_(samples), threshold_(threshold), follows_gap_(std::move(follows_gap)) {}
 
   std::vector<Stroke> split() {
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (broken_[i]) {
+      if (follows_gap_[i]) {
         close(i - 1);
         begin(i);
       }
-      look_at(i);
+      take(i);
     }
     close(samples_.size() - 1);
     return std::move(strokes_);
@@ -69,7 +72,7 @@ class Splitter {
     direction_ = 0;
   }
 
-  void look_at(std::size_t i) {
+  void take(std::size_t i) {
     const double alpha = samples_[i].alpha;
     // The last sample of a dwell at the extreme belongs to the stroke that led there.
     if (alpha >= samples_[high_].alpha) high_ = i;
@@ -81,6 +84,8 @@ class Splitter {
     }
   }
 
+  /// Ends the stroke at its extreme. If the direction was not known yet, the rows before the extreme are a stroke of
+  /// their own only if they moved by the threshold.
   void turn(std::size_t extreme, std::size_t now, int direction) {
     if (direction_ != 0) {
       close(extreme);
@@ -100,19 +105,21 @@ class Splitter {
     stroke.first = first_;
     stroke.last = last;
     stroke.direction = direction_;
-    stroke.partial = first_ > 0 && broken_[first_];
+    stroke.partial = first_ > 0 && follows_gap_[first_];
     strokes_.push_back(stroke);
   }
 
   const std::vector<Sample>& samples_;
   double threshold_;
-  std::vector<bool> broken_;
+  std::vector<bool> follows_gap_;  ///< α moved unlogged before the row
   std::vector<Stroke> strokes_;
-  std::size_t first_ = 0, high_ = 0, low_ = 0;
-  int direction_ = 0;
+  std::size_t first_ = 0;           ///< row of the current stroke
+  std::size_t high_ = 0, low_ = 0;  ///< rows of the largest and smallest α since the last reversal
+  int direction_ = 0;               ///< 0 until α has moved by the threshold
 };
 
-/// The first stroke of a log is complete if it begins where another stroke of its direction begins.
+/// True if a stroke begins where another stroke of its direction begins: then it is complete, although no stroke is
+/// before it.
 bool begins_at_reversal(const std::vector<Sample>& samples, const std::vector<Stroke>& strokes, std::size_t stroke,
                         double threshold) {
   const double start = samples[strokes[stroke].first].alpha;
@@ -154,12 +161,13 @@ struct Departure {
 /// repeats, by three times their range, and ends at most half as far apart.
 bool begins_in_another_state(const std::vector<Sample>& samples, const std::vector<Stroke>& strokes) {
   constexpr int thirds = 3, places_a_third = 8;
-  constexpr double ranges = 3.0, decayed = 0.5;
+  constexpr double least_departure = 3.0;  // in ranges of the repeats
+  constexpr double most_left = 0.5;        // of the departure, at the end
   const Stroke& first = strokes.front();
-  const double from = samples[first.first].alpha, way = samples[first.last].alpha - from;
+  const double from = samples[first.first].alpha, travel = samples[first.last].alpha - from;
   std::array<Departure, thirds> departures;
   for (int i = 0; i < thirds * places_a_third; ++i) {
-    const double alpha = from + way * (i + 0.5) / (thirds * places_a_third);
+    const double alpha = from + travel * (i + 0.5) / (thirds * places_a_third);
     std::vector<double> repeats;
     for (std::size_t s = 1; s < strokes.size(); ++s) {
       if (strokes[s].direction != first.direction || strokes[s].partial) continue;
@@ -168,7 +176,8 @@ bool begins_in_another_state(const std::vector<Sample>& samples, const std::vect
     departures[static_cast<std::size_t>(i / places_a_third)].add(theta_at(samples, first, alpha), repeats);
   }
   const Departure &begin = departures.front(), &end = departures.back();
-  return begin.deviation > ranges * ranges * begin.range && end.deviation < decayed * decayed * begin.deviation;
+  return begin.deviation > least_departure * least_departure * begin.range &&
+         end.deviation < most_left * most_left * begin.deviation;
 }
 
 }  // namespace
@@ -180,7 +189,8 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// Second differences of white noise have √6 of its standard deviation; the median magnitude is 0.674 of that.
+// Second differences of white noise have √6 of its standard deviation. The median magnitude of a normal distribution is
+// 0.6745 of its standard deviation.
 double white_noise_of(std::vector<double> second_differences) {
   return median_of(std::move(second_differences)) / (0.6745 * std::sqrt(6.0));
 }
@@ -195,29 +205,29 @@ double noise_of(const std::vector<Sample>& samples, double Sample::*value) {
 double noise_of_dwells(const std::vector<Sample>& samples, double Sample::*value) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < samples.size(); ++i) steps.push_back(std::abs(samples[i].*value - samples[i - 1].*value));
-  return median_of(std::move(steps)) / (0.6745 * std::sqrt(2.0));
+  return median_of(std::move(steps)) / (0.6745 * std::sqrt(2.0));  // first differences have √2 of the deviation
 }
 
 std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_time) {
   if (samples.size() < 3) return {};
-  std::vector<double> times, ways;
+  std::vector<double> times, moves;  // from row to row: s, rad
   double least = samples.front().alpha, most = least;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     if (has_time) times.push_back(samples[i].time - samples[i - 1].time);
-    ways.push_back(std::abs(samples[i].alpha - samples[i - 1].alpha));
+    moves.push_back(std::abs(samples[i].alpha - samples[i - 1].alpha));
     least = std::min(least, samples[i].alpha);
     most = std::max(most, samples[i].alpha);
   }
-  const double pause = 20 * median_of(times);
-  std::vector<double> sorted = ways;
-  const auto usual = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 19 / 20);
-  std::nth_element(sorted.begin(), usual, sorted.end());
-  const double moved = 0.02 * (most - least), jump = 5 * *usual;
+  const double shortest_pause = 20 * median_of(times);
+  std::vector<double> sorted = moves;
+  const auto large_move = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 19 / 20);  // 95th percentile
+  std::nth_element(sorted.begin(), large_move, sorted.end());
+  const double least_move = 0.02 * (most - least), jump = 5 * *large_move;
   std::vector<std::size_t> gaps;
   for (std::size_t i = 1; i < samples.size(); ++i) {
-    const bool paused = has_time && times[i - 1] > pause;
-    const bool moved_unseen = ways[i - 1] > moved && (paused || ways[i - 1] > jump);
-    if (samples[i].after_break || moved_unseen) gaps.push_back(i);
+    const bool paused = has_time && times[i - 1] > shortest_pause;
+    const bool moved_unlogged = moves[i - 1] > least_move && (paused || moves[i - 1] > jump);
+    if (samples[i].after_break || moved_unlogged) gaps.push_back(i);
   }
   return gaps;
 }
@@ -229,8 +239,8 @@ std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std:
   const double threshold = reversal_threshold(samples, alpha_quantum, !dwells.empty());
   if (!(threshold > 0)) return {};
   const std::vector<std::size_t> gaps = dwells.empty() ? gaps_in(samples, has_time) : std::vector<std::size_t>{};
-  const std::vector<Sample> averaged = settled(samples, dwells);
-  std::vector<Stroke> strokes = Splitter(averaged, threshold, marked(gaps, samples.size())).split();
+  const std::vector<Sample> averaged = with_mean_alpha_in_dwells(samples, dwells);
+  std::vector<Stroke> strokes = StrokeSplitter(averaged, threshold, flags_of(gaps, samples.size())).split();
   if (strokes.empty()) return strokes;
   // In a point-to-point log the play is known from the second dwell on, wherever the first one is.
   strokes.front().partial =

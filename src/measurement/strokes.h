@@ -10,14 +10,14 @@
 namespace fusee::measurement {
 
 /// Strokes by direction of α. A reversal counts once α has returned from its extreme by more than noise, quantisation
-/// and 1 % of the run's span. A stroke is `partial`, with an unknown state of play, after a time gap over which α
-/// moved. So is a first stroke that departs from its repeats only at its beginning. Between dwells there are no gaps.
-/// Empty if α only jitters.
+/// and 1 % of the run's span. A stroke is `partial`, with an unknown state of play, after a gap over which α moved. So
+/// is a first stroke that departs from its repeats only at its beginning. Between the dwells of a point-to-point log
+/// there are no gaps. Empty if α only jitters.
 std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std::vector<RowRange>& dwells,
                                   double alpha_quantum, bool has_time);
 
-/// Rows before which α moved without being logged: after a pause, after a step larger than any speed in the log
-/// explains, or at a restart of the log.
+/// Rows before which α moved without being logged: after a pause, after a step larger than the speeds in the log
+/// explain, or at a restart of the log.
 std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_time);
 
 /// Median; 0 for an empty list.

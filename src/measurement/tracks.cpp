@@ -15,18 +15,20 @@ namespace {
 constexpr double k_absent = std::numeric_limits<double>::quiet_NaN();
 /// Neighbours that are further apart than this many usual steps have a gap between them: messages were lost.
 constexpr double k_longest_gap = 5;
-/// A point that follows more than this many later ones is a clock set back, not late. As in order_time().
-constexpr std::size_t k_latest_points = 3;
+/// Longest sequence of late points. If more points are below the latest time, the clock was set back. As in
+/// order_time().
+constexpr std::size_t k_most_late_points = 3;
 /// ns since 1970 in the year 2000.
 constexpr std::int64_t k_since_1970 = 946'684'800'000'000'000;
 
+/// True if the clock soon continues beyond `high`, the latest time before the point `k`.
 bool is_late(const std::vector<TrackPoint>& points, std::size_t k, std::int64_t high) {
-  const std::size_t end = std::min(points.size(), k + k_latest_points + 1);
+  const std::size_t end = std::min(points.size(), k + k_most_late_points + 1);
   return std::any_of(points.begin() + static_cast<std::ptrdiff_t>(k), points.begin() + static_cast<std::ptrdiff_t>(end),
                      [high](const TrackPoint& point) { return point.time > high; });
 }
 
-/// Adds the orders from which on a track's clock counts again.
+/// Adds the `order` of each point at which the track's clock restarts.
 void find_restarts(const Track& track, std::set<std::size_t>& restarts) {
   if (track.points.empty()) return;
   std::int64_t high = track.points.front().time;
@@ -47,14 +49,15 @@ double usual_step(const std::vector<TrackPoint>& points) {
   return median_of(std::move(steps));
 }
 
+/// Source of a value in a row.
 enum class Origin { absent, logged, interpolated };
 
 /// Values of a track at the times of another.
 class TrackReader {
  public:
   TrackReader(const Track& track, const std::set<std::size_t>& restarts)
-      : track_(track), member_(member_of(track.role)), usual_(usual_step(track.points)) {
-    is_held_ = quantity_of(track.role) != Quantity::angle && usual_ > k_longest_step * 1e9;
+      : track_(track), member_(member_of(track.role)), usual_step_(usual_step(track.points)) {
+    keeps_last_value_ = quantity_of(track.role) != Quantity::angle && usual_step_ > k_longest_step * 1e9;
     segments_.resize(1);
     auto restart = restarts.begin();
     for (const TrackPoint& point : track.points) {
@@ -67,7 +70,8 @@ class TrackReader {
                        [](const TrackPoint& a, const TrackPoint& b) { return a.time < b.time; });
   }
 
-  /// Calls come in the order of `base`; `segment` counts the restarts before it.
+  /// Reads the value at the point `base` of the track that gives the times. Calls come in the order of these points.
+  /// `segment`: number of restarts before the point.
   Origin read(const TrackPoint& base, std::size_t segment, Sample& into) {
     while (next_ < track_.points.size() && track_.points[next_].order < base.order) ++next_;
     if (next_ < track_.points.size() && track_.points[next_].order == base.order) {
@@ -89,25 +93,26 @@ class TrackReader {
     }
     if (after == points.begin()) return Origin::absent;
     const TrackPoint& before = *(after - 1);
-    if (is_held_) {
+    if (keeps_last_value_) {
       value = before.value;
       return Origin::logged;
     }
     if (after == points.end()) return Origin::absent;
     const auto gap = static_cast<double>(after->time - before.time);
-    if (gap > k_longest_gap * usual_) return Origin::absent;
+    if (gap > k_longest_gap * usual_step_) return Origin::absent;
     const double share = static_cast<double>(time - before.time) / gap;
     const bool jumps = track_.half_turn > 0 && std::abs(after->value - before.value) > track_.half_turn;
-    value = jumps ? (share < 0.5 ? before.value : after->value) : before.value + share * (after->value - before.value);
+    const double nearer = share < 0.5 ? before.value : after->value;
+    value = jumps ? nearer : before.value + share * (after->value - before.value);
     return Origin::interpolated;
   }
 
   const Track& track_;
-  double Sample::*member_;
-  double usual_;
-  bool is_held_ = false;
-  std::vector<std::vector<TrackPoint>> segments_;
-  std::size_t next_ = 0;
+  double Sample::*member_;  ///< for the role of the track
+  double usual_step_;
+  bool keeps_last_value_ = false;
+  std::vector<std::vector<TrackPoint>> segments_;  ///< points between restarts, by time
+  std::size_t next_ = 0;                           ///< first point that is not before the latest row
 };
 
 const Track* find_track(const std::vector<Track>& tracks, const std::string& role) {
@@ -148,8 +153,8 @@ class Joiner {
  private:
   struct CountedReader {
     TrackReader reader;
-    Origin latest;
-    std::size_t interpolated;
+    Origin latest;             ///< of the value in the latest row
+    std::size_t interpolated;  ///< rows with an interpolated value
   };
 
   void add_row(const TrackPoint& point, std::size_t segment) {
@@ -161,7 +166,9 @@ class Joiner {
       ++omitted_;
       return;
     }
-    for (CountedReader& each : readers_) each.interpolated += each.latest == Origin::interpolated;
+    for (CountedReader& each : readers_) {
+      if (each.latest == Origin::interpolated) ++each.interpolated;
+    }
     into_.add(sample);
   }
 
@@ -184,17 +191,17 @@ class Joiner {
   RowKeeper& into_;
   std::set<std::size_t> restarts_;
   std::vector<CountedReader> readers_;
-  std::int64_t zero_ = 0;
-  std::size_t omitted_ = 0;
+  std::int64_t zero_ = 0;    ///< ns; time of the first row if times count from 1970
+  std::size_t omitted_ = 0;  ///< rows without α or θ
 };
 
 }  // namespace
 
 void Track::add(const TrackPoint& point) {
-  constexpr std::size_t k_thinned_from = std::size_t{1} << 22;
+  constexpr std::size_t k_most_track_points = std::size_t{1} << 22;
   if (count_++ % stride != 0) return;
   points.push_back(point);
-  if (points.size() < k_thinned_from) return;
+  if (points.size() < k_most_track_points) return;
   for (std::size_t i = 0; 2 * i < points.size(); ++i) points[i] = points[2 * i];
   points.resize((points.size() + 1) / 2);
   stride *= 2;

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: numbers that are logged at times of their own, joined to rows.
+/// Internal: joins numbers that are logged at different times to rows.
 #pragma once
 
 #include <cstddef>
@@ -20,15 +20,15 @@ struct TrackPoint {
 /// One logged number.
 struct Track {
   std::string role;                ///< "alpha", "theta", "load" …
-  std::vector<TrackPoint> points;  ///< by order
-  double half_turn = 0;            ///< of an angle, in its unit; 0: unknown
+  std::vector<TrackPoint> points;  ///< by their `order`
+  double half_turn = 0;            ///< half a turn of an angle, in the unit of the values; 0: unknown
   std::size_t stride = 1;          ///< every `stride`-th point is kept
 
   /// Keeps the point. Beyond four million points, every second one is kept, then every fourth, and so on.
   void add(const TrackPoint& point);
 
  private:
-  std::size_t count_ = 0;
+  std::size_t count_ = 0;  ///< points since the last thinning
 };
 
 struct JoinedRows {
@@ -38,13 +38,13 @@ struct JoinedRows {
 
 /// Joins the tracks to rows at the times of α or θ, whichever has more points; of α if `needs_theta` is false.
 ///
-/// A number of the same message, or of the same time, is taken as it is. Others are interpolated linearly between their
-/// neighbours in time. Not interpolated are: times before the first point or after the last; gaps of more than 5 usual
-/// steps of that number; and jumps of more than half a turn, where the nearer point counts. Rows without α or θ are
-/// omitted, with a note. Loads and temperatures that are logged less than every 2 s keep their last value: they are set
-/// by hand. Where a clock goes back, a new log begins, and nothing is interpolated across.
+/// A number of the same message, or of the same time, is taken unchanged. Others are interpolated linearly between
+/// their neighbours in time. There is no interpolation before the first point, after the last point, or over a gap of
+/// more than 5 usual steps of that number. At a jump of more than half a turn the nearer point is taken. Rows without α
+/// or θ are omitted, with a note. Loads and temperatures that are logged less than every 2 s keep their last value:
+/// they are set by hand. Where a clock goes back, a new log begins: no interpolation crosses it.
 ///
-/// Times that count from 1970 become s since the first row; others stay as they are.
+/// Times since 1970 become s since the first row; other times are kept, in s.
 JoinedRows join(const std::vector<Track>& tracks, bool needs_theta, RowKeeper& into);
 
 }  // namespace fusee::measurement

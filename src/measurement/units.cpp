@@ -6,7 +6,7 @@
 
 #include "base/text.h"
 #include "fusee/base.h"
-#include "measurement/words.h"
+#include "measurement/log_text.h"
 #include "transmission/load.h"
 
 namespace fusee::measurement {
@@ -63,7 +63,7 @@ constexpr std::array k_units = {
     Unit{"F", "f °f degf fahrenheit", Quantity::temperature, "C", 5.0 / 9, -160.0 / 9},
 };
 
-/// Removes marks between letters: "kgf·cm" and "kgf*cm" become "kgfcm".
+/// Lower case without marks between letters: "kgf·cm" and "kgf*cm" become "kgfcm".
 std::string squeezed(std::string_view text) {
   std::string letters;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -86,28 +86,28 @@ bool has_word(std::string_view list, std::string_view word) {
   return false;
 }
 
-/// A name such as "load [kg]", split into bracket content and the text before.
-struct Parts {
+struct NameAndUnit {
   std::string_view base, unit;
 };
 
-std::optional<Parts> stated_unit(std::string_view name) {
+/// Splits "load [kg]", "load in kg", "load, kg" and "load/kg". Empty for other forms.
+std::optional<NameAndUnit> split_stated_unit(std::string_view name) {
   for (const char* const pair : {"[]", "()", "{}", "<>"}) {
     const std::size_t open = name.rfind(pair[0]);
     if (open == std::string_view::npos || name.back() != pair[1]) continue;
-    return Parts{trimmed(name.substr(0, open)), trimmed(name.substr(open + 1, name.size() - open - 2))};
+    return NameAndUnit{trimmed(name.substr(0, open)), trimmed(name.substr(open + 1, name.size() - open - 2))};
   }
   for (const std::string_view mark : {std::string_view(" in "), std::string_view(","), std::string_view("/")}) {
     const std::size_t at = name.rfind(mark);
     if (at == std::string_view::npos || at == 0) continue;
-    const Parts parts{trimmed(name.substr(0, at)), trimmed(name.substr(at + mark.size()))};
+    const NameAndUnit parts{trimmed(name.substr(0, at)), trimmed(name.substr(at + mark.size()))};
     if (!parts.base.empty() && !parts.unit.empty()) return parts;
   }
   return std::nullopt;
 }
 
-/// Index of the last word of "load_kg", "load kg" or "loadKg"; npos for a single word.
-std::size_t last_word(std::string_view name) {
+/// Index at which the last word of "load_kg", "load kg" or "loadKg" begins; npos for a single word.
+std::size_t last_word_begin(std::string_view name) {
   const std::size_t mark = name.find_last_of("_ .-:");
   if (mark != std::string_view::npos) return mark + 1;
   for (std::size_t i = name.size(); i-- > 1;) {
@@ -118,12 +118,14 @@ std::size_t last_word(std::string_view name) {
   return std::string_view::npos;
 }
 
+/// True for letters alone; every byte beyond ASCII counts as one.
 bool is_letters(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
   });
 }
 
+/// Lower case without separators at the end.
 std::string base_of(std::string_view text) {
   while (!text.empty() && std::string_view(" _.-:").find(text.back()) != std::string_view::npos) text.remove_suffix(1);
   return lower(trimmed(text));
@@ -159,7 +161,7 @@ ColumnName parse_column_name(std::string_view name, Quantity quantity) {
   name = trimmed(name);
   ColumnName parsed;
   if (name.empty()) return parsed;
-  if (const auto parts = stated_unit(name)) {
+  if (const auto parts = split_stated_unit(name)) {
     parsed.unit = find_unit(quantity, parts->unit);
     const bool in_brackets = std::string_view("])}>").find(name.back()) != std::string_view::npos;
     // Names such as "Motor, left" and "joint/position" state no unit.
@@ -170,7 +172,7 @@ ColumnName parse_column_name(std::string_view name, Quantity quantity) {
       return parsed;
     }
   }
-  const std::size_t last = last_word(name);
+  const std::size_t last = last_word_begin(name);
   // The longest suffix that is a unit: "tau_kgf_cm" before "tau_kgf". The limit bounds the work on untrusted names.
   constexpr std::size_t k_longest_unit = 40;
   for (std::size_t at = name.size() - std::min(name.size(), k_longest_unit); at < name.size(); ++at) {

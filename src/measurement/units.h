@@ -11,11 +11,11 @@ enum class Quantity { time, angle, load, temperature, none };
 
 /// value in the base unit = raw · factor + offset. Base units: s, rad, N or Nmm or Nm, °C.
 struct Unit {
-  std::string_view name;       ///< in messages, such as "ms"
+  std::string_view name;       ///< for messages, such as "ms"
   std::string_view spellings;  ///< lower case, without punctuation, separated by blanks
   Quantity quantity = Quantity::none;
   std::string_view base;  ///< for loads: "N", or a torque "Nmm", "Nm"
-  double factor = 1;      ///< 0 for counts, whose size depends on the encoder
+  double factor = 1;      ///< 0 for counts: their size depends on the encoder
   double offset = 0;
 
   bool is_counts() const { return factor == 0; }

@@ -9,8 +9,9 @@
 namespace fusee::measurement {
 namespace {
 
+/// Unpacked bytes for each packed byte.
 constexpr std::size_t k_largest_ratio = 1000;
-constexpr std::size_t k_unpacked_block = std::size_t{1} << 17;
+constexpr std::size_t k_unpacked_block = std::size_t{1} << 17;  // bytes
 
 /// Appends room for one more block, within the limit; false if the limit is reached.
 bool make_room(std::string& bytes, std::size_t used, std::size_t most) {
@@ -22,16 +23,17 @@ bool make_room(std::string& bytes, std::size_t used, std::size_t most) {
 UnpackedBytes unpack_zstd(std::string_view packed, std::size_t most) {
   const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(), &ZSTD_freeDCtx);
   UnpackedBytes result;
-  std::size_t used = 0, wanted = 1;
+  std::size_t used = 0;
+  std::size_t wanted = 1;  // 0 at the end of a frame
   ZSTD_inBuffer in{packed.data(), packed.size(), 0};
-  for (bool is_full = false; !is_full && (in.pos < in.size || wanted != 0);) {
+  for (bool is_stuck = false; !is_stuck && (in.pos < in.size || wanted != 0);) {
     if (!make_room(result.bytes, used, most)) break;
     ZSTD_outBuffer out{result.bytes.data() + used, result.bytes.size() - used, 0};
     const std::size_t before = in.pos;
     wanted = ZSTD_decompressStream(context.get(), &out, &in);
     if (ZSTD_isError(wanted) != 0) break;
     used += out.pos;
-    is_full = out.pos == 0 && in.pos == before;  // cut off: no progress
+    is_stuck = out.pos == 0 && in.pos == before;  // cut off: no progress
   }
   result.whole = wanted == 0 && in.pos == in.size;
   result.bytes.resize(used);
@@ -44,8 +46,9 @@ UnpackedBytes unpack_lz4(std::string_view packed, std::size_t most) {
   const std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> context(created,
                                                                                      &LZ4F_freeDecompressionContext);
   UnpackedBytes result;
-  std::size_t used = 0, read = 0, wanted = 1;
-  for (bool is_full = false; !is_full && (read < packed.size() || wanted != 0);) {
+  std::size_t used = 0, read = 0;
+  std::size_t wanted = 1;  // 0 at the end of a frame
+  for (bool is_stuck = false; !is_stuck && (read < packed.size() || wanted != 0);) {
     if (!make_room(result.bytes, used, most)) break;
     std::size_t written = result.bytes.size() - used, taken = packed.size() - read;
     wanted =
@@ -53,7 +56,7 @@ UnpackedBytes unpack_lz4(std::string_view packed, std::size_t most) {
     if (LZ4F_isError(wanted) != 0) break;
     used += written;
     read += taken;
-    is_full = written == 0 && taken == 0;
+    is_stuck = written == 0 && taken == 0;
   }
   result.whole = wanted == 0 && read == packed.size();
   result.bytes.resize(used);
@@ -70,7 +73,7 @@ UnpackedBytes unpack(Packing packing, std::string_view packed, std::size_t most)
   return {std::string(packed.substr(0, most)), packed.size() <= most};
 }
 
-std::size_t UnpackingLimit::after(std::size_t packed) {
+std::size_t UnpackingLimit::raise_for(std::size_t packed) {
   left_ += k_largest_ratio * packed;
   return left_;
 }

@@ -25,12 +25,13 @@ bool is_zstd(std::string_view bytes);
 /// exhaust memory shrink to less than a thousandth.
 class UnpackingLimit {
  public:
-  /// Bytes that may be unpacked now, after `packed` further bytes of the file.
-  std::size_t after(std::size_t packed);
+  /// Raises the limit for `packed` further bytes of the file. Returns the bytes that may still be unpacked.
+  std::size_t raise_for(std::size_t packed);
+  /// Counts bytes as unpacked.
   void use(std::size_t unpacked) { left_ -= unpacked < left_ ? unpacked : left_; }
 
  private:
-  std::size_t left_ = std::size_t{64} << 20;
+  std::size_t left_ = std::size_t{64} << 20;  ///< bytes that may still be unpacked
 };
 
 }  // namespace fusee::measurement

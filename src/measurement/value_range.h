@@ -17,6 +17,7 @@ struct ValueRange {
     least = std::min(least, value);
     most = std::max(most, value);
   }
+  /// True for a range of positive size.
   bool any() const { return most > least; }
   double size() const { return most - least; }
 };
@@ -36,7 +37,7 @@ inline ValueRange value_range(const Measurement& measurement, double Sample::*nu
   return span;
 }
 
-/// A span cut into `count` bins of one width.
+/// A range cut into `count` bins of equal width.
 struct Bins {
   ValueRange span;
   int count = 1;

@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::size_t k_most_rows = 100000;
 constexpr std::size_t k_most_problems = 20;
+/// Larger values are not angles.
+constexpr double k_largest_deg = 1e6;
 constexpr const char* k_hint = "expected is a file of 'fusee calibrate': theta_deg,alpha_up_deg,alpha_down_deg";
 
 std::string_view without_blanks(std::string_view text) {
@@ -35,11 +37,14 @@ class CompensationReader {
   std::vector<TwoWayRow> read(std::string_view text) {
     for (int line = 1; !text.empty() && problems_.size() < k_most_problems; ++line) {
       const std::size_t end = std::min(text.find('\n'), text.size());
-      const std::string_view words = without_blanks(text.substr(0, std::min(text.find('#'), end)));
+      const std::string_view content = without_blanks(text.substr(0, std::min(text.find('#'), end)));
       text.remove_prefix(std::min(end + 1, text.size()));
-      if (words.empty()) continue;
-      header_read_ ? read_row(line, cells_of(words)) : read_header(line, cells_of(words));
-      if (!header_read_ && !problems_.empty()) break;
+      if (content.empty()) continue;
+      if (is_header_read_)
+        read_row(line, cells_of(content));
+      else
+        read_header(line, cells_of(content));
+      if (!is_header_read_ && !problems_.empty()) break;
     }
     if (problems_.empty() && rows_.size() < 2) fail(0, "it has fewer than two rows");
     if (!problems_.empty()) throw InputError(problems_);
@@ -57,7 +62,7 @@ class CompensationReader {
       if (i >= cells.size() || cells[i] != names[i])
         return fail(line, "column " + std::to_string(i + 1) + " must be " + std::string(names[i]));
     }
-    header_read_ = true;
+    is_header_read_ = true;
   }
 
   void read_row(int line, const std::vector<std::string_view>& cells) {
@@ -65,8 +70,8 @@ class CompensationReader {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string_view cell = i < cells.size() ? cells[i] : std::string_view();
       const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), values[i]);
-      if (error != std::errc() || end != cell.data() + cell.size() || std::abs(values[i]) > 1e6 ||
-          std::isnan(values[i]))
+      const bool is_number = error == std::errc() && end == cell.data() + cell.size() && !std::isnan(values[i]);
+      if (!is_number || std::abs(values[i]) > k_largest_deg)
         return fail(line, "'" + std::string(cell.substr(0, 40)) + "' is not an angle in degrees");
     }
     const TwoWayRow row{radians(values[0]), radians(values[1]), radians(values[2])};
@@ -80,7 +85,7 @@ class CompensationReader {
   }
 
   const std::string& file_;
-  bool header_read_ = false;
+  bool is_header_read_ = false;
   std::vector<TwoWayRow> rows_;
   std::vector<Diagnostic> problems_;
 };

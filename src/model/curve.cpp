@@ -9,23 +9,26 @@
 namespace fusee::model {
 namespace {
 
-constexpr int k_samples = 2000;  ///< number of places at which a law is checked
+constexpr int k_samples = 2000;  ///< number of angles at which a law is checked
 
-/// Linear interpolation in rows that increase in both columns; constant beyond the ends.
-double between_rows(const std::vector<LawRow>& rows, double at, double LawRow::*from, double LawRow::*to) {
-  if (!(at > rows.front().*from)) return rows.front().*to;
-  if (!(at < rows.back().*from)) return rows.back().*to;
-  const auto above = std::upper_bound(rows.begin(), rows.end(), at,
-                                      [from](double value, const LawRow& row) { return value < row.*from; });
+/// Column `y` where column `x` has the value `at`: linear interpolation in rows that increase in both columns, constant
+/// beyond the ends.
+double between_rows(const std::vector<LawRow>& rows, double at, double LawRow::*x, double LawRow::*y) {
+  if (!(at > rows.front().*x)) return rows.front().*y;
+  if (!(at < rows.back().*x)) return rows.back().*y;
+  const auto above =
+      std::upper_bound(rows.begin(), rows.end(), at, [x](double value, const LawRow& row) { return value < row.*x; });
   const LawRow &low = *(above - 1), &high = *above;
-  return std::lerp(low.*to, high.*to, (at - low.*from) / (high.*from - low.*from));
+  return std::lerp(low.*y, high.*y, (at - low.*x) / (high.*x - low.*x));
 }
 
 // ---- an identified joint --------------------------------------------------------------------------------------------
 
-/// A quasi-static motion home → top → bottom → top → bottom. The first two strokes take up play.
+/// A quasi-static motion from home to `high`, `low`, `high` and `low` motor angle, rad. The first two strokes take up
+/// play.
 joint::BenchRun sweep(double low, double high) {
-  constexpr int steps = 600;  // per stroke; linear interpolation is accurate to a millionth of the range
+  // Rows of a stroke: linear interpolation between them is accurate to a millionth of the range.
+  constexpr int steps = 600;
   joint::BenchRun run;
   const auto stroke = [&run](double from, double to) {
     for (int i = 1; i <= steps; ++i) run.rows.push_back({0, std::lerp(from, to, double(i) / steps), 0, 0});
@@ -38,16 +41,21 @@ joint::BenchRun sweep(double low, double high) {
   return run;
 }
 
-/// The rows of one stroke, by increasing α, with a moving joint.
-std::vector<LawRow> increasing_rows(const joint::BenchRun& run, const std::vector<joint::JointState>& states, bool up,
-                                    bool shown) {
+/// Joint angle of a state: the true one, or the one that the joint sensor shows.
+using ThetaOfState = double joint::JointState::*;
+
+/// Rows of the third stroke of sweep() (`is_rising`) or of its fourth, by increasing α, in which the joint moves.
+std::vector<LawRow> increasing_rows(const joint::BenchRun& run, const std::vector<joint::JointState>& states,
+                                    bool is_rising, ThetaOfState angle) {
   const std::size_t count = run.rows.size(), steps = (count - 1) / 4;
+  const std::size_t end = is_rising ? count - steps : count;
+  const std::size_t first = end - steps - 1;
   std::vector<LawRow> rows;
-  for (std::size_t i = up ? count - 2 * steps - 1 : count - steps - 1; i < (up ? count - steps : count); ++i) {
-    const double theta = shown ? states[i].shown : states[i].theta;
+  for (std::size_t i = first; i < end; ++i) {
+    const double theta = states[i].*angle;
     if (std::isfinite(theta)) rows.push_back({run.rows[i].alpha, theta});
   }
-  if (!up) std::reverse(rows.begin(), rows.end());
+  if (!is_rising) std::reverse(rows.begin(), rows.end());
   // Rows at rest, while play is taken up, are removed.
   std::vector<LawRow> growing;
   for (const LawRow& row : rows) {
@@ -56,10 +64,11 @@ std::vector<LawRow> increasing_rows(const joint::BenchRun& run, const std::vecto
   return growing;
 }
 
-std::vector<TwoWayRow> both_ways_of(const joint::BenchRun& run, const std::vector<joint::JointState>& states,
-                                    const Joint& joint, bool shown) {
-  const std::vector<LawRow> up = increasing_rows(run, states, true, shown),
-                            down = increasing_rows(run, states, false, shown);
+/// Motor angles of both directions, over the part of the joint's range that both reach. Empty if there is none.
+std::vector<TwoWayRow> two_way_rows(const joint::BenchRun& run, const std::vector<joint::JointState>& states,
+                                    const Joint& joint, ThetaOfState angle) {
+  const std::vector<LawRow> up = increasing_rows(run, states, /*is_rising=*/true, angle),
+                            down = increasing_rows(run, states, /*is_rising=*/false, angle);
   if (up.size() < 2 || down.size() < 2) return {};
   const double low = std::max({up.front().theta, down.front().theta, joint.theta_min});
   const double high = std::min({up.back().theta, down.back().theta, joint.theta_max});
@@ -100,7 +109,7 @@ AngleMap angle_map(std::vector<LawRow> rows) {
   const auto shared = std::make_shared<const std::vector<LawRow>>(std::move(rows));
   map.theta = [shared](double alpha) { return between_rows(*shared, alpha, &LawRow::alpha, &LawRow::theta); };
   map.alpha = [shared](double theta) { return between_rows(*shared, theta, &LawRow::theta, &LawRow::alpha); };
-  // Computed over a longer piece than the row spacing, because the corners between rows are no property of the joint.
+  // Mean slope over 1/30 of the range, since the corners between rows are no property of the joint.
   map.slope = [theta = map.theta, low = map.alpha_min, high = map.alpha_max](double alpha) {
     const double half = (high - low) / 60;
     const double from = std::max(low, std::min(alpha, high) - half), to = std::min(high, std::max(alpha, low) + half);
@@ -113,7 +122,7 @@ std::vector<TwoWayRow> refined(const std::vector<TwoWayRow>& rows, const transmi
   const AngleMap map = angle_map(law);
   const double beyond = 0.02 * (map.theta_max - map.theta_min);
   if (rows.front().theta < map.theta_min - beyond || rows.back().theta > map.theta_max + beyond) return rows;
-  std::vector<LawRow> up, down;
+  std::vector<LawRow> up, down;  // with the motor's offset from the law in place of α
   for (const TwoWayRow& row : rows) {
     up.push_back({row.up - law.alpha(row.theta), row.theta});
     down.push_back({row.down - law.alpha(row.theta), row.theta});
@@ -165,15 +174,15 @@ std::optional<JointCurves> joint_curves(const DeclaredMechanism& declared) {
   }
   const DeclaredMechanism joint = joint::expected_joint(declared);
   if (transmission::Transmission(joint).dead_centre()) return std::nullopt;
-  const double beyond =
-      2 * declared.identified.shaft.backlash + 0.03 * (law.alpha_max() - law.alpha_min());  // margin for the reversal
+  // The reversals lie beyond the range, so that play is taken up within it.
+  const double beyond = 2 * declared.identified.shaft.backlash + 0.03 * (law.alpha_max() - law.alpha_min());
   const joint::BenchRun run = sweep(law.alpha_min() - beyond, law.alpha_max() + beyond);
   const std::vector<joint::JointState> states =
       joint::simulate(joint, beyond_mechanism(declared.identified, kind_of(declared)), {run}).front();
-  const std::vector<TwoWayRow> physical = both_ways_of(run, states, declared.joint, false),
-                               shown = both_ways_of(run, states, declared.joint, true);
-  if (physical.empty() || shown.empty()) return std::nullopt;
-  return JointCurves{two_way_curve(physical, CurveSource::identified), two_way_curve(shown, CurveSource::identified)};
+  const std::vector<TwoWayRow> physical = two_way_rows(run, states, declared.joint, &joint::JointState::theta),
+                               sensed = two_way_rows(run, states, declared.joint, &joint::JointState::shown);
+  if (physical.empty() || sensed.empty()) return std::nullopt;
+  return JointCurves{two_way_curve(physical, CurveSource::identified), two_way_curve(sensed, CurveSource::identified)};
 }
 
 }  // namespace fusee::model

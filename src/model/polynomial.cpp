@@ -20,37 +20,38 @@ Eigen::VectorXd chebyshev(double t, int degree) {
   return values;
 }
 
-/// Converts a Chebyshev series in t = (x − middle)/half to a polynomial in x.
+/// Converts a Chebyshev series in t = (x − middle)/half to a polynomial in x, by T_(k+1) = 2 t T_k − T_(k−1).
 Polynomial in_x(const Eigen::VectorXd& c, double middle, double half) {
   const auto degree = static_cast<int>(c.size()) - 1;
-  using Row = std::vector<double>;
-  const auto times_t = [&](const Row& row) {
-    Row result(row.size() + 1, 0);
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      result[i + 1] += row[i] / half;
-      result[i] -= row[i] * middle / half;
+  using Coefficients = std::vector<double>;  // in x
+  const auto times_t = [&](const Coefficients& factor) {
+    Coefficients product(factor.size() + 1, 0);
+    for (std::size_t i = 0; i < factor.size(); ++i) {
+      product[i + 1] += factor[i] / half;
+      product[i] -= factor[i] * middle / half;
     }
-    return result;
+    return product;
   };
-  Row before{1}, now = times_t(before), sum(static_cast<std::size_t>(degree) + 1, 0);
+  Coefficients T{1}, T_next = times_t(T), sum(static_cast<std::size_t>(degree) + 1, 0);
   for (int k = 0; k <= degree; ++k) {
-    for (std::size_t i = 0; i < before.size(); ++i) sum[i] += c(k) * before[i];
-    Row next = times_t(now);
-    for (double& value : next) value *= 2;
-    for (std::size_t i = 0; i < before.size(); ++i) next[i] -= before[i];
-    before = std::exchange(now, std::move(next));
+    for (std::size_t i = 0; i < T.size(); ++i) sum[i] += c(k) * T[i];
+    Coefficients T_after_next = times_t(T_next);
+    for (double& value : T_after_next) value *= 2;
+    for (std::size_t i = 0; i < T.size(); ++i) T_after_next[i] -= T[i];
+    T = std::exchange(T_next, std::move(T_after_next));
   }
   // Removes coefficients that are zero up to rounding.
-  const double most = std::abs(middle) + std::abs(half), scale = c.lpNorm<Eigen::Infinity>();
+  const double largest_x = std::abs(middle) + std::abs(half), scale = c.lpNorm<Eigen::Infinity>();
   double power = 1;
   for (double& value : sum) {
     if (std::abs(value) * power < 1e-12 * scale) value = 0;
-    power *= most;
+    power *= largest_x;
   }
   return {sum};
 }
 
-/// Replaces a point of the reference by `entering` so that signs keep alternating.
+/// Replaces a point of the reference by `entering` so that the signs of the errors keep alternating. At either end, a
+/// point of the other sign enters outside, and the point at the opposite end leaves.
 void exchange(std::vector<std::size_t>& reference, const std::vector<double>& errors, std::size_t entering) {
   const auto above = std::upper_bound(reference.begin(), reference.end(), entering);
   const bool positive = errors[entering] > 0;
@@ -70,7 +71,8 @@ void exchange(std::vector<std::size_t>& reference, const std::vector<double>& er
       reference.push_back(entering);
     }
   } else {
-    *(same_sign(*(above - 1)) ? above - 1 : above) = entering;
+    const auto replaced = same_sign(*(above - 1)) ? above - 1 : above;
+    *replaced = entering;
   }
 }
 
@@ -86,7 +88,8 @@ double solved(const Polynomial& p, double alpha, double start) {
   return theta;
 }
 
-std::vector<double> places(const AngleMap& map) {
+/// Motor angles, evenly over the range.
+std::vector<double> sampled_alphas(const AngleMap& map) {
   std::vector<double> alphas;
   for (int i = 0; i <= k_points; ++i) alphas.push_back(std::lerp(map.alpha_min, map.alpha_max, double(i) / k_points));
   return alphas;
@@ -94,17 +97,18 @@ std::vector<double> places(const AngleMap& map) {
 
 EqualityFit fit_of_alpha(const AngleMap& map, int degree) {
   std::vector<FitPoint> points;
-  for (const double alpha : places(map)) points.push_back({alpha, map.theta(alpha)});
-  return measured({true, least_largest_error(points, degree).p}, map);
+  for (const double alpha : sampled_alphas(map)) points.push_back({alpha, map.theta(alpha)});
+  return measured({.of_alpha = true, .p = least_largest_error(points, degree).p}, map);
 }
 
+/// α = p(θ). An error of α counts by the error of θ that it causes, dθ/dα times as large.
 EqualityFit fit_of_theta(const AngleMap& map) {
   std::vector<FitPoint> points;
   for (int i = 0; i <= k_points; ++i) {
     const double theta = std::lerp(map.theta_min, map.theta_max, double(i) / k_points), alpha = map.alpha(theta);
     points.push_back({theta, alpha, map.slope(alpha)});
   }
-  return measured({false, least_largest_error(points, k_equality_degree).p}, map);
+  return measured({.of_alpha = false, .p = least_largest_error(points, k_equality_degree).p}, map);
 }
 
 }  // namespace
@@ -129,6 +133,7 @@ PolynomialFit least_largest_error(const std::vector<FitPoint>& points, int degre
   demand(points.size() > n && points.back().x > points.front().x,
          "a fit of " + std::to_string(points.size()) + " points");
   const double middle = 0.5 * (points.front().x + points.back().x), half = 0.5 * (points.back().x - points.front().x);
+  // The first reference is near the extremes of a Chebyshev polynomial.
   std::vector<std::size_t> reference;
   for (std::size_t i = 0; i < n; ++i) {
     const double t = 0.5 - 0.5 * elementary::cos(k_pi * static_cast<double>(i) / static_cast<double>(n - 1));
@@ -169,7 +174,7 @@ PolynomialFit least_largest_error(const std::vector<FitPoint>& points, int degre
 
 EqualityFit measured(EqualityFit fit, const AngleMap& map) {
   fit.error = fit.slope_error = 0;
-  for (const double alpha : places(map)) {
+  for (const double alpha : sampled_alphas(map)) {
     const double theta = map.theta(alpha), slope = map.slope(alpha);
     const double fitted = fit.of_alpha ? fit.p(alpha) : solved(fit.p, alpha, theta);
     const double fitted_slope = fit.of_alpha ? fit.p.slope(alpha) : 1 / fit.p.slope(fitted);
@@ -181,9 +186,9 @@ EqualityFit measured(EqualityFit fit, const AngleMap& map) {
 }
 
 EqualityFit fit_equality(const AngleMap& map) {
-  const EqualityFit one = fit_of_alpha(map, k_equality_degree);
-  const EqualityFit other = fit_of_theta(map);
-  return other.error < one.error ? other : one;
+  const EqualityFit of_alpha = fit_of_alpha(map, k_equality_degree);
+  const EqualityFit of_theta = fit_of_theta(map);
+  return of_theta.error < of_alpha.error ? of_theta : of_alpha;
 }
 
 EqualityFit fit_line(const AngleMap& map) { return fit_of_alpha(map, 1); }

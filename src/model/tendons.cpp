@@ -12,57 +12,63 @@
 namespace fusee::model {
 namespace {
 
-constexpr int k_places = 1000;
+// Lengths and angles are computed for a right-hand tendon. A left-hand one is mirrored: then θ is positive towards the
+// pin's side.
 
-/// A tendon above its pin, mirrored to a right-hand one, where θ is positive towards the pin's side.
-struct Span {
-  /// From its end to the tangent point, and round the pin to the pin's rightmost point, up to a constant, mm.
+/// Number of intervals of the range in which a tendon is evaluated.
+constexpr int k_intervals = 1000;
+
+/// The upper part of a mirrored tendon: straight from its end to the pin, then round the pin.
+struct UpperPart {
+  /// From the end to the tangent point and round the pin to its rightmost point, mm, up to a constant.
   double length = 0;
-  double normal = 0;  ///< direction of the outward normal, rad
+  double normal = 0;  ///< angle of the outward normal of the straight part, rad
 };
 
 Vec2 mirrored(const Vec2& point, transmission::Side side) {
   return {transmission::mirror_sign(side) * point.x(), point.y()};
 }
 
-/// Position of a point of the link at the joint angle, mirrored.
+/// Position of a mirrored point of the link at a mirrored joint angle: clockwise rotation about O.
 Vec2 at_angle(const Vec2& home, double theta) {
   const double c = elementary::cos(theta), s = elementary::sin(theta);
   return {c * home.x() + s * home.y(), c * home.y() - s * home.x()};
 }
 
-Span span_at(const WrappedTendon& tendon, double theta) {
+UpperPart upper_part_at(const WrappedTendon& tendon, double theta) {
   const Vec2 pin = mirrored(tendon.pin, tendon.side);
   const Vec2 to_end = at_angle(mirrored(tendon.end, tendon.side), theta) - pin;
   const double distance = to_end.norm();
   // Measured from the vertical, so that no turn is lost when the end comes down beside the pin.
-  const double towards = 0.5 * k_pi + elementary::atan2(-to_end.x(), to_end.y());
-  const double normal = towards - elementary::acos(std::min(1.0, tendon.rho / distance));
+  const double direction = 0.5 * k_pi + elementary::atan2(-to_end.x(), to_end.y());
+  const double normal = direction - elementary::acos(std::min(1.0, tendon.rho / distance));
   return {std::sqrt(std::max(0.0, (distance - tendon.rho) * (distance + tendon.rho))) + tendon.rho * normal, normal};
 }
 
-/// Length that the joint takes in, up to a constant. A drum takes in its radius times the angle.
+/// Length of the tendon above its pin, mm, up to a constant. On a drum it falls by radius times angle.
 double length_at(const WrappedTendon& tendon, double theta) {
-  return tendon.drum > 0 ? -tendon.drum * theta : span_at(tendon, theta).length;
+  return tendon.drum > 0 ? -tendon.drum * theta : upper_part_at(tendon, theta).length;
 }
 
-/// −dL/dθ: distance of the span from O, mm.
+/// Moment arm −dL/dθ: distance of the straight part from O, mm.
 double arm_at(const WrappedTendon& tendon, double theta) {
   if (tendon.drum > 0) return tendon.drum;
-  const Vec2 end = at_angle(mirrored(tendon.end, tendon.side), theta), normal = unit(span_at(tendon, theta).normal);
+  const Vec2 end = at_angle(mirrored(tendon.end, tendon.side), theta),
+             normal = unit(upper_part_at(tendon, theta).normal);
   return end.dot(normal);
 }
 
-constexpr double k_always_wrapped = radians(10);  // least angle of wrap at the cylinder at every joint angle
+/// Least angle of wrap at the cylinder, kept at every joint angle.
+constexpr double k_always_wrapped = radians(10);
 
-/// Sets the fixed point below the pin, on its outer side, and the sheath. `least`, `most`: range of the normals at
-/// which the tendon reaches the pin.
+/// Sets the fixed point below the pin, on its outer side, and the sheath. `least`, `most`: range of the angle of the
+/// normal at which the tendon reaches the pin, rad; `R`: of the link, mm.
 void set_anchor(WrappedTendon& tendon, const transmission::PinPlace& place, double least, double most, double R) {
-  // It enters a sheath straight down, if it is still wrapped then.
-  const bool down = place.sheath_exit && least > radians(1);
-  const double leaving = down ? 0.0 : least - k_always_wrapped;
+  // A tendon enters its sheath straight down, if it is still wrapped then.
+  const bool goes_down = place.sheath_exit && least > radians(1);
+  const double leaving = goes_down ? 0.0 : least - k_always_wrapped;  // angle of the normal below the pin
   const Vec2 normal = unit(leaving), onwards(normal.y(), -normal.x());
-  const double reach = down ? tendon.rho + 0.1 * R : 0.5 * R;
+  const double reach = goes_down ? tendon.rho + 0.1 * R : 0.5 * R;  // from the pin to the anchor
   tendon.most_wrap = most - leaving;
   const Vec2 anchor = place.pin() + tendon.rho * normal + reach * onwards;
   tendon.anchor = mirrored(anchor, tendon.side);
@@ -77,47 +83,52 @@ void set_anchor(WrappedTendon& tendon, const transmission::PinPlace& place, doub
 /// Sets up a tendon that is never on a drum.
 void set_free_tendon(WrappedTendon& tendon, const transmission::PinPlace& place, const AngleMap& map, double R) {
   double least = k_pi, most = -k_pi;
-  for (int i = 0; i <= k_places; ++i) {
+  for (int i = 0; i <= k_intervals; ++i) {
     const double theta =
-        transmission::mirror_sign(tendon.side) * std::lerp(map.theta_min, map.theta_max, double(i) / k_places);
-    const double normal = span_at(tendon, theta).normal;
+        transmission::mirror_sign(tendon.side) * std::lerp(map.theta_min, map.theta_max, double(i) / k_intervals);
+    const double normal = upper_part_at(tendon, theta).normal;
     least = std::min(least, normal);
     most = std::max(most, normal);
   }
-  tendon.home_length = span_at(tendon, 0).length;
+  tendon.home_length = upper_part_at(tendon, 0).length;
   set_anchor(tendon, place, least, most, R);
 }
 
-// A tendon on the drum touches it from a point that moves with the link up to the point from which it leaves for the
-// fixed pin. The part that is covered at every angle has constant length. It is represented by points of the link,
-// close together. If MuJoCo wraps a tendon between two points on the drum's surface, it alternates between the two ways
-// round (3.14.0).
+/// Sets up a tendon that is always on a drum.
+// It touches the drum from a point of the link up to the point from which it leaves for the fixed pin. The part that is
+// covered at every angle has constant length: it is represented by points of the link, close together. A wrapped tendon
+// would not do there: between two points on the drum's surface, MuJoCo 3.14.0 alternates between the two ways round.
 void set_tendon_on_drum(WrappedTendon& tendon, const transmission::PinPlace& place, const AngleMap& map, double R) {
   const double sign = transmission::mirror_sign(tendon.side);
   const transmission::UpperSpan home = transmission::upper_span(place, 0),
                                 low = transmission::upper_span(place, sign * map.theta_min),
                                 high = transmission::upper_span(place, sign * map.theta_max);
-  const double least = std::min(low.on_drum, high.on_drum), always = std::max(0.0, least - k_always_wrapped);
-  // Slightly outside, as simulators require for points near a wrapping cylinder.
-  constexpr double k_outside = 1e-6, k_chord = radians(10);
-  const double rho = place.drum, just = rho * (1 + k_outside);
+  const double least = std::min(low.on_drum, high.on_drum);               // rad
+  const double always_covered = std::max(0.0, least - k_always_wrapped);  // rad
+  // Simulators require points near a wrapping cylinder to be slightly outside of it.
+  constexpr double k_outside = 1e-6;
+  constexpr double k_longest_chord = radians(10);
+  const double rho = place.drum, just_outside = rho * (1 + k_outside);
   tendon.drum = rho;
-  const bool ends_on_it = place.R < just;
-  if (ends_on_it) tendon.end *= just / place.R;
-  const int chords = static_cast<int>(std::ceil(always / k_chord));
-  for (int i = ends_on_it ? 1 : 0; i <= chords && chords > 0; ++i)
-    tendon.on_drum.push_back(mirrored(just * unit(home.end_normal - always * i / chords), tendon.side));
-  const double wrapped = 0.5 * (low.on_drum + high.on_drum) - always;
+  const bool ends_on_drum = place.R < just_outside;
+  if (ends_on_drum) tendon.end *= just_outside / place.R;
+  const int chords = static_cast<int>(std::ceil(always_covered / k_longest_chord));
+  for (int i = ends_on_drum ? 1 : 0; i <= chords && chords > 0; ++i)
+    tendon.on_drum.push_back(mirrored(just_outside * unit(home.end_normal - always_covered * i / chords), tendon.side));
+  const double wrapped = 0.5 * (low.on_drum + high.on_drum) - always_covered;
   tendon.drum_outer = mirrored(1.5 * rho * unit(home.normal + 0.5 * wrapped), tendon.side);
   tendon.off_drum =
       mirrored(0.5 * (rho * unit(home.normal) + place.pin() + place.rho * unit(home.normal)), tendon.side);
   tendon.home_length = home.length;
-  if (chords > 0) tendon.home_length += 2 * just * chords * elementary::sin(0.5 * always / chords) - rho * always;
+  // Chords are shorter than the arc that they replace.
+  if (chords > 0)
+    tendon.home_length +=
+        2 * just_outside * chords * elementary::sin(0.5 * always_covered / chords) - rho * always_covered;
   set_anchor(tendon, place, home.normal, home.normal, R);
 }
 
-/// Returns the reason why simulators cannot represent the tendon, or "". Simulators wrap a tendon the shorter way round
-/// a cylinder, and require a point of it between two cylinders.
+/// Sets up the tendon of a side. Returns the reason why simulators cannot represent it, or "". Simulators wrap a tendon
+/// the shorter way round a cylinder, and require a point of it between two cylinders.
 std::string set_tendon(WrappedTendon& tendon, const Mechanism& mechanism, transmission::Side side,
                        const AngleMap& map) {
   const transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.seen_pitch_radius());
@@ -126,6 +137,7 @@ std::string set_tendon(WrappedTendon& tendon, const Mechanism& mechanism, transm
   tendon.rho = place.rho;
   tendon.end = place.at_C ? Vec2(0, place.R)
                           : mirrored(place.R * Vec2(elementary::sin(place.twist), elementary::cos(place.twist)), side);
+  // Range of the mirrored joint angle, and the angle from which on the tendon has left the drum.
   const double sign = transmission::mirror_sign(side), low = std::min(sign * map.theta_min, sign * map.theta_max),
                high = std::max(sign * map.theta_min, sign * map.theta_max);
   const auto leaves = transmission::lift_off(place);
@@ -141,13 +153,13 @@ std::string set_tendon(WrappedTendon& tendon, const Mechanism& mechanism, transm
   } else {
     set_free_tendon(tendon, place, map, mechanism.joint.R);
   }
-  // The joints of the tests stay below this. Beyond half a turn the other way round would be the shorter one.
+  // Beyond half a turn the other way round would be the shorter one.
   if (tendon.rho > 0 && tendon.most_wrap > k_most_wrap)
     return "it wraps nearly half of its pin, and simulators wrap it the shorter way";
   return "";
 }
 
-/// True if the path has the moment arms of the transmission. They differ if the tendons run over anything else.
+/// True if the path has the moment arms of the transmission. They differ if the tendon also runs over another guide.
 bool has_arms(const WrappedTendon& tendon, double R, const transmission::Transmission& law) {
   for (int i = 0; i <= 8; ++i) {
     const transmission::TransmissionPoint point = law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), i / 8.0));
@@ -159,16 +171,18 @@ bool has_arms(const WrappedTendon& tendon, double R, const transmission::Transmi
 }
 
 struct LengthFit {
-  Polynomial length;
-  double error = 0;
+  Polynomial length;  ///< mm over rad
+  double error = 0;   ///< largest error of θ, rad
 };
 
-/// The length that the pulley takes in of a tendon, as a polynomial of α of the lowest sufficient degree.
+/// The length of a tendon minus that at home: a straight line in α if it is exact, otherwise a
+/// polynomial of degree k_equality_degree.
 LengthFit fit_length(const WrappedTendon& tendon, const AngleMap& map) {
   const double home = length_at(tendon, 0), sign = transmission::mirror_sign(tendon.side);
   std::vector<FitPoint> points;
-  for (int i = 0; i <= k_places; ++i) {
-    const double alpha = std::lerp(map.alpha_min, map.alpha_max, double(i) / k_places), theta = sign * map.theta(alpha);
+  for (int i = 0; i <= k_intervals; ++i) {
+    const double alpha = std::lerp(map.alpha_min, map.alpha_max, double(i) / k_intervals),
+                 theta = sign * map.theta(alpha);
     points.push_back({alpha, length_at(tendon, theta) - home, 1 / std::abs(arm_at(tendon, theta))});
   }
   constexpr double k_exact = 1e-9;  // rad, near the rounding of a fit
@@ -182,10 +196,10 @@ LengthFit fit_length(const WrappedTendon& tendon, const AngleMap& map) {
 double tendon_error(const WrappedTendon& tendon, const Polynomial& length, const AngleMap& map) {
   const double home = length_at(tendon, 0), sign = transmission::mirror_sign(tendon.side);
   double largest = 0;
-  for (int i = 0; i <= k_places; ++i) {
-    const double alpha = std::lerp(map.alpha_min, map.alpha_max, double(i) / k_places), wanted = map.theta(alpha);
+  for (int i = 0; i <= k_intervals; ++i) {
+    const double alpha = std::lerp(map.alpha_min, map.alpha_max, double(i) / k_intervals), wanted = map.theta(alpha);
     double theta = wanted;
-    for (int turn = 0; turn < 20; ++turn) {
+    for (int step = 0; step < 20; ++step) {  // Newton's method
       const double missing = home + length(alpha) - length_at(tendon, sign * theta);
       const double move = -sign * missing / arm_at(tendon, sign * theta);
       if (!std::isfinite(move)) return k_pi;

@@ -15,8 +15,9 @@
 namespace fusee::pipeline {
 namespace {
 
-// Radius of the thinnest axle or post, M3, and the clearance of a pin.
+/// Radius of the thinnest axle or post, M3, mm.
 constexpr double k_thinnest_radius = 1.5;
+/// Required clearance, mm; as of a pin.
 constexpr double k_clearance = 0.5;
 
 /// A part of the joint and its smallest distance from the flanges.
@@ -26,7 +27,7 @@ struct NearestPart {
   double theta = 0;     ///< rad
 };
 
-/// Reach of the pulley by direction, in the frame of the mesh at home.
+/// Reach of the pulley from its axis by direction, mm, in the frame of the mesh at home.
 class ReachAround {
  public:
   explicit ReachAround(const solid::Pulley& pulley) {
@@ -40,16 +41,16 @@ class ReachAround {
   /// Reach towards a place of the joint, within the angle that the thinnest axle there subtends. The pulley is turned
   /// clockwise by `alpha`.
   double reach_towards(const Vec2& place, double alpha) const {
-    const double away = place.norm(), direction = elementary::atan2(place.y(), place.x()) + alpha;
-    const double half = away > k_thinnest_radius ? elementary::asin(k_thinnest_radius / away) : k_pi;
+    const double distance = place.norm(), direction = elementary::atan2(place.y(), place.x()) + alpha;
+    const double half_angle = distance > k_thinnest_radius ? elementary::asin(k_thinnest_radius / distance) : k_pi;
     double reach = 0;
-    for (double turn = -half; turn <= half; turn += k_sector)
+    for (double turn = -half_angle; turn <= half_angle; turn += k_sector)
       reach = std::max(reach, reach_.at(sector_of(direction + turn)));
     return reach;
   }
 
  private:
-  // Facets of an outline turn by 2 deg at most, so that none spans a sector without a vertex in a neighbour.
+  // Facets of an outline turn by 2 deg at most: one that spans a sector of 3 deg has a vertex in a neighbouring sector.
   static constexpr std::size_t k_sectors = 120;
   static constexpr double k_sector = k_two_pi / k_sectors;
 
@@ -83,6 +84,7 @@ std::vector<NearestPart> nearest_parts(const formats::Product& product) {
   return parts;
 }
 
+/// The part with the smallest clearance, if that is less than required.
 std::optional<NearestPart> tightest_part(const formats::Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   if (mechanism.sheath.is_there() || mechanism.joint.drum_radius > 0 || product.pulley.mesh.vertices.empty())
@@ -111,11 +113,11 @@ std::vector<Diagnostic> axle_clearance_warnings(
   double further = k_thinnest_radius + k_clearance - part->distance;
   for (int trial = 0; trial < 3; ++trial, further *= 1.3) {
     Mechanism changed = product.file.mechanism;
-    const double to = std::ceil(now + further);
-    set_number(changed, field, 0, to);
+    const double advised = std::ceil(now + further);
+    set_number(changed, field, 0, advised);
     const auto made = build(changed);
     if (!made || tightest_part(*made)) continue;
-    warning.hint = fmt::format("try pulley.EF_mm = {} or more (now {})", rounded(to), rounded(now));
+    warning.hint = fmt::format("try pulley.EF_mm = {} or more (now {})", rounded(advised), rounded(now));
     return {warning};
   }
   warning.hint = "move the pulley away (pulley.EF_mm), or make it smaller";

@@ -12,8 +12,8 @@
 namespace fusee::pipeline {
 
 /// Warnings about a pulley that turns into the joint's axle or into a tendon's end on the link, over the whole range.
-/// Joints with a drum have a condition instead, and pulleys with sheaths are elsewhere. `build`: a checked product, or
-/// empty; it proves the advised number.
+/// None for joints with a drum, which have a condition instead, and for sheaths, whose pulley is elsewhere. `build`
+/// tests the advised number: it returns a checked product, or empty.
 std::vector<Diagnostic> axle_clearance_warnings(
     const formats::Product& product, const std::function<std::optional<formats::Product>(const Mechanism&)>& build);
 

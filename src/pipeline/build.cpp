@@ -25,13 +25,13 @@
 namespace fusee::pipeline {
 namespace {
 
-// Limit on the sum of outline points over all full builds for one advice. A build takes a quarter of a second with the
-// usual 200 points, and proportionally more with more points.
+// Limit on the sum of outline points over all full builds for one piece of advice. A build takes a quarter of a second
+// with the usual 200 points, and proportionally more with more points.
 constexpr double k_points_for_advice = 1600;
 
-constexpr const char* k_step = "pulley.step";
+constexpr const char* k_step_name = "pulley.step";
 
-// Upper bound on the size of our own pulley.drc.
+// Upper bound on the size of the written pulley.drc, bytes.
 constexpr std::size_t k_largest_draco = std::size_t{512} << 20;
 
 /// State of a build: results so far and their staging folder.
@@ -41,7 +41,7 @@ struct BuildContext {
   BuildResult& result;
   OutputFolder& folder;
 
-  void step(std::string_view what) const { run.begin_step(what); }
+  void step(std::string_view name) const { run.begin_step(name); }
   void stage(std::string name, std::string bytes) {
     step("writing " + name);
     result.outputs.push_back({std::move(name), std::move(bytes)});
@@ -60,15 +60,15 @@ struct BuildContext {
 void stage_step(BuildContext& context, formats::StepFile file) {
   const bool is_made = !file.bytes.empty();
   context.add({exactly("made", is_made ? 1 : 0, 1, "1", file.complaint)}, "step_");
-  if (is_made) context.stage(k_step, std::move(file.bytes));
+  if (is_made) context.stage(k_step_name, std::move(file.bytes));
 }
 
 bool has_step(const BuildContext& context) {
   const auto& outputs = context.result.outputs;
-  return std::any_of(outputs.begin(), outputs.end(), [](const OutputFile& file) { return file.name == k_step; });
+  return std::any_of(outputs.begin(), outputs.end(), [](const OutputFile& file) { return file.name == k_step_name; });
 }
 
-/// Writes the files of a helical pulley. It has no plates.dxf: plates cannot contain helical grooves.
+/// Writes the part files of a helical pulley. It has no plates.dxf: plates cannot contain helical grooves.
 formats::DracoFile write_helical_parts(BuildContext& context) {
   const formats::Product& product = context.result.product;
   const solid::TriangleMesh& mesh = product.pulley.mesh;
@@ -113,7 +113,7 @@ std::vector<Check> draco_checks(const BuildContext& context, const solid::Triang
 std::vector<Check> step_checks(const BuildContext& context) {
   const formats::Product& product = context.result.product;
   formats::StepInspection inspection =
-      formats::inspect_step(context.folder.staged_path(k_step), product, context.options.chord_error_mm);
+      formats::inspect_step(context.folder.staged_path(k_step_name), product, context.options.chord_error_mm);
   std::vector<Check> checks = std::move(inspection.checks);
   if (!all_ok(checks)) return checks;
   const profile::RewindResult wound =
@@ -132,8 +132,8 @@ std::vector<Check> checks_of_printed(const BuildContext& context, const solid::P
   return checks;
 }
 
-/// Checks of the written files; each starts as soon as its file is staged. A check that was already made on equal bytes
-/// or facets is not repeated.
+/// Running checks of the written files; each starts as soon as its file is staged. A check that was already made on
+/// equal bytes or facets is not repeated.
 struct PendingChecks {
   using Checks = Task<std::vector<Check>>;
 
@@ -219,7 +219,7 @@ Tables begin_tables(const formats::Product& product) {
           run_async([&product] { return formats::transmission_csv(product); })};
 }
 
-/// Collects the checks.
+/// Collects the checks, and starts the tables.
 Tables check_parts(BuildContext& context, PendingChecks& pending) {
   formats::Product& product = context.result.product;
   context.step("checking the written files");
@@ -272,7 +272,8 @@ Tables check_helical_parts(BuildContext& context, const formats::DracoFile& drac
   return tables;
 }
 
-/// A written file that cannot be read back is a bug, not bad input, unless a request to stop has removed it.
+/// Runs the checks of written files. A written file that cannot be read back is a bug, not bad input, unless a request
+/// to stop has removed it.
 template <typename Checking>
 Tables check_written(const BuildContext& context, const Checking& run_checks) {
   try {
@@ -331,16 +332,16 @@ bool passes_checks(formats::Product& product, const BuildOptions& options, const
       return all_ok(print_checks(mechanism.print, part.mesh));
     });
   });
-  const bool is_right =
+  const bool is_sound =
       all_ok(solid::check_pulley(mesh, mechanism, product.synthesis, product.pulley, options.chord_error_mm)) &&
       all_ok(as_built_checks(mechanism, rewind_made(product.joint, product.pulley.layout, mesh), options.limits));
-  const bool prints = of_printing.get();
-  return of_plates.get() && prints && is_right;
+  const bool is_printable = of_printing.get();
+  return of_plates.get() && is_printable && is_sound;
 }
 
-/// The product, if it passes all checks. Bad input and parts on which no tendon can be wound do not.
-std::optional<formats::Product> made(const MechanismFile& file, const BuildOptions& options,
-                                     const RunContext& context) {
+/// The product of a file if it passes all checks. Bad input and parts on which no tendon can be wound do not pass.
+std::optional<formats::Product> passing_product(const MechanismFile& file, const BuildOptions& options,
+                                                const RunContext& context) {
   formats::Product product;
   product.file = file;
   try {
@@ -351,7 +352,7 @@ std::optional<formats::Product> made(const MechanismFile& file, const BuildOptio
 }
 
 bool is_made(const MechanismFile& file, const BuildOptions& options, const RunContext& context) {
-  return made(file, options, context).has_value();
+  return passing_product(file, options, context).has_value();
 }
 
 /// Quick feasibility check of small variants of a file: curves and body without a mesh. A variant of the body alone
@@ -365,13 +366,13 @@ class FeasibilityCheck {
         file_(refused.file),
         options_(options),
         context_(context),
-        own_(curves_of(refused.file.mechanism)),
-        own_points_(static_cast<double>(refused.synthesis.p1.points.size())) {}
+        refused_curves_(curves_of(refused.file.mechanism)),
+        refused_points_(static_cast<double>(refused.synthesis.p1.points.size())) {}
 
   std::vector<profile::Condition> operator()(const Mechanism& changed) const {
     context_.throw_if_stopped();
-    if (!has_own_curves(changed)) return obstacles(curves_of(with_declared(file_, changed).mechanism));
-    Curves curves = own_;
+    if (!has_refused_curves(changed)) return obstacles(curves_of(with_declared(file_, changed).mechanism));
+    Curves curves = refused_curves_;
     curves.joint.mechanism.body = changed.body;
     curves.joint.mechanism.horn = changed.horn;
     curves.joint.mechanism.print = changed.print;
@@ -380,20 +381,21 @@ class FeasibilityCheck {
 
   /// Number of full builds that keep within k_points_for_advice, estimated from the largest variant.
   int max_builds() const {
-    const double turn = std::min(radians(2.0), std::sqrt(8.0 * options_.chord_error_mm / largest_));
-    const double points = std::max(k_two_pi / turn, own_points_);
+    const double turn = std::min(radians(2.0), std::sqrt(8.0 * options_.chord_error_mm / largest_reach_));
+    const double points = std::max(k_two_pi / turn, refused_points_);
     return std::max(1, static_cast<int>(k_points_for_advice / points));
   }
 
  private:
-  /// The flange's radius determines the chord length of the curves.
-  bool has_own_curves(const Mechanism& changed) const {
+  /// True if only the body differs from the refused design. The groove depth counts as well, since the flange's radius
+  /// determines the chord length of the curves.
+  bool has_refused_curves(const Mechanism& changed) const {
     if (changed.groove_depth() != file_.mechanism.groove_depth()) return false;
-    Mechanism with_own_body = changed;
-    with_own_body.body = file_.mechanism.body;
-    with_own_body.horn = file_.mechanism.horn;
-    with_own_body.print = file_.mechanism.print;
-    return with_own_body == static_cast<const Mechanism&>(file_.mechanism);
+    Mechanism with_refused_body = changed;
+    with_refused_body.body = file_.mechanism.body;
+    with_refused_body.horn = file_.mechanism.horn;
+    with_refused_body.print = file_.mechanism.print;
+    return with_refused_body == static_cast<const Mechanism&>(file_.mechanism);
   }
 
   std::vector<profile::Condition> obstacles(const Curves& curves) const {
@@ -409,13 +411,14 @@ class FeasibilityCheck {
       return profile::parallel(outline, -0.5 * mechanism.tendon.diameter);
     };
     const auto not_wound = profile::failed_of(
-        windable(mechanism, [&] { profile::rewind(mechanism, floor(synthesis.p1), floor(synthesis.p2)); }));
+        winding_conditions(mechanism, [&] { profile::rewind(mechanism, floor(synthesis.p1), floor(synthesis.p2)); }));
     return not_wound.empty() && with_motor_ ? analysis::motor_obstacles(mechanism) : not_wound;
   }
 
+  /// Raises largest_reach_ to `reach`; called by several threads.
   void record_size(double reach) const {
-    double known = largest_;
-    while (reach > known && !largest_.compare_exchange_weak(known, reach)) {
+    double known = largest_reach_;
+    while (reach > known && !largest_reach_.compare_exchange_weak(known, reach)) {
     }
   }
 
@@ -423,17 +426,17 @@ class FeasibilityCheck {
   const MechanismFile& file_;
   const BuildOptions& options_;
   const RunContext& context_;
-  Curves own_;
-  double own_points_;  ///< points of the refused design's outline; 0 without an outline
+  Curves refused_curves_;
+  double refused_points_;  ///< points of the refused design's outline; 0 without an outline
   /// Largest distance of an outline from the axis among the trials with room for a body, mm.
-  mutable std::atomic<double> largest_ = 0;
+  mutable std::atomic<double> largest_reach_ = 0;
 };
 
 bool motor_suffices(const MechanismFile& file) {
   return analysis::motor_obstacles(joint::identified_joint(file.mechanism).mechanism).empty();
 }
 
-/// The keys of --set.
+/// The keys that --set states: advice on them comes first.
 std::vector<std::string> typed_keys(const MechanismFile& file) {
   std::vector<std::string> keys;
   for (const auto& [key, place] : file.places) {
@@ -504,7 +507,7 @@ std::vector<std::string> advised_notes(const formats::Product& product, const Bu
                                        const RunContext& context) {
   if (!options.advice) return product.pulley.layout.notes;
   const BuildOmissions build = [&](const Mechanism& changed) -> std::optional<std::vector<std::string>> {
-    const auto trial = made(with_declared(product.file, changed), options, context);
+    const auto trial = passing_product(with_declared(product.file, changed), options, context);
     if (!trial) return std::nullopt;
     std::vector<std::string> features;
     for (const solid::Omission& omission : trial->pulley.layout.omissions) features.push_back(omission.feature);
@@ -516,7 +519,7 @@ std::vector<std::string> advised_notes(const formats::Product& product, const Bu
 std::vector<Diagnostic> parts_in_the_way(const formats::Product& product, const BuildOptions& options,
                                          const RunContext& context) {
   return axle_clearance_warnings(product, [&](const Mechanism& changed) {
-    return options.advice ? made(with_declared(product.file, changed), options, context) : std::nullopt;
+    return options.advice ? passing_product(with_declared(product.file, changed), options, context) : std::nullopt;
   });
 }
 
@@ -546,7 +549,7 @@ void write_and_check(BuildContext& context) {
 
 profile::Advice motor_advice(const formats::Product& product, const BuildOptions& options, const RunContext& context) {
   const MechanismFile& file = product.file;
-  const FeasibilityCheck check(product, options, context, true);
+  const FeasibilityCheck check(product, options, context, /*with_motor=*/true);
   profile::FeasibilityOracle judge;
   // A change may need several turns, if the pulley does. Their conditions are tested by the full build.
   if (product.helix)
@@ -569,7 +572,7 @@ profile::Advice motor_advice(const formats::Product& product, const BuildOptions
 const std::vector<std::string>& output_names() {
   static const std::vector<std::string> names = {
       "pulley.stl",     "pulley_p1.stl",    "pulley_p2.stl",  "pulley.obj",  "pulley.3mf",   "pulley.drc",
-      k_step,           "pulley.scad",      "profile.dxf",    "plates.dxf",  "profile.csv",  "profile_p1.csv",
+      k_step_name,      "pulley.scad",      "profile.dxf",    "plates.dxf",  "profile.csv",  "profile_p1.csv",
       "profile_p2.csv", "transmission.csv", "mechanism.toml", "report.html", "manifest.json"};
   return names;
 }
@@ -577,17 +580,17 @@ const std::vector<std::string>& output_names() {
 BuildResult build(const MechanismFile& file, const BuildOptions& options, const RunContext& context) {
   BuildResult result;
   result.product.file = file;
-  auto warned = run_async([&file] { return analysis::plausibility_warnings(file); });
+  auto plausibility = run_async([&file] { return analysis::plausibility_warnings(file); });
   result.product.joint = joint::identified_joint(file.mechanism);
   OutputFolder target(options.folder, options.force, context);
   if (const auto why = options.step ? formats::step_missing() : std::nullopt)
     throw InputError("", "no pulley.step: this fusee was built without STEP: " + *why, "build without --step");
   const std::vector<std::string> names = names_with_table(file.mechanism);
   demand_other_place(file, options);
-  target.claim(names);  // before the work: a refusal should not cost a wait
+  target.claim(names);  // before the work, so that a refusal costs no time
   result.product.mechanism_files = mechanism_files(file, *context.files);
   const bool is_possible = design_any(result.product, options.chord_error_mm, options.limits, context);
-  for (Diagnostic& warning : warned.get()) result.product.file.warnings.push_back(std::move(warning));
+  for (Diagnostic& warning : plausibility.get()) result.product.file.warnings.push_back(std::move(warning));
   if (!is_possible) {
     result.status = BuildStatus::infeasible;
     if (!options.advice) return result;

@@ -8,13 +8,15 @@
 namespace fusee::pipeline {
 namespace {
 
+/// Run files that a calibration may write for the next measurements.
 constexpr int k_most_next_runs = 9;
-constexpr int k_most_earlier_runs = 99;  // run files of an earlier calibration
+/// Run files that an earlier calibration may have written.
+constexpr int k_most_earlier_runs = 99;
 
 /// Files to read, each once; held-out runs last.
 struct RunFiles {
   std::vector<std::filesystem::path> all;
-  std::size_t fitted = 0;
+  std::size_t fitted = 0;  ///< number of fitted runs
 };
 
 RunFiles run_files(const std::vector<std::filesystem::path>& runs, const std::vector<std::filesystem::path>& hold_out) {
@@ -46,8 +48,9 @@ std::vector<std::string> names_from(const measurement::Measurement& measurement,
   return names;
 }
 
-/// A corrected file describes the joint with its identified effects: only further effects are identified.
-void conclude(const CalibrationContext& context, const RunFiles& runs) {
+/// Reads the runs, and computes calibration, input errors and correction. A corrected file describes the joint with its
+/// identified effects: only further effects are identified.
+void read_and_calibrate(const CalibrationContext& context, const RunFiles& runs) {
   formats::CalibrationProduct& product = context.result.product;
   const DeclaredMechanism& declared = context.file.mechanism;
   const DeclaredMechanism expected = joint::expected_joint(declared);
@@ -128,14 +131,14 @@ CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::file
   const CalibrationContext context{file, options, result, run};
   OutputFolder target(options.folder, options.force, run);
   const RunFiles files = run_files(runs, options.hold_out);
-  target.claim(with_next(output_names(file), first_free_run_beside(files),
-                         k_most_next_runs));  // before the work, so that a refusal costs no time
+  // Before the work, so that a refusal costs no time.
+  target.claim(with_next(output_names(file), first_free_run_beside(files), k_most_next_runs));
   const DeclaredText declared = declared_text(file, *run.files);
   result.rewritten = declared.rewritten;
-  conclude(context, files);
+  read_and_calibrate(context, files);
   result.outputs = outputs_of(result.product, declared.text, *run.files);
-  target.withdraw(
-      with_next(output_names(file), 1, k_most_earlier_runs));  // a correction or run file that this run does not write
+  // A correction or run file of an earlier calibration that this one does not write.
+  target.withdraw(with_next(output_names(file), 1, k_most_earlier_runs));
   if (!options.dry_run) publish(context, target);
   return result;
 }

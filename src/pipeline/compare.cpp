@@ -14,9 +14,9 @@ std::vector<OutputFile> outputs_of(const formats::ComparisonProduct& product) {
   return outputs;
 }
 
-/// Both states are compared with the mounted joint of the file.
-void conclude(const MechanismFile& file, const Paths& before, const Paths& after, const CompareOptions& options,
-              const RunContext& context, formats::ComparisonProduct& product) {
+/// Reads the runs of both states, and compares them with the mounted joint of the file.
+void read_and_compare(const MechanismFile& file, const Paths& before, const Paths& after, const CompareOptions& options,
+                      const RunContext& context, formats::ComparisonProduct& product) {
   context.begin_step("reading the runs");
   const DeclaredMechanism expected = joint::expected_joint(file.mechanism);
   Paths both = before;
@@ -45,10 +45,10 @@ CompareResult compare(const MechanismFile& file, const std::vector<std::filesyst
   std::optional<OutputFolder> target;
   if (!options.folder.empty()) {
     target.emplace(options.folder, options.force, context);
-    target->claim(
-        {"comparison.json", "report.html", "manifest.json"});  // before the work, so that a refusal costs no time
+    // Before the work, so that a refusal costs no time.
+    target->claim({"comparison.json", "report.html", "manifest.json"});
   }
-  conclude(file, before, after, options, context, result.product);
+  read_and_compare(file, before, after, options, context, result.product);
   if (!target) return result;
   result.outputs = outputs_of(result.product);
   if (!options.dry_run) publish(*target, result);

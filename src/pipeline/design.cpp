@@ -15,7 +15,7 @@ constexpr int k_trial_steps = 36;
 
 }  // namespace
 
-std::vector<profile::Condition> windable(const Mechanism& mechanism, const std::function<void()>& wind) {
+std::vector<profile::Condition> winding_conditions(const Mechanism& mechanism, const std::function<void()>& wind) {
   if (mechanism.pulley.method != Method::paper) return {};
   profile::Condition condition;
   condition.name = "can_be_wound";
@@ -50,7 +50,7 @@ bool design(formats::Product& product, double chord_error_mm, const RunContext& 
   product.cut_layout = cut_layout.get();
   if (!product.pulley.made()) return false;
   for (const profile::Condition& condition :
-       windable(mechanism, [&] { rewind_made(product.joint, product.pulley.layout, product.pulley.mesh); })) {
+       winding_conditions(mechanism, [&] { rewind_made(product.joint, product.pulley.layout, product.pulley.mesh); })) {
     product.pulley.conditions.push_back(condition);
     if (!condition.ok) product.pulley.status = solid::PulleyStatus::impossible;
   }

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: curves and body of a mechanism, for the final part or, faster, for trial mechanisms of the advice.
+/// Internal: designs curves and body of a mechanism, for the final part or, faster, for trial mechanisms of the advice.
 #pragma once
 
 #include <functional>
@@ -26,10 +26,12 @@ struct Curves {
   std::vector<profile::Condition> obstacles;
 };
 
+/// Designs coarse curves for a trial.
 Curves curves_of(const DeclaredMechanism& declared);
 
-/// Fails if `wind` throws because no tendon can be wound on the curves. Curves of the paper's equations may differ so
-/// far from those for large pins or thick tendons. Exact curves can always be wound; for them it is a bug.
-std::vector<profile::Condition> windable(const Mechanism& mechanism, const std::function<void()>& wind);
+/// A condition that fails if `wind` throws because no tendon can be wound on the curves. It applies to curves of the
+/// paper's equations, which are inaccurate for large pins or thick tendons. Exact curves can always be wound: it is
+/// empty for them.
+std::vector<profile::Condition> winding_conditions(const Mechanism& mechanism, const std::function<void()>& wind);
 
 }  // namespace fusee::pipeline

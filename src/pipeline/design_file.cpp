@@ -9,7 +9,7 @@
 namespace fusee::pipeline {
 namespace {
 
-constexpr std::size_t k_largest_file = 1 << 20;
+constexpr std::size_t k_largest_file = 1 << 20;  // bytes
 
 Diagnostic warning(std::string message) {
   Diagnostic diagnostic;
@@ -19,7 +19,8 @@ Diagnostic warning(std::string message) {
 }
 
 /// True if the edited text is a valid mechanism with the intended numbers.
-bool holds(const std::string& text, const std::vector<ValueEdit>& edits, const std::string& path, FileAccess& files) {
+bool has_values(const std::string& text, const std::vector<ValueEdit>& edits, const std::string& path,
+                FileAccess& files) {
   try {
     const DeclaredMechanism read =
         parse_mechanism(text, path, std::filesystem::path(path).parent_path(), {}, nullptr, nullptr, files);
@@ -58,8 +59,8 @@ DesignFile design_file(const MechanismFile& file, const optimize::Problem& probl
   result.text = edit_values(read_file(file.path, k_largest_file, files), edits);
   const bool keeps_units =
       std::none_of(settings.begin(), settings.end(), [](const Setting& setting) { return setting.key == "units"; });
-  if (keeps_units && holds(result.text, edits, file.path, files)) return result;
-  // Dotted keys leave no place for a new key of their table, and other units change every length.
+  if (keeps_units && has_values(result.text, edits, file.path, files)) return result;
+  // The edits fail if dotted keys leave no place for a new key of their table. Other units change every length.
   result.warnings.push_back(warning("the layout of " + file.path + " could not be kept: the new file has every key"));
   DeclaredMechanism whole = optimize::mechanism_at(problem, design);
   whole.optimize = file.mechanism.optimize;

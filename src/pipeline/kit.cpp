@@ -25,13 +25,13 @@ solid::TriangleMesh read_back(const OutputFile& file) {
   }
 }
 
-/// Files and checks of a part.
+/// Files of a part, and the checks of them.
 struct CheckedPart {
   std::vector<OutputFile> files;
   std::vector<Check> checks;
 };
 
-CheckedPart made(const kit::KitPart& part, const formats::KitProduct& product) {
+CheckedPart make_part(const kit::KitPart& part, const formats::KitProduct& product) {
   const Mechanism& mechanism = product.pulley.joint.mechanism;
   const solid::BodyLayout& layout = product.pulley.pulley.layout;
   const solid::TriangleMesh mesh = kit::printed_mesh(part, mechanism, layout);
@@ -63,7 +63,8 @@ void make_files(KitResult& result, const KitOptions& options, const RunContext& 
   context.begin_step("building parts");
   auto drawing = run_async([&] { return formats::kit_dxf(product, options.dxf); });
   std::vector<Task<CheckedPart>> parts;
-  for (const kit::KitPart& part : product.plan.parts) parts.push_back(run_async([&] { return made(part, product); }));
+  for (const kit::KitPart& part : product.plan.parts)
+    parts.push_back(run_async([&] { return make_part(part, product); }));
   product.checks = kit_fit_checks(product.plan);
   for (auto& part : parts) {
     CheckedPart one = part.get();
@@ -100,7 +101,7 @@ kit::KitPlan plan_of(const formats::Product& pulley) {
   return kit::plan_kit(pulley.joint.mechanism, pulley.synthesis, pulley.pulley.layout);
 }
 
-/// Tests the rounded numbers that are advised. A number that makes the file bad input is infeasible.
+/// True if a file with the advised, rounded numbers has a rig. A number that makes the file bad input is infeasible.
 bool has_kit(const MechanismFile& file, double chord_error_mm, const RunContext& context) {
   try {
     formats::Product pulley;
@@ -170,8 +171,8 @@ KitResult kit(const MechanismFile& file, const KitOptions& options, const RunCon
   product.pulley.file = analysis::with_plausibility_warnings(file);
   product.pulley.joint = joint::identified_joint(file.mechanism);
   OutputFolder target(options.folder, options.force, context);
-  target.claim(
-      {"kit.dxf", "bom.csv", "kit.html", "manifest.json"});  // before the work, so that a refusal costs no time
+  // Before the work, so that a refusal costs no time.
+  target.claim({"kit.dxf", "bom.csv", "kit.html", "manifest.json"});
   product.pulley.mechanism_files = mechanism_files(file, *context.files);
   if (!design_any(product.pulley, options.chord_error_mm, {}, context)) {
     result.ending = KitEnding::no_pulley;

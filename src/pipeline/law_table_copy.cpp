@@ -7,10 +7,11 @@
 namespace fusee::pipeline {
 namespace {
 
-constexpr std::size_t k_largest_law = 8 << 20;
-constexpr std::size_t k_largest_spec = 1 << 20;
+constexpr std::size_t k_largest_table = 8 << 20;           // bytes
+constexpr std::size_t k_largest_mechanism_file = 1 << 20;  // bytes
 
-/// True if the text alone, without --set, is this mechanism. It may be none: --set may supply a key that it lacks.
+/// True if the text alone, without --set, is this mechanism. It may be incomplete: --set may supply a key that it
+/// lacks.
 bool is_complete(const std::string& text, const MechanismFile& file, FileAccess& files) {
   try {
     const std::filesystem::path folder = std::filesystem::path(file.path).parent_path();
@@ -20,9 +21,10 @@ bool is_complete(const std::string& text, const MechanismFile& file, FileAccess&
   }
 }
 
+/// The user's text if it describes the mechanism, otherwise a new one.
 DeclaredText own_text(const MechanismFile& file, FileAccess& files) {
   if (!file.sha256.empty()) {
-    std::string text = read_file(file.path, k_largest_spec, files);
+    std::string text = read_file(file.path, k_largest_mechanism_file, files);
     if (sha256(text) == file.sha256 && is_complete(text, file, files)) return {std::move(text), false};
   }
   return {write_mechanism(file.mechanism), true};
@@ -39,8 +41,8 @@ std::filesystem::path table_path(const MechanismFile& file) {
 }
 
 /// True if `text`, placed in `folder`, is a mechanism that finds its table there.
-bool has_beside(const std::string& text, const std::filesystem::path& folder, const std::string& table,
-                FileAccess& files) {
+bool finds_table(const std::string& text, const std::filesystem::path& folder, const std::string& table,
+                 FileAccess& files) {
   try {
     const DeclaredMechanism mechanism = parse_mechanism(text, "corrected.toml", folder, {}, nullptr, nullptr, files);
     return declared_table(mechanism) == table;
@@ -63,7 +65,7 @@ std::optional<std::string> law_table_name(const Mechanism& mechanism) {
 }
 
 OutputFile law_table_copy(const MechanismFile& file, FileAccess& files) {
-  return {law_table_name(file.mechanism).value(), read_file(table_path(file), k_largest_law, files)};
+  return {law_table_name(file.mechanism).value(), read_file(table_path(file), k_largest_table, files)};
 }
 
 DeclaredText declared_text(const MechanismFile& file, FileAccess& files) {
@@ -82,15 +84,15 @@ std::vector<OutputFile> mechanism_files(const MechanismFile& file, FileAccess& f
 // finds the table in its own folder. A value with escapes does not occur literally: then every key is written anew.
 std::string with_table_beside(const std::string& text, const MechanismFile& file, FileAccess& files) {
   const std::string& declared = declared_table(file.mechanism);
-  const std::string beside = law_table_name(file.mechanism).value();
-  if (beside == declared) return text;
+  const std::string new_name = law_table_name(file.mechanism).value();
+  if (new_name == declared) return text;
   for (std::size_t at = text.find(declared); at != std::string::npos; at = text.find(declared, at + 1)) {
     std::string changed = text;
-    changed.replace(at, declared.size(), beside);
-    if (has_beside(changed, table_path(file).parent_path(), beside, files)) return changed;
+    changed.replace(at, declared.size(), new_name);
+    if (finds_table(changed, table_path(file).parent_path(), new_name, files)) return changed;
   }
   DeclaredMechanism mechanism = file.mechanism;
-  declared_table(mechanism) = beside;
+  declared_table(mechanism) = new_name;
   return write_mechanism(mechanism);
 }
 

@@ -21,30 +21,31 @@
 namespace fusee::pipeline {
 namespace {
 
-// Beyond this angle a lever point between two pins meets a dead centre or a pin for nearly all proportions.
+// Beyond this joint angle a lever point between two pins meets a dead centre or a pin for nearly all proportions.
 constexpr double k_lever_reach = radians(40.0);
 // Rotation that leaves room for both knots on a pulley of one turn.
 constexpr double k_one_turn = radians(280.0);
 // Arc of a tendon that stays on the drum at the end of the range.
 constexpr double k_least_wrap = radians(8.0);
 // A guide thicker than a rod of 12 mm, or with a tension that wears a sliding tendon, is an idler on ball bearings.
-// They are of type 623: 10 mm outside, balls on half a pitch circle of 3.3 mm.
-constexpr double k_thickest_pin = 6.0;
-constexpr double k_tension_on_pin = 100.0;
-constexpr double k_least_idler = 8.0;
-constexpr double k_least_length_with_idlers = 60.0;
+// They are of type 623: 10 mm outside diameter, balls on a pitch radius of 3.3 mm.
+constexpr double k_thickest_pin = 6.0;               // radius, mm
+constexpr double k_tension_on_pin = 100.0;           // N
+constexpr double k_least_idler = 8.0;                // radius, mm
+constexpr double k_least_length_with_idlers = 60.0;  // of the link, mm
 // Pitch radius of the largest drum over the link length: beyond it the build warns that the tendon breaks.
 constexpr double k_widest_drum = 0.5;
-// A drum that is only wider for features of the pulley is kept below that.
+// Limit for a drum that is wider only because features of the pulley require space.
 constexpr double k_widest_drum_for_features = 0.45;
 // Links up to this length get a lever, mm: the proportions of a longer one exceed the bounds of the keys.
 constexpr double k_longest_lever = 5000.0;
 // Full builds of candidates for one search.
 constexpr int k_max_layout_builds = 6;
-constexpr int k_max_trial_builds = 3;  // if LayoutRequirements::any
+// Full builds if the first layout that builds suffices.
+constexpr int k_max_trial_builds = 3;
 
 /// The value as it is written to the file, with three digits.
-double tidy(double value) { return std::stod(rounded(value, 3)); }
+double in_three_digits(double value) { return std::stod(rounded(value, 3)); }
 
 /// The largest torque of the declared load about the joint, N·mm.
 double torque_of(const Mechanism& mechanism) {
@@ -52,38 +53,39 @@ double torque_of(const Mechanism& mechanism) {
   return std::abs(load.tip_force) * mechanism.joint.R + std::abs(load.torque) + transmission::weight_moment(load);
 }
 
-/// Moves the pitch radius of a drum, its guides and both ends to places at which the tendons stay on the drum over the
-/// whole range. `reach`: largest pitch radius of the pulley. mm
+/// Sets a drum, its guides and both tendon ends so that the tendons stay on the drum over the whole range. `rho`: pitch
+/// radius of the drum; `reach`: largest pitch radius of the pulley, both mm.
 void put_drum(Mechanism& mechanism, double rho, double reach) {
   const double d = mechanism.tendon.diameter, guide = mechanism.guide_pitch_radius();
   Joint& joint = mechanism.joint;
-  joint.drum_radius = tidy(rho - 0.5 * d);
+  joint.drum_radius = in_three_digits(rho - 0.5 * d);
   rho = mechanism.drum_pitch_radius();
   Guides& guides = mechanism.guides;
-  guides.OE = tidy(rho + guide + 2.0 * std::max(mechanism.guides.radius, d));
+  guides.OE = in_three_digits(rho + guide + 2.0 * std::max(mechanism.guides.radius, d));
   // Outside both the drum and the pulley, so that each tendon bends round its guide.
-  guides.EB = guides.ED = tidy(std::max(std::max(rho, reach) - guide + 0.18 * guides.OE, 0.5 * guide));
+  guides.EB = guides.ED = in_three_digits(std::max(std::max(rho, reach) - guide + 0.18 * guides.OE, 0.5 * guide));
   const double flange = reach - 0.5 * d + mechanism.groove_depth();
-  mechanism.pulley.EF = tidy(guides.radius + flange + std::max(3.0, 0.4 * flange));
+  mechanism.pulley.EF = in_three_digits(guides.radius + flange + std::max(3.0, 0.4 * flange));
   const Vec2 pin(guides.ED, -guides.OE);
+  // Angle at which tendon 2 leaves the drum at home: the common tangent of drum and guide.
   const double normal = elementary::atan2(pin.y(), pin.x()) + elementary::acos((rho - guide) / pin.norm());
   // Ends between the drum's surface and its pitch circle are moved onto the pitch circle when the file is read.
-  const double end = rho - 0.25 * d;
-  const auto written = [end](double angle) {
-    return Attachment{std::stod(fixed(end * elementary::cos(angle), 3)),
-                      std::stod(fixed(end * elementary::sin(angle), 3))};
+  const double end_radius = rho - 0.25 * d;
+  const auto end_at = [end_radius](double angle) {
+    return Attachment{std::stod(fixed(end_radius * elementary::cos(angle), 3)),
+                      std::stod(fixed(end_radius * elementary::sin(angle), 3))};
   };
-  joint.attachment1 = written(k_pi - normal - k_least_wrap + joint.theta_min);
-  joint.attachment2 = written(normal + k_least_wrap + joint.theta_max);
+  joint.attachment1 = end_at(k_pi - normal - k_least_wrap + joint.theta_min);
+  joint.attachment2 = end_at(normal + k_least_wrap + joint.theta_max);
 }
 
-/// The proportions of the paper's optimum at this link length.
+/// Sets guides and pulley to the proportions of the paper's optimum at this link length. `r1`: mm.
 void put_lever(Mechanism& mechanism, double r1) {
   const double R = mechanism.joint.R;
-  mechanism.guides.EB = mechanism.guides.ED = tidy(0.5 * R);
-  mechanism.guides.OE = tidy(-0.4 * R);
-  mechanism.pulley.EF = tidy(1.2 * R);
-  mechanism.pulley.r1 = tidy(r1);
+  mechanism.guides.EB = mechanism.guides.ED = in_three_digits(0.5 * R);
+  mechanism.guides.OE = in_three_digits(-0.4 * R);
+  mechanism.pulley.EF = in_three_digits(1.2 * R);
+  mechanism.pulley.r1 = in_three_digits(r1);
 }
 
 struct Candidate {
@@ -95,12 +97,13 @@ struct Candidate {
 /// The candidates for one set of requirements, in order of preference.
 class Candidates {
  public:
-  explicit Candidates(const LayoutRequirements& requirements) : needs_(requirements), joint_(requirements.joint) {
+  explicit Candidates(const LayoutRequirements& requirements)
+      : requirements_(requirements), joint_(requirements.joint) {
     const double d = joint_.tendon.diameter;
     span_ = joint_.joint.theta_max - joint_.joint.theta_min;
     bend_ = 0.5 * joint_.tendon.bend_ratio * d;
-    largest_ = 0.5 * needs_.room - joint_.groove_depth() + 0.5 * d;
-    turn_ = needs_.travel > 0 ? std::min(k_one_turn, 0.95 * needs_.travel) : k_one_turn;
+    largest_ = 0.5 * requirements_.room - joint_.groove_depth() + 0.5 * d;
+    turn_ = requirements_.travel > 0 ? std::min(k_one_turn, 0.95 * requirements_.travel) : k_one_turn;
     const auto strength = analysis::likely_strength(joint_.tendon);
     // Twice the load, since knots and friction are known to a factor only.
     strong_ = strength ? std::min(2.0 * torque_of(joint_) / strength->at_knot, k_widest_drum * joint_.joint.R) : 0;
@@ -111,6 +114,7 @@ class Candidates {
 
   std::vector<Candidate> all() {
     if (!(largest_ > 0)) return {};
+    // Pitch radii of a drum, mm: the least, the usual one, and the largest with which one turn of the pulley suffices.
     const double least = std::max({bend_, strong_, 1.5 + joint_.tendon.diameter});
     const double usual = std::max(0.15 * joint_.joint.R, least);
     const double fitting = largest_ * turn_ / span_;
@@ -118,8 +122,8 @@ class Candidates {
     if (usual <= fitting) add_drum(usual);
     if (fitting >= least) add_drum(std::min(usual, fitting));
     add_wider_drums(std::min(usual, fitting));
-    if (needs_.travel == 0) add_turns(usual);
-    // Beyond a limit of bends or strength: the build warns.
+    if (requirements_.travel == 0) add_turns(usual);
+    // Last, a drum beyond a limit of bends or strength: its build has warnings.
     add_drum(std::min(fitting, usual));
     return std::move(all_);
   }
@@ -138,7 +142,7 @@ class Candidates {
     }
   }
 
-  /// One turn: the smallest pulley first.
+  /// Drums of one pitch radius with pulleys of one turn, the smallest pulley first.
   void add_drum(double rho) {
     double r1 = std::max({rho * span_ / turn_, bend_, 0.5 * joint_.tendon.diameter + 1.0});
     for (; r1 < largest_; r1 *= 1.3) add_drum_with(rho, r1, "a drum on the joint");
@@ -166,7 +170,7 @@ class Candidates {
   void add_drum_with(double rho, double r1, const char* words) {
     if (!(rho > 0.6 * joint_.tendon.diameter)) return;
     Candidate candidate = with_guides(rho, words);
-    candidate.mechanism.pulley.r1 = std::min(tidy(r1), std::floor(1e3 * largest_) / 1e3);
+    candidate.mechanism.pulley.r1 = std::min(in_three_digits(r1), std::floor(1e3 * largest_) / 1e3);
     put_drum(candidate.mechanism, rho, candidate.mechanism.pulley.r1);
     candidate.is_spare = candidate.mechanism.pulley.r1 > rho;
     const auto is_same = [&candidate](const Candidate& other) {
@@ -189,31 +193,36 @@ class Candidates {
       guides.bearing_radius = 3.3;
       guides.bearing_friction = 0.003;
     }
-    guides.radius = tidy(guides.radius);
+    guides.radius = in_three_digits(guides.radius);
     candidate.words += guides.kind == GuideKind::idler ? ", tendons over idlers" : ", tendons over pins";
     return candidate;
   }
 
-  const LayoutRequirements& needs_;
-  DeclaredMechanism joint_;
-  double span_ = 0, bend_ = 0, largest_ = 0, turn_ = 0;
-  double strong_ = 0;  ///< least moment arm at which the knots hold twice the load, mm
+  const LayoutRequirements& requirements_;
+  DeclaredMechanism joint_;  ///< without a layout
+  double span_ = 0;          ///< range of θ, rad
+  double bend_ = 0;          ///< least pitch radius around which the tendon may be bent, mm
+  double largest_ = 0;       ///< largest pitch radius of a pulley within the room, mm
+  double turn_ = 0;          ///< largest rotation of a pulley of one turn, rad
+  double strong_ = 0;        ///< least moment arm at which the knots hold twice the load, mm
   std::vector<Candidate> all_;
 };
 
-/// Why a pulley is infeasible by a quick check without a mesh; empty if nothing was found.
+/// The reason why a pulley is infeasible, by a quick check without a mesh; empty if none was found.
 std::optional<std::string> quick_obstacle(const DeclaredMechanism& declared) {
   const Curves curves = curves_of(declared);
   const Mechanism& mechanism = curves.joint.mechanism;
   if (!curves.obstacles.empty()) {
-    const bool turns = std::all_of(curves.obstacles.begin(), curves.obstacles.end(), profile::is_of_one_turn);
-    if (!turns || profile::kept_to_one_turn(mechanism)) return curves.obstacles.front().message;
+    const bool several_turns_may_help =
+        std::all_of(curves.obstacles.begin(), curves.obstacles.end(), profile::is_of_one_turn);
+    if (!several_turns_may_help || profile::kept_to_one_turn(mechanism)) return curves.obstacles.front().message;
     return obstacle_to_multi_turn(mechanism);
   }
   const std::vector<profile::Condition> of_body = solid::body_obstacles(mechanism, curves.synthesis);
   return of_body.empty() ? std::nullopt : std::optional(of_body.front().message);
 }
 
+/// Diameter of a pulley about its axis, mm.
 double diameter_of(const solid::TriangleMesh& mesh) {
   double reach = 0;
   for (const Vec3& vertex : mesh.vertices) reach = std::max(reach, elementary::hypot(vertex.x(), vertex.y()));
@@ -221,7 +230,7 @@ double diameter_of(const solid::TriangleMesh& mesh) {
 }
 
 /// A copy with the radius of P1 rounded down to 0.01 mm.
-DeclaredMechanism with_tidy_radius(DeclaredMechanism mechanism) {
+DeclaredMechanism with_rounded_radius(DeclaredMechanism mechanism) {
   mechanism.pulley.r1 = std::floor(100.0 * mechanism.pulley.r1) / 100.0;
   return mechanism;
 }
@@ -236,7 +245,8 @@ bool exceeds_its_motors(const Mechanism& mechanism) {
   return analysis::under_load(joint).motor->torque.value > strongest->stall_torque;
 }
 
-/// Shortcomings by their weight: the set screw holds the pulley, the channels hold the tendons, the home mark aligns it.
+/// Sum of weighted shortcomings: the set screw holds the pulley, the channels hold the tendons, the home mark aligns
+/// it.
 std::size_t shortcomings(const solid::BodyLayout& layout, const Mechanism& mechanism) {
   std::size_t weight = layout.notes.size() + (exceeds_its_motors(mechanism) ? 4 : 0);
   for (const solid::Omission& omission : layout.omissions) {
@@ -246,7 +256,7 @@ std::size_t shortcomings(const solid::BodyLayout& layout, const Mechanism& mecha
   return weight;
 }
 
-/// Shortcomings of a plan, without a mesh; 0 if only a build can tell.
+/// Shortcomings of a plan, without a mesh; 0 if only a build determines them.
 std::size_t planned_shortcomings(const DeclaredMechanism& declared) {
   const Curves curves = curves_of(declared);
   if (!curves.obstacles.empty()) return 0;
@@ -273,6 +283,7 @@ double arm_of(const ChosenLayout& layout) {
   return mechanism.joint.drum_radius > 0 ? mechanism.drum_pitch_radius() : layout.built.product.synthesis.home()->t1.m;
 }
 
+/// The first failed condition or check of a build.
 std::optional<std::string> first_reason(const BuildResult& built) {
   const formats::Product& product = built.product;
   const auto& conditions = product.synthesis.made() ? product.pulley.conditions : product.synthesis.conditions;
@@ -283,9 +294,10 @@ std::optional<std::string> first_reason(const BuildResult& built) {
   return std::nullopt;
 }
 
-/// The dry build of a candidate, or why it does not meet the requirements.
-std::optional<std::string> built_or_reason(const LayoutRequirements& needs, ChosenLayout& layout,
-                                           const RunContext& context) {
+/// Fills `layout` by a dry build of its file. Returns the reason why it does not meet the requirements; empty if it
+/// does.
+std::optional<std::string> build_layout(const LayoutRequirements& needs, ChosenLayout& layout,
+                                        const RunContext& context) {
   BuildOptions options;
   options.dry_run = options.force = true;
   options.advice = false;
@@ -311,26 +323,27 @@ LayoutSearch choose_layout(const LayoutRequirements& requirements, const Candida
   int builds = 0;
   for (Candidate& candidate : Candidates(requirements).all()) {
     if (search.chosen && (requirements.any || candidate.is_spare)) continue;
-    // A larger pulley of the same layout may have more features; another layout is not better.
+    // Without warnings, only a larger pulley of the same layout can be better: it may have more features.
     if (search.chosen && best.warnings == 0 && (best.shortcomings == 0 || candidate.words != search.chosen->words))
       break;
     context.begin_step("trying " + candidate.words);
     ChosenLayout layout{file_of(candidate.mechanism), candidate.words, {}, 0, 0, 0};
     if (std::optional<std::string> obstacle = quick_obstacle(layout.file.mechanism)) {
-      if (builds == 0) search.obstacle = std::move(*obstacle);  // the last candidate's: it has the most space
+      if (builds == 0)
+        search.obstacle = std::move(*obstacle);  // the last one remains: its candidate has the most space
       continue;
     }
     const bool may_be_better =
         !search.chosen || best.warnings > 0 || planned_shortcomings(layout.file.mechanism) < best.shortcomings;
     if (!may_be_better) continue;
     if (builds++ == (requirements.any ? k_max_trial_builds : k_max_layout_builds)) break;
-    std::optional<std::string> obstacle = built_or_reason(requirements, layout, context);
+    std::optional<std::string> obstacle = build_layout(requirements, layout, context);
     const double excess = 0.5 * (layout.diameter - requirements.room) + 0.02;
     if (obstacle && layout.diameter > requirements.room && excess < 0.3 * candidate.mechanism.pulley.r1) {
-      // The flange covers the tie-offs, too: its overhang is known now.
+      // The flange also covers the tie-offs. Only the build has determined by how much it exceeds the groove.
       candidate.mechanism.pulley.r1 -= excess;
-      layout.file = file_of(with_tidy_radius(candidate.mechanism));
-      if (!quick_obstacle(layout.file.mechanism)) obstacle = built_or_reason(requirements, layout, context);
+      layout.file = file_of(with_rounded_radius(candidate.mechanism));
+      if (!quick_obstacle(layout.file.mechanism)) obstacle = build_layout(requirements, layout, context);
     }
     if (obstacle) {
       search.obstacle = std::move(*obstacle);
@@ -359,6 +372,7 @@ bool is_range_the_obstacle(const Mechanism& mechanism) {
   return !profile::obstacle_but_one_turn(narrow);
 }
 
+/// Keys of the layout whose values differ, with the new values.
 std::vector<std::pair<std::string, std::string>> settings_of(const DeclaredMechanism& changed,
                                                              const DeclaredMechanism& before) {
   std::vector<std::pair<std::string, std::string>> settings;
@@ -377,7 +391,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const DeclaredMecha
   return settings;
 }
 
-/// α per θ of a law that prescribes it.
+/// Mean dα/dθ of a law that prescribes α; 0 if it has none.
 double mean_ratio(const Mechanism& mechanism) {
   if (mechanism.pulley.law == Law::linear) return std::abs(mechanism.pulley.ratio);
   const std::vector<LawRow>& rows = mechanism.pulley.rows;
@@ -397,7 +411,7 @@ std::vector<DeclaredMechanism> drums_for(const DeclaredMechanism& declared) {
     DeclaredMechanism changed = declared;
     double reach = 0, rho = 0;
     if (has_r1) {
-      changed.pulley.r1 = larger == 1.0 ? declared.pulley.r1 : tidy(larger * declared.pulley.r1);
+      changed.pulley.r1 = larger == 1.0 ? declared.pulley.r1 : in_three_digits(larger * declared.pulley.r1);
       reach = changed.pulley.r1;
       rho = std::min(std::max(usual, bend), reach * k_one_turn / span);
     } else {

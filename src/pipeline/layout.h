@@ -18,11 +18,11 @@ struct LayoutRequirements {
   /// Link length, range, load, tendon and bore. The layout replaces drum, attachments, guides, pulley place and r1.
   DeclaredMechanism joint;
   double room = 0;    ///< largest diameter of the pulley, mm
-  double travel = 0;  ///< rotation of the motor, rad; 0: unlimited
+  double travel = 0;  ///< largest rotation of the motor, rad; 0: unlimited
   bool any = false;   ///< the first layout that builds suffices
 };
 
-/// The file of a candidate: what a user would read back. Throws InputError.
+/// Makes the file of a candidate, as it would be read from the disk. Throws InputError.
 using CandidateFile = std::function<MechanismFile(const DeclaredMechanism&)>;
 
 /// A layout whose full build passes every check, in the room and within the motor's travel.
@@ -31,13 +31,13 @@ struct ChosenLayout {
   std::string words;    ///< "a drum on the joint, tendons over pins"
   BuildResult built;    ///< of a dry run
   double diameter = 0;  ///< of the pulley, mm
-  double travel = 0;    ///< of the pulley, rad
-  double tension = 0;   ///< that the declared load puts on a tendon, N, without pretension
+  double travel = 0;    ///< rotation of the pulley over the range, rad
+  double tension = 0;   ///< tension by the declared load, without pretension, N
 };
 
 struct LayoutSearch {
   std::optional<ChosenLayout> chosen;
-  std::string obstacle;  ///< without a choice: why the candidate that came nearest fails
+  std::string obstacle;  ///< without a choice: why the last candidate that was built, or else the last one, fails
 };
 
 /// Tries candidates by a quick check, then by full dry builds, in order of preference: a lever where the range allows

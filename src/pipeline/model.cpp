@@ -11,18 +11,20 @@
 namespace fusee::pipeline {
 namespace {
 
-constexpr std::size_t k_largest_csv = 8 << 20;
+constexpr std::size_t k_largest_input = 8 << 20;  // bytes
+/// Largest counts of the table's 32-bit integers, which end at 2.1·10⁹.
+constexpr double k_most_counts = 2e9;
 const std::vector<std::string> k_model_names = {
     "joint.xml",     "joint_tendons.xml", "joint.urdf",   "joint_ros2_control.urdf",
     "joint_table.h", "joint_table.json",  "manifest.json"};
 
 /// compensation.csv that calibrate() wrote next to its corrected.toml, as confirmed by both manifests.
 std::optional<std::filesystem::path> compensation_beside(const MechanismFile& file, FileAccess& files) {
-  const std::filesystem::path spec = file.path, csv = spec.parent_path() / "compensation.csv";
+  const std::filesystem::path mechanism = file.path, csv = mechanism.parent_path() / "compensation.csv";
   try {
-    const std::string manifest = read_file(spec.parent_path() / "manifest.json", k_largest_csv, files);
-    if (!formats::names_output(manifest, spec.filename().string(), file.sha256)) return std::nullopt;
-    if (!formats::names_output(manifest, csv.filename().string(), sha256(read_file(csv, k_largest_csv, files))))
+    const std::string manifest = read_file(mechanism.parent_path() / "manifest.json", k_largest_input, files);
+    if (!formats::names_output(manifest, mechanism.filename().string(), file.sha256)) return std::nullopt;
+    if (!formats::names_output(manifest, csv.filename().string(), sha256(read_file(csv, k_largest_input, files))))
       return std::nullopt;
     return csv;
   } catch (const InputError&) {
@@ -34,26 +36,26 @@ void take_compensation(formats::ModelProduct& product, const ModelOptions& optio
   const auto path = options.compensation ? options.compensation : compensation_beside(product.file, files);
   if (!path || path->empty()) return;
   const std::vector<model::TwoWayRow> rows =
-      model::read_compensation(read_file(*path, k_largest_csv, files), path->string());
+      model::read_compensation(read_file(*path, k_largest_input, files), path->string());
   product.curves.sensed = model::two_way_curve(model::refined(rows, transmission::Transmission(product.file.mechanism)),
                                                model::CurveSource::compensation);
   product.compensation = path->filename().string();
 }
 
-/// Throws unless the counts of the whole range fit into 32 bits.
+/// Throws unless the counts of the whole range, and a tenth beyond it, fit into 32 bits.
 void demand_countable(const formats::ModelProduct& product, const model::MotorUnit& unit) {
   if (!unit.ticks) return;
   double most = 0;
   for (const double alpha : {product.curves.sensed.middle.alpha_min, product.curves.sensed.middle.alpha_max})
     most = std::max(most, std::abs(unit.of(1.1 * alpha)));
-  if (most > 2e9)
+  if (most > k_most_counts)
     throw InputError("--ticks-per-turn", "counts of this joint reach " + rounded(most) + ": too large for 32 bits",
                      "use fewer counts a turn, or a --zero-ticks nearer to 0");
 }
 
 // ---- changes that make it possible ----------------------------------------------------------------------------------
 
-/// Rounded up to three digits, deg.
+/// The angle in deg, rounded up to three digits.
 std::string limit_deg(double angle) {
   const double value = degrees(angle), scale = elementary::pow(10.0, 2 - std::floor(elementary::log10(value)));
   return rounded(std::ceil(value * scale) / scale, 3);
@@ -67,6 +69,7 @@ DeclaredMechanism narrowed(DeclaredMechanism mechanism, double share) {
   return mechanism;
 }
 
+/// True if a polynomial has an error of at most `most`, rad.
 bool has_polynomial(const DeclaredMechanism& mechanism, double most) {
   if (!(mechanism.joint.theta_max > mechanism.joint.theta_min)) return false;
   const transmission::Transmission law(mechanism);
@@ -80,10 +83,13 @@ std::vector<ModelChange> changes_for_polynomial(const formats::ModelProduct& pro
   if (product.equality.error < radians(k_largest_limit_deg))
     changes.push_back({"--max-error-deg " + limit_deg(product.equality.error)});
   if (product.tendons) changes.push_back({"--no-polynomial"});
-  double possible = 0, impossible = 1;
+  double possible = 0, impossible = 1;  // shares of the range, by bisection
   for (int i = 0; i < 8; ++i) {
     const double share = 0.5 * (possible + impossible);
-    (has_polynomial(narrowed(product.file.mechanism, share), options.most_error) ? possible : impossible) = share;
+    if (has_polynomial(narrowed(product.file.mechanism, share), options.most_error))
+      possible = share;
+    else
+      impossible = share;
   }
   if (possible > 0) {
     const Joint joint = narrowed(product.file.mechanism, possible).joint;
@@ -145,6 +151,7 @@ bool find_curves(ModelResult& result, const ModelOptions& options, FileAccess& f
   return true;
 }
 
+/// False if a polynomial or table is not accurate enough; the reason is in `result`.
 bool find_fits(ModelResult& result, const ModelOptions& options, const RunContext& context) {
   formats::ModelProduct& product = result.product;
   const model::AngleMap& map = product.curves.physical.middle;

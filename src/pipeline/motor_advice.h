@@ -7,8 +7,8 @@
 
 namespace fusee::pipeline {
 
-/// Changes of a pulley that can be made with which the motor suffices, each confirmed by a full build. product.joint
-/// and product.synthesis must be designed, and product.pulley too if `product` has a helix.
+/// Changes of a feasible pulley with which the motor suffices, each confirmed by a full build. product.joint and
+/// product.synthesis must be designed, and product.pulley too if `product` has a helix.
 profile::Advice motor_advice(const formats::Product& product, const BuildOptions& options, const RunContext& context);
 
 }  // namespace fusee::pipeline

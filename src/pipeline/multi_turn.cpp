@@ -30,7 +30,7 @@ helix::HelixGroove groove_of(const Mechanism& mechanism) {
       [section](double step) { return helical_solid::least_lead(section, -step); }};
 }
 
-/// Properties of multi-turn pulleys that the body's tables do not contain.
+/// Notes on properties of multi-turn pulleys that the body's tables do not contain.
 std::vector<std::string> notes_of(const Mechanism& mechanism, const formats::HelixProduct& helix) {
   const helical_solid::TendonsLaid ends = helix.laid(mechanism.guides.collar);
   const std::string where = mechanism.guides.collar ? "the guides' collars hold the tendons at the heights "
@@ -53,7 +53,7 @@ std::vector<std::string> notes_of(const Mechanism& mechanism, const formats::Hel
   return notes;
 }
 
-/// A body is refused, with no file, if its tie-offs do not fit or need support.
+/// Failed checks of the body as conditions: a body whose tie-offs do not fit or need support is infeasible.
 std::vector<profile::Condition> faults_of(const Mechanism& mechanism, const helical_solid::HelicalPulley& pulley,
                                           const solid::TriangleMesh& mesh) {
   std::vector<Check> checks =
@@ -94,28 +94,29 @@ bool is_multi_turn(const DeclaredMechanism& mechanism) {
   return profile::needs_multi_turn(profile::synthesise(mechanism, options));
 }
 
-/// Effect of the slope φ of tendon paths on forces that are computed for level tendons. A tension T turns the joint
-/// with T cos φ. For constant rise, a path of planar length L grows by cos φ dL and is L/cos φ long: its compliance is
-/// that of a planar tendon with EA cos³φ.
+/// Note on the effect of the slope φ of tendon paths, since forces are computed for level tendons. A tension T turns
+/// the joint with T cos φ. A path of planar length L is L/cos φ long, and grows by cos φ dL at constant rise. Its
+/// compliance is that of a planar tendon with EA cos³φ.
 std::string words_on_slopes(const Mechanism& mechanism) {
   constexpr double k_noted_theta = radians(0.001);
   const helix::HelixSynthesis helix = brief_synthesis(mechanism);
   const std::string start = "the tendons are wound several times: angles and forces are computed for level tendons";
   if (helix.sides[0].stroke.empty()) return start;
-  double steepest = 0, off = 0;
+  double steepest = 0;          // slope, rad
+  double theta_difference = 0;  // rad
   const transmission::Transmission level(mechanism);
   for (std::size_t i = 0; i < helix.stroke.size(); ++i) {
     for (const helix::HelixSide& side : helix.sides) steepest = std::max(steepest, std::abs(side.stroke[i].slope));
-    off = std::max(off, std::abs(level.theta(helix.stroke[i].alpha) - helix.stroke[i].theta));
+    theta_difference = std::max(theta_difference, std::abs(level.theta(helix.stroke[i].alpha) - helix.stroke[i].theta));
   }
-  const auto more = [steepest](int power) {
+  const auto percent_more = [steepest](int power) {
     return rounded(100.0 * (elementary::pow(elementary::cos(steepest), -power) - 1.0), 2);
   };
   std::string words = start + ". Their paths slope by up to " + rounded(degrees(steepest), 3) +
-                      "°, which increases tensions by up to " + more(1) + " % and their stretch by up to " + more(3) +
-                      " %";
-  if (off > k_noted_theta)
-    words += "; the effect of guides.collar on theta, up to " + rounded(degrees(off), 2) + "°, is omitted";
+                      "°, which increases tensions by up to " + percent_more(1) + " % and their stretch by up to " +
+                      percent_more(3) + " %";
+  if (theta_difference > k_noted_theta)
+    words += "; the effect of guides.collar on theta, up to " + rounded(degrees(theta_difference), 2) + "°, is omitted";
   return words;
 }
 
@@ -133,12 +134,13 @@ helical_solid::FloorLine as_made(helical_solid::FloorLine drawn, const OutlineEr
   Polygon plan;
   for (const Vec3& point : drawn) plan.push_back(point.head<2>());
   // Half-planes meet each side of the floor's polygon several times, so a normal averages several sides.
-  constexpr std::size_t k_beside = 14;
-  plan = joint::line_as_made(std::move(plan), outline, k_beside);
+  constexpr std::size_t k_averaged_sides = 14;
+  plan = joint::line_as_made(std::move(plan), outline, k_averaged_sides);
   for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i].head<2>() = plan[i];
   return drawn;
 }
 
+/// Copies the results of the helical synthesis that both kinds of pulley have.
 void adopt_synthesis(formats::Product& product, const formats::HelixProduct& helix) {
   profile::SynthesisResult& synthesis = product.synthesis;
   synthesis = {};
@@ -218,9 +220,10 @@ bool design_multi_turn(formats::Product& product, double chord_error_mm, const R
 
 namespace {
 
-/// A string on a polygon inscribed in its curve is too short by a share of the tolerance per radian of winding. If the
-/// excess length over the range exceeds its limit, the curves are drawn again, as finely as the limit requires
-/// (campaign of seed 620001, design 316: 10.5 rad, 0.11 mm of excess length).
+/// Designs a multi-turn pulley within the limit of excess length. A string on a polygon inscribed in its curve is too
+/// short by a share of the chord error per radian of winding. If the excess length over the range exceeds its limit,
+/// the curves are drawn again, as finely as the limit requires (campaign of seed 620001, design 316: 10.5 rad, 0.11 mm
+/// of excess length).
 bool design_turns_within(formats::Product& product, double chord_error_mm, const AsBuiltLimits& limits,
                          const RunContext& context, solid::TieOffSearch search) {
   if (!design_multi_turn(product, chord_error_mm, context, search)) return false;
@@ -268,6 +271,7 @@ std::vector<Check> check_multi_turn(const formats::Product& product, const solid
 
 namespace {
 
+/// Keys of the body that advice may change; optional ones only if the file has them.
 std::vector<std::string> keys_of_body(const DeclaredMechanism& mechanism) {
   std::vector<std::string> keys{"body.lead_mm", "body.spare_turns", "body.groove_depth_mm", "body.groove_angle_deg"};
   for (const char* key : {"body.bore_diameter_mm", "body.bore_flat_mm", "body.knot_pocket_mm", "body.anchor_hole_mm",
@@ -356,6 +360,7 @@ class MultiTurnCheck {
   int builds_left() const { return std::max(2, static_cast<int>(k_rows_for_advice / most_rows_)) - begun_; }
 
  private:
+  /// Raises most_rows_ to `rows`; called by several threads.
   void record_size(double rows) {
     double known = most_rows_;
     while (rows > known && !most_rows_.compare_exchange_weak(known, rows)) {
@@ -364,8 +369,8 @@ class MultiTurnCheck {
 
   const DeclaredMechanism& declared_;
   const MultiTurnTrial& trial_;
-  std::atomic<double> most_rows_ = 1;
-  std::atomic<int> begun_ = 0;
+  std::atomic<double> most_rows_ = 1;  ///< of the feasible variants so far
+  std::atomic<int> begun_ = 0;         ///< full builds
 };
 
 }  // namespace
@@ -377,13 +382,13 @@ profile::Advice multi_turn_advice(const formats::Product& product, const MultiTu
       .made = [&check](const Mechanism& changed) { return check.make(changed); },
       .is_expensive = true,
       .builds_left = [&check] { return check.builds_left(); }};
-  DeclaredMechanism in_one = product.file.mechanism;
+  DeclaredMechanism in_one_part = product.file.mechanism;
   const Field& parts = *find_field("print.parts");
-  if (const std::string from = parts.get_text(in_one); from == "two") {
-    parts.set_text(in_one, "one");
-    if (judge.obstacles(in_one).empty() && judge.made(in_one)) {
+  if (const std::string declared_parts = parts.get_text(in_one_part); declared_parts == "two") {
+    parts.set_text(in_one_part, "one");
+    if (judge.obstacles(in_one_part).empty() && judge.made(in_one_part)) {
       profile::Advice advice;
-      advice.alone.push_back({"print.parts", 0, 0, {}, "print.parts = \"one\"", from, "one"});
+      advice.alone.push_back({"print.parts", 0, 0, {}, "print.parts = \"one\"", declared_parts, "one"});
       return advice;
     }
   }
@@ -406,12 +411,13 @@ kit::TendonHeights tendon_heights(const formats::Product& product) {
     }
     const transmission::Side side = i == 0 ? transmission::Side::left : transmission::Side::right;
     const transmission::PinPlace place = transmission::pin_place(mechanism, side, rho);
-    const helical_solid::SpiralPlace& lies = i == 0 ? product.helix->pulley.p1 : product.helix->pulley.p2;
+    const helical_solid::SpiralPlace& spiral = i == 0 ? product.helix->pulley.p1 : product.helix->pulley.p2;
     const std::vector<helix::HelixPoint>& stroke = product.helix->synthesis.sides.at(i).stroke;
     for (std::size_t k = 0; k < stroke.size(); ++k) {
       const transmission::TransmissionPoint& at = product.synthesis.stroke.at(k);
       const transmission::TendonPoint& tendon = i == 0 ? at.t1 : at.t2;
-      const double rise = lies.direction * elementary::tan(stroke[k].slope);
+      // Rise of the tendon per planar length.
+      const double rise = spiral.direction * elementary::tan(stroke[k].slope);
       guide.include(end + rise * tendon.free_upper);
       guide.include(end + rise * (tendon.free_upper + rho * tendon.wrap));
       heights.drum.include(end +

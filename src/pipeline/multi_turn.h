@@ -33,7 +33,7 @@ bool design_multi_turn(formats::Product& product, double chord_error_mm, const R
 bool design_any(formats::Product& product, double chord_error_mm, const AsBuiltLimits& limits,
                 const RunContext& context, solid::TieOffSearch search = solid::TieOffSearch::thorough);
 
-/// Heights of the tendons above the pulley's lower face, on guides and drum.
+/// Heights of the tendons above the pulley's lower face, on guides and drum, mm.
 kit::TendonHeights tendon_heights(const formats::Product& product);
 
 /// Winds tendons in space on the grooves of a mesh.
@@ -51,7 +51,7 @@ std::optional<std::string> obstacle_to_multi_turn(const Mechanism& mechanism);
 /// Functions with which advice on several turns is tested.
 struct MultiTurnTrial {
   double chord_error_mm = 0;                   ///< chord error of the pulleys, mm
-  std::function<bool(const Mechanism&)> made;  ///< the full build with checks
+  std::function<bool(const Mechanism&)> made;  ///< true if a full build passes every check
   const RunContext& context;                   ///< a request to stop ends the search
 };
 /// Changes that make a refused multi-turn pulley possible.

@@ -15,51 +15,51 @@
 namespace fusee::pipeline {
 namespace {
 
-// Steps of a number, as factors. A number that has to triple describes another joint.
+// Factors by which a number is changed. A number that has to triple describes another joint.
 constexpr std::array k_factors{1.05, 1.1, 1.2, 1.35, 1.5, 1.8, 2.2, 3.0};
 // Limits of the search: plans take some milliseconds, builds some tenths of a second.
 constexpr int k_most_plans = 60;
 constexpr int k_most_builds = 6;
-// On larger outlines every build takes seconds.
+// With more outline points every build takes seconds: there is no search.
 constexpr std::size_t k_most_points = 1600;
 
-/// A number to change, its value (of an automatic number, the one that was chosen) and the direction.
-struct Lever {
+/// A number of the mechanism to change, and the direction of the change.
+struct NumberChange {
   const char* key;
-  double value = 0;
-  bool grows = true;
+  double value = 0;   ///< present value; for an automatic number the chosen one
+  bool grows = true;  ///< false: it shrinks
 };
 
 /// A changed mechanism with its number.
 struct Trial {
-  Lever lever;
-  double to = 0;
+  NumberChange change;
+  double new_value = 0;
   Mechanism mechanism;
 };
 
-struct Words {
+struct FeatureWords {
   std::string_view feature, words;
 };
-constexpr std::array k_words{Words{"set_screw", "the set screw"},
-                             Words{"nut", "the nut"},
-                             Words{"hub", "the hub"},
-                             Words{"knot_pocket", "full knot pockets"},
-                             Words{"bore", "the full bore"},
-                             Words{"marks", "the marks"},
-                             Words{"home_mark", "the home mark"},
-                             Words{"clocking_mark", "the clocking mark"},
-                             Words{"label_P1", "the label P1"},
-                             Words{"label_P2", "the label P2"},
-                             Words{"tail_slot_P1", "P1's tail slot"},
-                             Words{"tail_slot_P2", "P2's tail slot"},
-                             Words{"spare_tie_off_P1", "P1's spare tie-off"},
-                             Words{"spare_tie_off_P2", "P2's spare tie-off"},
-                             Words{"channel_P1", "P1's channel"},
-                             Words{"channel_P2", "P2's channel"}};
+constexpr std::array k_words{FeatureWords{"set_screw", "the set screw"},
+                             FeatureWords{"nut", "the nut"},
+                             FeatureWords{"hub", "the hub"},
+                             FeatureWords{"knot_pocket", "full knot pockets"},
+                             FeatureWords{"bore", "the full bore"},
+                             FeatureWords{"marks", "the marks"},
+                             FeatureWords{"home_mark", "the home mark"},
+                             FeatureWords{"clocking_mark", "the clocking mark"},
+                             FeatureWords{"label_P1", "the label P1"},
+                             FeatureWords{"label_P2", "the label P2"},
+                             FeatureWords{"tail_slot_P1", "P1's tail slot"},
+                             FeatureWords{"tail_slot_P2", "P2's tail slot"},
+                             FeatureWords{"spare_tie_off_P1", "P1's spare tie-off"},
+                             FeatureWords{"spare_tie_off_P2", "P2's spare tie-off"},
+                             FeatureWords{"channel_P1", "P1's channel"},
+                             FeatureWords{"channel_P2", "P2's channel"}};
 
 std::string words_of(const std::string& feature) {
-  const auto* found =
-      std::find_if(k_words.begin(), k_words.end(), [&feature](const Words& words) { return words.feature == feature; });
+  const auto* found = std::find_if(k_words.begin(), k_words.end(),
+                                   [&feature](const FeatureWords& entry) { return entry.feature == feature; });
   return found == k_words.end() ? feature : std::string(found->words);
 }
 
@@ -73,7 +73,7 @@ bool has(const std::vector<std::string>& features, const std::string& feature) {
   return std::find(features.begin(), features.end(), feature) != features.end();
 }
 
-/// Rounded to two digits away from the present value, as a person would write it.
+/// The value with two digits, rounded up or down.
 double in_two_digits(double value, bool up) {
   const double unit = elementary::pow(10.0, std::floor(elementary::log10(value)) - 1.0), scaled = value / unit;
   return std::stod(rounded((up ? std::ceil(scaled - 1e-9) : std::floor(scaled + 1e-9)) * unit, 3));
@@ -87,24 +87,23 @@ class OmissionSearch {
   /// The advice about each feature that has one.
   std::map<std::string, std::string> all() {
     std::map<std::string, std::string> advice;
-    for (const Lever& lever : levers()) {
+    for (const NumberChange& change : changes()) {
       for (const double factor : k_factors) {
-        std::vector<std::string> open;
-        std::copy_if(omitted_.begin(), omitted_.end(), std::back_inserter(open),
+        std::vector<std::string> without_advice;
+        std::copy_if(omitted_.begin(), omitted_.end(), std::back_inserter(without_advice),
                      [&](const std::string& feature) { return advice.count(feature) == 0; });
-        if (open.empty() || plans_ == k_most_plans || builds_ == k_most_builds) return advice;
-        const std::optional<Trial> trial = trial_of(lever, factor);
+        if (without_advice.empty() || plans_ == k_most_plans || builds_ == k_most_builds) return advice;
+        const std::optional<Trial> trial = trial_of(change, factor);
         if (!trial) break;
         const auto planned = planned_omissions(*trial);
-        const auto is_back = [](const std::optional<std::vector<std::string>>& omissions) {
-          return [&omissions](const std::string& feature) { return omissions && !has(*omissions, feature); };
-        };
-        if (std::none_of(open.begin(), open.end(), is_back(planned))) continue;
+        const bool brings_one_back = planned && std::any_of(without_advice.begin(), without_advice.end(),
+                                                            [&](const std::string& f) { return !has(*planned, f); });
+        if (!brings_one_back) continue;
         context_.throw_if_stopped();
         ++builds_;
         const auto built = build_(trial->mechanism);
-        for (const std::string& feature : open) {
-          if (is_back(built)(feature)) advice[feature] = sentence(*trial, *built);
+        for (const std::string& feature : without_advice) {
+          if (built && !has(*built, feature)) advice[feature] = sentence(*trial, *built);
         }
       }
     }
@@ -112,12 +111,12 @@ class OmissionSearch {
   }
 
  private:
-  /// Those of the body first, as they change nothing else.
-  std::vector<Lever> levers() const {
+  /// Numbers to change; those of the body first, since they change nothing else.
+  std::vector<NumberChange> changes() const {
     const solid::BodyLayout& layout = product_.pulley.layout;
     const Mechanism& mechanism = product_.file.mechanism;
     const Body& body = mechanism.body;
-    std::vector<Lever> all;
+    std::vector<NumberChange> all;
     const bool at_hub = std::any_of(omitted_.begin(), omitted_.end(), [](const std::string& feature) {
       return !feature.ends_with("_P1") && feature != "clocking_mark" && feature != "bore" && feature != "marks";
     });
@@ -141,20 +140,21 @@ class OmissionSearch {
     return all;
   }
 
-  std::optional<Trial> trial_of(const Lever& lever, double factor) const {
-    const Field& field = *find_field(lever.key);
-    if (!(lever.value > 0)) return std::nullopt;
-    Trial trial{lever, in_two_digits(lever.grows ? lever.value * factor : lever.value / factor, lever.grows),
+  std::optional<Trial> trial_of(const NumberChange& change, double factor) const {
+    const Field& field = *find_field(change.key);
+    if (!(change.value > 0)) return std::nullopt;
+    Trial trial{change, in_two_digits(change.grows ? change.value * factor : change.value / factor, change.grows),
                 product_.file.mechanism};
     // A wall thinner than a line of the nozzle is no advice.
-    if (trial.to < (field.key == "min_wall_mm" ? product_.file.mechanism.print.nozzle : field.least))
+    if (trial.new_value < (field.key == "min_wall_mm" ? product_.file.mechanism.print.nozzle : field.least))
       return std::nullopt;
-    if (trial.to > field.most || trial.to == lever.value) return std::nullopt;
-    set_number(trial.mechanism, field, 0, trial.to);
+    if (trial.new_value > field.most || trial.new_value == change.value) return std::nullopt;
+    set_number(trial.mechanism, field, 0, trial.new_value);
     return trial;
   }
 
-  /// Empty if there is no such body. Multi-turn pulleys are only built.
+  /// Features that a plan of the trial omits; empty if it has no body. Multi-turn pulleys are not planned: none is
+  /// assumed to be omitted.
   std::optional<std::vector<std::string>> planned_omissions(const Trial& trial) {
     ++plans_;
     if (product_.helix) return std::vector<std::string>{};
@@ -164,11 +164,11 @@ class OmissionSearch {
     return plan.is_possible() ? std::optional(features_of(plan.layout)) : std::nullopt;
   }
 
-  /// "try pulley.r1_mm = 11 (now 9)", and what it costs.
+  /// "try pulley.r1_mm = 11 (now 9)", and the further features that it omits.
   std::string sentence(const Trial& trial, const std::vector<std::string>& built) const {
-    const double now = number_of(product_.file.mechanism, *find_field(trial.lever.key));
-    std::string text = fmt::format("try {} = {} (now {})", trial.lever.key, rounded(trial.to, 3),
-                                   now > 0 ? rounded(now) : "automatic, " + rounded(trial.lever.value, 3));
+    const double now = number_of(product_.file.mechanism, *find_field(trial.change.key));
+    std::string text = fmt::format("try {} = {} (now {})", trial.change.key, rounded(trial.new_value, 3),
+                                   now > 0 ? rounded(now) : "automatic, " + rounded(trial.change.value, 3));
     std::string lost;
     for (const std::string& feature : built) {
       if (!has(omitted_, feature)) lost += (lost.empty() ? "" : ", ") + words_of(feature);

@@ -17,8 +17,9 @@ bool joint_differs(DeclaredMechanism declared) {
   return !(joint::identified_joint(declared).mechanism == static_cast<const Mechanism&>(declared));
 }
 
-/// Converts a declared design into the joint that is evaluated. Identified effects add to the declared numbers.
-optimize::JointConverter joint_gate(const DeclaredMechanism& declared) {
+/// Converter from a declared design to the joint that is evaluated: identified effects add to the declared numbers.
+/// Empty if there are none.
+optimize::JointConverter joint_converter(const DeclaredMechanism& declared) {
   if (declared.transmission || !joint_differs(declared)) return {};
   return [](const DeclaredMechanism& design) { return joint::identified_joint(design).mechanism; };
 }
@@ -30,7 +31,7 @@ SearchMethod strongest_method(const optimize::Problem& problem) {
 }
 
 optimize::Problem problem_of(const MechanismFile& file) {
-  return optimize::make_problem(file, joint_gate(file.mechanism), obstacle_to_multi_turn);
+  return optimize::make_problem(file, joint_converter(file.mechanism), obstacle_to_multi_turn);
 }
 
 void demand_one_objective(const MechanismFile& file, const optimize::Problem& problem) {
@@ -56,13 +57,13 @@ void break_ties(optimize::Objective second, const optimize::CertifiedResult& fir
                 OptimizeResult& result) {
   optimize::CertifiedOptions options;
   const optimize::Objective objective = result.problem.objectives.front();
-  optimize::Problem among = result.problem;
-  among.cap = optimize::ObjectiveCap{objective, first.value + options.tie * std::abs(first.value)};
+  optimize::Problem tied_designs = result.problem;
+  tied_designs.cap = optimize::ObjectiveCap{objective, first.value + options.tie * std::abs(first.value)};
   options.first_tries = {first.best};
   // Ties of 0.1 % need no finer gap, and the edge of a thin set of designs is costly to follow.
   options.gap = options.tie;
   options.most_boxes = 300000;
-  result.then = optimize::certified_optimum(among, second, options, context);
+  result.then = optimize::certified_optimum(tied_designs, second, options, context);
   result.stopped = result.then->stopped;
   result.design = result.then->best;
   const optimize::Evaluation value = optimize::evaluate_design(result.problem, objective, result.design);
@@ -92,8 +93,10 @@ const optimize::FrontPoint& balanced_point(const std::vector<optimize::FrontPoin
   for (std::size_t k = 0; k < objectives.size(); ++k) {
     const double sign = optimize::info(objectives[k]).is_maximized ? -1.0 : 1.0;
     double low = 1e300, high = -1e300;
-    for (const optimize::FrontPoint& point : front)
-      low = std::min(low, sign * point.values[k]), high = std::max(high, sign * point.values[k]);
+    for (const optimize::FrontPoint& point : front) {
+      low = std::min(low, sign * point.values[k]);
+      high = std::max(high, sign * point.values[k]);
+    }
     if (!(high > low)) continue;
     for (std::size_t i = 0; i < distances.size(); ++i)
       distances[i] += elementary::pow((sign * front[i].values[k] - low) / (high - low), 2);
@@ -147,7 +150,7 @@ void write_texts(const MechanismFile& file, const OptimizeOptions& options, File
 }
 
 /// Adds the notes and warnings about several turns to the result.
-void note_turns(const MechanismFile& file, OptimizeResult& result) {
+void add_notes_on_turns(const MechanismFile& file, OptimizeResult& result) {
   MechanismFile found = file;
   found.mechanism = optimize::mechanism_at(result.problem, result.design);
   if (const auto note = note_on_turns(found)) result.warnings.push_back(*note);
@@ -175,13 +178,13 @@ OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& option
   if (method != SearchMethod::pareto) demand_one_objective(file, result.problem);
   // Without the stop token: the best design of a stopped search is published.
   OutputFolder front_folder(options.front_folder, options.force, {.files = context.files});
-  // before the work, so that a refusal costs no time
+  // Before the work, so that a refusal costs no time.
   if (!options.front_folder.empty()) front_folder.claim({point_name(1)});
   search(method, options, context, result);
   result.before =
       optimize::evaluate(result.problem.objectives.front(), optimize::judged(result.problem, result.problem.base));
   if (!result.found) return result;
-  note_turns(file, result);
+  add_notes_on_turns(file, result);
   write_texts(file, options, *context.files, result);
   if (!options.dry_run) publish(options, front_folder, *context.files, result);
   return result;

@@ -34,7 +34,8 @@ PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options, cons
   result.without_law = without_law(file.mechanism);
   if (result.without_law) return result;
   OutputFolder target(options.folder, options.force, context);
-  target.claim({"plan.json", "plan.html", "manifest.json"});  // before the work, so that a refusal costs no time
+  // Before the work, so that a refusal costs no time.
+  target.claim({"plan.json", "plan.html", "manifest.json"});
   result.product.plan = plan::plan_runs(file.mechanism, options.plan, context);
   if (result.product.plan.steps.empty()) return result;
   result.outputs = outputs_of(result.product);

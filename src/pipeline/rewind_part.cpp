@@ -60,7 +60,7 @@ profile::RewindResult rewind_drawing(const joint::IdentifiedJoint& joint, const 
   return rewind_drawn(centre_line, counter_clockwise(pitch1->points), counter_clockwise(pitch2->points));
 }
 
-/// Undoes the scale for the material's shrinkage, by which the mesh is larger than the part.
+/// The outline of the part after the material has shrunk: the mesh is larger by `scale`.
 Polygon shrunk(Polygon outline, double scale) {
   for (Vec2& point : outline) point /= scale;
   return outline;
@@ -76,7 +76,7 @@ Polygon floor_in_section(const solid::TriangleMesh& mesh, double z, double scale
   return shrunk(*floor, scale);
 }
 
-/// The expected part: groove heights and floors in the mesh.
+/// The expected part: groove heights of the part, and groove floors in the size of the mesh.
 struct ExpectedPart {
   solid::BodyLayout layout;
   solid::GrooveFloors floors;
@@ -91,10 +91,11 @@ ExpectedPart expected_part(const joint::IdentifiedJoint& joint) {
   if (!synthesis.made()) throw InputError("", "no pulley is feasible for this mechanism: " + synthesis.brief());
   joint::draw_for_making(synthesis, joint.outline);
   const solid::BodyLayout layout = solid::resolve_layout(joint.mechanism, synthesis);
-  const double half = 0.5 * joint.mechanism.tendon.diameter;
-  return {layout,
-          {shrunk(profile::parallel(synthesis.p1, -half), 1.0 / layout.scale),
-           shrunk(profile::parallel(synthesis.p2, -half), 1.0 / layout.scale)}};
+  const double tendon_radius = 0.5 * joint.mechanism.tendon.diameter;
+  const auto floor_in_mesh = [&](const profile::Outline& pitch_curve) {
+    return shrunk(profile::parallel(pitch_curve, -tendon_radius), 1.0 / layout.scale);
+  };
+  return {layout, {floor_in_mesh(synthesis.p1), floor_in_mesh(synthesis.p2)}};
 }
 
 profile::RewindResult rewind_mesh(const joint::IdentifiedJoint& joint, const solid::BodyLayout& layout,
@@ -107,7 +108,7 @@ profile::RewindResult rewind_mesh(const joint::IdentifiedJoint& joint, const sol
 
 /// Half of the facets' deviation, mm: a part that fits better than this was not moved.
 constexpr double k_as_made = 0.005;
-/// Share of the deviation that a move must reach to be accepted. Other faults fit badly at every position.
+/// A move is accepted if it reduces the deviation to this share. Parts with other faults fit badly at every position.
 constexpr double k_clearly_better = 0.5;
 /// A file with more bodies is not a pulley on a print bed.
 constexpr std::size_t k_most_bodies = 20;
@@ -131,7 +132,8 @@ std::vector<solid::PlacementResult> find_apart(const solid::TriangleMesh& mesh, 
     if (found.size() == 2) break;
     const solid::PlacementResult result = solid::find_placement(body, expected, tendon_diameter);
     if (result.status != solid::PlacementStatus::found || result.placement.grooves.size() != 1) continue;
-    (result.placement.grooves.front().side == transmission::Side::left ? expected.p1 : expected.p2).clear();
+    const bool is_p1 = result.placement.grooves.front().side == transmission::Side::left;
+    (is_p1 ? expected.p1 : expected.p2).clear();
     found.push_back(result);
   }
   return found;
@@ -164,7 +166,8 @@ std::string unit_words(double scale) {
   return "scale it by " + rounded(1 / scale, 4) + ", or check whether it was made for another pulley.r1_mm";
 }
 
-void refuse(const solid::PlacementResult& result) {
+/// Throws InputError for a part of another size or a mirrored one.
+void refuse_scaled_or_mirrored(const solid::PlacementResult& result) {
   if (result.status == solid::PlacementStatus::scaled)
     throw InputError("", "the part is " + rounded(result.scale, 4) + " times the size of this mechanism's pulley",
                      unit_words(result.scale) + " (--as-is winds it in its present position)");
@@ -232,7 +235,7 @@ bool is_finite(const solid::TriangleMesh& mesh) {
   return std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const Vec3& vertex) { return vertex.allFinite(); });
 }
 
-/// A part that is recognised nowhere may have no groove at its present position either.
+/// Winds on a part that is recognised nowhere. It may have no groove at its present position either: then InputError.
 RewoundPart rewind_unrecognised(const joint::IdentifiedJoint& joint, const solid::BodyLayout& layout,
                                 const solid::TriangleMesh& mesh) {
   try {
@@ -260,7 +263,7 @@ RewoundPart rewind_moved_mesh(const joint::IdentifiedJoint& joint, const solid::
     placements.push_back(result.placement);
   }
   if (!(worst < k_clearly_better * in_place)) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
-  for (const solid::PlacementResult& result : found) refuse(result);
+  for (const solid::PlacementResult& result : found) refuse_scaled_or_mirrored(result);
   return rewind_placed(joint, placements, layout.scale);
 }
 

@@ -12,9 +12,10 @@ namespace {
 /// A mechanism and the imperfections of its joint.
 struct SimulatedJoint {
   DeclaredMechanism mechanism;
-  Imperfections at;
+  Imperfections imperfections;
 };
 
+/// The joint with the pulley that build() makes (`corrected`), or with the declared one.
 SimulatedJoint with_pulley(const DeclaredMechanism& declared, bool corrected) {
   if (!corrected) return {declared, declared.identified};
   return {joint::expected_joint(declared), beyond_mechanism(declared.identified, kind_of(declared))};
@@ -46,7 +47,8 @@ SimulateResult simulate(const MechanismFile& file, const std::filesystem::path& 
   result.without_law = without_law(file.mechanism);
   if (result.without_law) return result;
   const SimulatedJoint joint = with_pulley(file.mechanism, options.corrected);
-  simulation.states = joint::simulate(joint.mechanism, joint.at, measurement::bench_log(simulation.log)).front();
+  simulation.states =
+      joint::simulate(joint.mechanism, joint.imperfections, measurement::bench_log(simulation.log)).front();
   mark_rows_beyond_range(joint.mechanism, simulation.log.runs.front(), simulation.states);
   if (options.noise > 0) add_noise(simulation.states, options.noise, options.seed);
   return result;

@@ -10,7 +10,8 @@
 namespace fusee::pipeline {
 namespace {
 
-constexpr double k_grain = 1e-3;  // mm: measured walls of exactly one line may be thinner by this
+/// Measured walls of exactly one line may be thinner by this, mm.
+constexpr double k_tolerance = 1e-3;
 
 Diagnostic thinner_than_a_line(const formats::Product& product, const char* key, double value,
                                const std::string& what) {
@@ -21,12 +22,13 @@ Diagnostic thinner_than_a_line(const formats::Product& product, const char* key,
                       value > 0 ? rounded(value) : "automatic")};
 }
 
-/// The thinnest wall at a groove or between two of its turns, as measured on the mesh by the checks.
-double thinnest_measured(const formats::Product& product, double at_most) {
+/// The thinnest wall at a groove or between two of its turns, mm, as planned or as measured on the mesh by the checks.
+double thinnest_measured(const formats::Product& product, double planned) {
+  double thinnest = planned;
   for (const Check& check : product.checks) {
-    if (check.name.starts_with("wall") || check.name.starts_with("rib")) at_most = std::min(at_most, check.value);
+    if (check.name.starts_with("wall") || check.name.starts_with("rib")) thinnest = std::min(thinnest, check.value);
   }
-  return at_most;
+  return thinnest;
 }
 
 }  // namespace
@@ -34,7 +36,7 @@ double thinnest_measured(const formats::Product& product, double at_most) {
 std::vector<Diagnostic> thin_wall_warnings(const formats::Product& product) {
   const solid::BodyLayout& layout = product.pulley.layout;
   const Body& body = product.joint.mechanism.body;
-  const double line = product.joint.mechanism.print.nozzle - k_grain;
+  const double line = product.joint.mechanism.print.nozzle - k_tolerance;
   std::vector<Diagnostic> warnings;
   if (layout.flange_thickness < line) {
     warnings.push_back(thinner_than_a_line(

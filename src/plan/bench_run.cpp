@@ -9,7 +9,7 @@
 namespace fusee::plan {
 namespace {
 
-constexpr double k_quarter = 0.25 * k_two_pi;
+constexpr double k_quarter_turn = 0.25 * k_two_pi;
 /// Time between two rows of a dwell, s.
 constexpr double k_dwell_step = 2.0;
 
@@ -36,8 +36,8 @@ std::string_view words(BenchChange change) {
 }
 
 joint::Mounting mounting_of(BenchChange change) {
-  return {change == BenchChange::motor_sensor_turned ? k_quarter : 0.0,
-          change == BenchChange::joint_sensor_turned ? k_quarter : 0.0};
+  return {change == BenchChange::motor_sensor_turned ? k_quarter_turn : 0.0,
+          change == BenchChange::joint_sensor_turned ? k_quarter_turn : 0.0};
 }
 
 double setup_minutes_of(const PlannedRun& run) {
@@ -64,20 +64,20 @@ joint::BenchRun driven(const PlannedRun& run, int rows_a_stroke) {
   driven.has_load = true;
   driven.mounting = mounting_of(run.change);
   const double step = seconds_of_stroke(run) / rows_a_stroke;
-  const int held = static_cast<int>(run.dwell / k_dwell_step);
+  const int dwell_rows = static_cast<int>(run.dwell / k_dwell_step);
   double time = 0;
-  const auto log = [&](double alpha) { driven.rows.push_back({time, alpha, run.load, 0}); };
-  log(run.from);
+  const auto add_row = [&](double alpha) { driven.rows.push_back({time, alpha, run.load, 0}); };
+  add_row(run.from);
   for (int stroke = 0; stroke < 2 * run.cycles; ++stroke) {
     const double start = stroke % 2 == 0 ? run.from : run.to;
     const double end = stroke % 2 == 0 ? run.to : run.from;
     for (int i = 1; i <= rows_a_stroke; ++i) {
       time += step;
-      log(std::lerp(start, end, static_cast<double>(i) / rows_a_stroke));
+      add_row(std::lerp(start, end, static_cast<double>(i) / rows_a_stroke));
     }
-    for (int i = 0; i < held; ++i) {
-      time += run.dwell / held;
-      log(end);
+    for (int i = 0; i < dwell_rows; ++i) {
+      time += run.dwell / dwell_rows;
+      add_row(end);
     }
   }
   return driven;
@@ -115,8 +115,7 @@ NextMeasurement next_inspection(const std::string& words) {
 }
 
 double rms_apart(const std::vector<std::vector<double>>& one, const std::vector<std::vector<double>>& other) {
-  double squares = 0;
-  double rows = 0;
+  double squares = 0, rows = 0;
   for (std::size_t i = 0; i < one.size(); ++i) {
     for (std::size_t k = 0; k < one[i].size(); ++k) {
       const double difference = one[i][k] - other[i][k];

@@ -12,17 +12,23 @@
 namespace fusee::plan {
 namespace {
 
-constexpr double k_slow_cycle = 30.0;  // s: friction and play dominate, delays hardly show
-constexpr double k_fast_cycle = 6.0;   // s: close to the limit of a hobby servo
-constexpr int k_slow_cycles = 3;       // the first stroke settles the play; two strokes each way repeat
+/// Duration of a slow cycle, s: friction and play dominate, delays hardly show.
+constexpr double k_slow_cycle = 30.0;
+/// Duration of a fast cycle, s: close to the limit of a hobby servo.
+constexpr double k_fast_cycle = 6.0;
+/// Number of slow cycles: the first stroke settles the play, and two strokes each way repeat.
+constexpr int k_slow_cycles = 3;
 constexpr int k_fast_cycles = 5;
-constexpr double k_long_dwell = 60.0;  // s: nearly two decades of creep, thirty time constants of a delay
-constexpr int k_held_cycles = 2;
-constexpr int k_selection_rows = 24;  // simulated rows of a stroke when the load is chosen
+/// Dwell, s: nearly two decades of creep, thirty time constants of a delay.
+constexpr double k_long_dwell = 60.0;
+constexpr int k_dwell_cycles = 2;
+/// Simulated rows of a stroke when the load is chosen.
+constexpr int k_selection_rows = 24;
 
 /// Weights that a person can hang on, N.
 constexpr double k_weights[] = {1, 2, 5, 10, 20, 50, 100};
-/// Deflection that a load should cause, in noise: a tenth of it is still detected in a few dozen rows.
+/// Deflection that a load should cause, in standard deviations of the noise: a tenth of it is still detected in a few
+/// dozen rows.
 constexpr double k_clear_deflection = 5.0;
 /// Largest allowed tension where the tendon's strength is unknown, in pretensions.
 constexpr double k_most_pretensions = 10.0;
@@ -33,11 +39,13 @@ std::pair<double, double> range_of(const DeclaredMechanism& declared) {
   return {law.alpha_min(), law.alpha_max()};
 }
 
-double bearable(const Mechanism& declared) {
+/// Largest tension that the tendons bear, N: half of their strength at the knot.
+double bearable_tension(const Mechanism& declared) {
   if (const auto strength = analysis::likely_strength(declared.tendon)) return 0.5 * strength->at_knot;
   return k_most_pretensions * std::max(1.0, declared.tendon.pretension);
 }
 
+/// One simulated cycle of a run under another load.
 std::vector<std::vector<joint::JointState>> under_load(const DeclaredMechanism& declared, PlannedRun run, double load) {
   run.load = load;
   run.cycles = 1;
@@ -53,6 +61,7 @@ std::vector<std::vector<double>> angles(const std::vector<std::vector<joint::Joi
   return theta;
 }
 
+/// True if the joint has an equilibrium in each state, with tensions up to `most`, N.
 bool is_borne(const std::vector<joint::JointState>& states, double most) {
   return std::all_of(states.begin(), states.end(), [&](const joint::JointState& state) {
     return state.status != joint::EquilibriumStatus::no_equilibrium &&
@@ -63,7 +72,7 @@ bool is_borne(const std::vector<joint::JointState>& states, double most) {
 /// The smallest weight whose deflection is clear; if there is none, the largest that the tendons bear.
 double smallest_clear_load(const DeclaredMechanism& declared, const PlannedRun& slow, double noise) {
   const auto without = angles(under_load(declared, slow, 0));
-  const double most = bearable(declared);
+  const double most = bearable_tension(declared);
   double chosen = k_weights[0];
   for (const double weight : k_weights) {
     const auto states = under_load(declared, slow, weight);
@@ -74,19 +83,20 @@ double smallest_clear_load(const DeclaredMechanism& declared, const PlannedRun& 
   return chosen;
 }
 
+/// The loads of a plan whose options state none.
 std::vector<double> usual_loads(const DeclaredMechanism& declared, const PlannedRun& slow, double noise) {
   const double load = declared.transmission ? 1.0 : smallest_clear_load(declared, slow, noise);
   return {0.0, load, 0.5 * load, -load};
 }
 
-/// Throws InputError for a load under which the joint has no equilibrium: no run with it shows anything.
+/// Throws InputError for a load under which the joint has no equilibrium.
 void refuse_unheld_loads(const DeclaredMechanism& declared, const PlannedRun& slow, const std::vector<double>& loads) {
   if (declared.transmission) return;  // it bears any load
   for (const double load : loads) {
     if (load == 0) continue;
     if (is_borne(under_load(declared, slow, load).front(), std::numeric_limits<double>::infinity())) continue;
     throw InputError("", "the joint has no equilibrium under a load of " + rounded(load, 6) + " N",
-                     "choose smaller loads: a tendon bears " + rounded(bearable(declared), 2) + " N");
+                     "choose smaller loads: a tendon bears " + rounded(bearable_tension(declared), 2) + " N");
   }
 }
 
@@ -101,8 +111,9 @@ double Bench::largest_load() const {
 Bench bench_of(const DeclaredMechanism& declared, const PlanOptions& options) {
   Bench bench;
   std::tie(bench.from, bench.to) = options.range ? *options.range : range_of(declared);
-  const double way = 2 * std::abs(bench.to - bench.from);
-  bench.speeds = options.speeds.empty() ? std::vector<double>{way / k_slow_cycle, way / k_fast_cycle} : options.speeds;
+  const double travel = 2 * std::abs(bench.to - bench.from);  // of a cycle
+  bench.speeds =
+      options.speeds.empty() ? std::vector<double>{travel / k_slow_cycle, travel / k_fast_cycle} : options.speeds;
   std::sort(bench.speeds.begin(), bench.speeds.end());
   const PlannedRun slow{.from = bench.from, .to = bench.to, .speed = bench.speeds.front()};
   refuse_unheld_loads(declared, slow, options.loads);
@@ -121,7 +132,7 @@ std::vector<PlannedRun> candidate_runs(const Bench& bench) {
                       .speed = speed,
                       .load = load};
   };
-  // A fast load also pulls by its inertia: only slow runs are loaded.
+  // In a fast run a load also acts by its inertia: only slow runs are loaded.
   const double slow = bench.speeds.front();
   for (const double load : bench.loads) runs.push_back(run(slow, load));
   for (const double speed : bench.speeds) {
@@ -129,10 +140,10 @@ std::vector<PlannedRun> candidate_runs(const Bench& bench) {
   }
   const auto largest = std::max_element(bench.loads.begin(), bench.loads.end(),
                                         [](double a, double b) { return std::abs(a) < std::abs(b); });
-  PlannedRun held = run(slow, *largest);
-  held.cycles = k_held_cycles;
-  held.dwell = k_long_dwell;
-  runs.push_back(held);
+  PlannedRun with_dwells = run(slow, *largest);
+  with_dwells.cycles = k_dwell_cycles;
+  with_dwells.dwell = k_long_dwell;
+  runs.push_back(with_dwells);
   for (const BenchChange change : {BenchChange::motor_sensor_turned, BenchChange::joint_sensor_turned}) {
     PlannedRun turned = run(slow, bench.loads.front());
     turned.change = change;

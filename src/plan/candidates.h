@@ -8,13 +8,14 @@
 
 namespace fusee::plan {
 
-/// Range, speeds and loads of the bench; options that are not given are chosen here.
+/// Range, speeds and loads of the bench.
 struct Bench {
-  double from = 0, to = 0;      ///< motor, rad
+  double from = 0, to = 0;      ///< motor angles, rad
   std::vector<double> speeds;   ///< rad/s, ascending
-  std::vector<double> loads;    ///< unloaded first, if 0 is among them
+  std::vector<double> loads;    ///< as in PlannedRun; unloaded first, if 0 is among them
   double largest_load() const;  ///< largest magnitude
 };
+/// Takes the conditions from the options, and chooses those that are not given.
 Bench bench_of(const DeclaredMechanism& declared, const PlanOptions& options);
 
 /// All candidate runs. The first one is slow and at the first load: every plan begins with it.

@@ -7,11 +7,12 @@
 #include "base/normal_numbers.h"
 #include "plan/thresholds.h"
 
-// A data set y = A x + noise enters only through z = Aᵀy = G x + a normal vector of covariance G, with G = AᵀA.
-// The log evidence of the columns Z, each with a normal prior of size 1, is
+// A data set y = A x + noise enters the evidence only through z = Aᵀy. With G = AᵀA, z is G x plus a normal vector of
+// covariance G. The log evidence of the columns Z, each with a normal prior of size 1, is
 //   ½ z_Zᵀ (I + G_ZZ)⁻¹ z_Z − ½ log det (I + G_ZZ).
 // An explanation is one cause plus model error. Its alternatives are the other causes, model error alone, and an
-// unmodelled cause of any smooth shape, direction, load and speed dependence, at several sizes.
+// unmodelled cause at several sizes. The unmodelled cause has any smooth shape over the range, and may depend on
+// direction, load and speed.
 
 namespace fusee::plan {
 namespace {
@@ -19,9 +20,10 @@ namespace {
 /// Sizes of an unmodelled cause, deg at the joint.
 constexpr double k_unmodelled_sizes[] = {0.02, 0.05, 0.15, 0.5};
 
-/// Log evidence of a set of columns; factored once.
+/// Log evidence of a set of columns; its matrix is factored once.
 class Explanation {
  public:
+  /// `sizes`: standard deviation of the prior of each column.
   Explanation(const Information& known, std::vector<Eigen::Index> columns, const Eigen::VectorXd& sizes)
       : columns_(std::move(columns)), sizes_(sizes) {
     const auto count = static_cast<Eigen::Index>(columns_.size());
@@ -37,9 +39,9 @@ class Explanation {
   }
 
   double evidence(const Eigen::VectorXd& z) const {
-    Eigen::VectorXd seen(sizes_.size());
-    for (Eigen::Index i = 0; i < seen.size(); ++i) seen[i] = sizes_[i] * z[columns_[static_cast<std::size_t>(i)]];
-    return 0.5 * seen.dot(factor_.solve(seen)) - half_log_determinant_;
+    Eigen::VectorXd scaled(sizes_.size());
+    for (Eigen::Index i = 0; i < scaled.size(); ++i) scaled[i] = sizes_[i] * z[columns_[static_cast<std::size_t>(i)]];
+    return 0.5 * scaled.dot(factor_.solve(scaled)) - half_log_determinant_;
   }
 
  private:
@@ -49,26 +51,28 @@ class Explanation {
   double half_log_determinant_ = 0;
 };
 
-std::vector<Eigen::Index> span(Eigen::Index from, Eigen::Index to) {
+/// The columns from … to − 1.
+std::vector<Eigen::Index> columns_between(Eigen::Index from, Eigen::Index to) {
   std::vector<Eigen::Index> all;
   for (Eigen::Index i = from; i < to; ++i) all.push_back(i);
   return all;
 }
 
+/// Draws data sets, and selects the cause that explains one best.
 class CauseSelector {
  public:
   CauseSelector(const Signatures& signatures, const Information& known, const std::vector<Cause>& causes)
       : known_(known), causes_(causes), columns_(signatures.columns()) {
-    const std::vector<Eigen::Index> model = span(signatures.model_first(), signatures.unmodelled_first());
+    const std::vector<Eigen::Index> model = columns_between(signatures.model_first(), signatures.unmodelled_first());
     const auto with_model_error = [&](Eigen::Index first, Eigen::Index count, double size) {
       std::vector<Eigen::Index> all = model;
-      const std::vector<Eigen::Index> own = span(first, first + count);
+      const std::vector<Eigen::Index> own = columns_between(first, first + count);
       all.insert(all.end(), own.begin(), own.end());
       Eigen::VectorXd sizes = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(all.size()), size);
       sizes.head(static_cast<Eigen::Index>(model.size())).setOnes();
       return Explanation(known, all, sizes);
     };
-    for (const Cause& cause : causes) named_.push_back(with_model_error(cause.first, cause.count(), 1.0));
+    for (const Cause& cause : causes) explanations_.push_back(with_model_error(cause.first, cause.count(), 1.0));
     unmodelled_.push_back(with_model_error(0, 0, 1.0));
     for (const double size : k_unmodelled_sizes)
       unmodelled_.push_back(
@@ -79,8 +83,8 @@ class CauseSelector {
     model_count_ = static_cast<Eigen::Index>(model.size());
   }
 
-  /// Draws a data set with the given cause, or null for none.
-  Eigen::VectorXd measured(const Cause* cause, NormalNumbers& numbers) const {
+  /// Draws z of a data set with the given cause, or with none if null.
+  Eigen::VectorXd drawn(const Cause* cause, NormalNumbers& numbers) const {
     Eigen::VectorXd x = Eigen::VectorXd::Zero(columns_);
     for (Eigen::Index i = 0; i < model_count_; ++i) x[model_first_ + i] = numbers.next();
     for (Eigen::Index i = 0; cause != nullptr && i < cause->count(); ++i) {
@@ -95,12 +99,12 @@ class CauseSelector {
 
   /// Indices of the causes that are reported together; none if an unmodelled cause is as likely. `without`: a cause
   /// that is removed from the catalogue, or null.
-  std::vector<std::size_t> named(const Eigen::VectorXd& z, const Cause* without) const {
+  std::vector<std::size_t> reported(const Eigen::VectorXd& z, const Cause* without) const {
     double unmodelled = -1e300;
     for (const Explanation& explanation : unmodelled_) unmodelled = std::max(unmodelled, explanation.evidence(z));
     std::vector<double> evidence;
     for (std::size_t i = 0; i < causes_.size(); ++i)
-      evidence.push_back(&causes_[i] == without ? -1e300 : named_[i].evidence(z));
+      evidence.push_back(&causes_[i] == without ? -1e300 : explanations_[i].evidence(z));
     const double best = evidence.empty() ? -1e300 : *std::max_element(evidence.begin(), evidence.end());
     std::vector<std::size_t> group;
     for (std::size_t i = 0; best > unmodelled + k_plan.odds && i < causes_.size(); ++i) {
@@ -113,20 +117,24 @@ class CauseSelector {
   const Information& known_;
   const std::vector<Cause>& causes_;
   Eigen::Index columns_, model_first_ = 0, model_count_ = 0;
-  std::vector<Explanation> named_, unmodelled_;
-  Eigen::MatrixXd noise_;
+  std::vector<Explanation> explanations_;  ///< by the causes, in their order
+  std::vector<Explanation> unmodelled_;    ///< by model error alone, and by an unmodelled cause of each size
+  Eigen::MatrixXd noise_;                  ///< square root of the covariance G of z
 };
 
-constexpr std::size_t k_none = static_cast<std::size_t>(-1);
+constexpr std::size_t k_no_cause = static_cast<std::size_t>(-1);
 
-/// `acceptable`: causes that count as correct although they are not the truth.
+/// Counts the outcome of one data set. `group`: the reported causes; `truth`: index of the true one or k_no_cause;
+/// `acceptable`: causes that do not count as wrong although they are not the truth.
 void count(const std::vector<std::size_t>& group, std::size_t truth, const std::set<std::size_t>& acceptable,
            FalsePositives& into) {
   ++into.samples;
-  const bool holds = std::find(group.begin(), group.end(), truth) != group.end();
-  const bool near = std::any_of(group.begin(), group.end(), [&](std::size_t i) { return acceptable.count(i) > 0; });
-  if (!group.empty() && !holds && !near) ++into.wrong;
-  if (holds) ++(group.size() == 1 ? into.alone : into.group);
+  const bool has_truth = std::find(group.begin(), group.end(), truth) != group.end();
+  const bool has_acceptable =
+      std::any_of(group.begin(), group.end(), [&](std::size_t i) { return acceptable.count(i) > 0; });
+  if (!group.empty() && !has_truth && !has_acceptable) ++into.wrong;
+  if (has_truth && group.size() == 1) ++into.alone;
+  if (has_truth && group.size() > 1) ++into.group;
 }
 
 }  // namespace
@@ -138,12 +146,12 @@ FalsePositiveRates false_positive_rates(const Signatures& signatures, const Info
   const CauseSelector selector(signatures, known, causes);
   NormalNumbers numbers(seed);
   for (int sample = 0; sample < k_plan.samples; ++sample) {
-    count(selector.named(selector.measured(nullptr, numbers), nullptr), k_none, {}, rates.nothing);
+    count(selector.reported(selector.drawn(nullptr, numbers), nullptr), k_no_cause, {}, rates.nothing);
     if (causes.empty()) continue;
     const std::size_t truth = static_cast<std::size_t>(sample) % causes.size();
-    const Eigen::VectorXd z = selector.measured(&causes[truth], numbers);
-    count(selector.named(z, nullptr), truth, {}, rates.one);
-    count(selector.named(z, &causes[truth]), k_none, rivals[truth], rates.unmodelled);
+    const Eigen::VectorXd z = selector.drawn(&causes[truth], numbers);
+    count(selector.reported(z, nullptr), truth, {}, rates.one);
+    count(selector.reported(z, &causes[truth]), k_no_cause, rivals[truth], rates.unmodelled);
   }
   return rates;
 }

@@ -17,15 +17,17 @@ namespace fusee::plan {
 namespace {
 
 /// A candidate measurement and its information.
-struct Option {
+struct Candidate {
   PlanStep step;
-  std::optional<Signatures::RunEquations> seen;
-  Eigen::MatrixXd read;
+  std::optional<Signatures::RunEquations> run_equations;  ///< empty for a hand measurement
+  Eigen::MatrixXd reading_equations;                      ///< of a hand measurement
 
-  Information added_to(const Information& known) const { return seen ? known.with(*seen) : known.with(read); }
+  Information added_to(const Information& known) const {
+    return run_equations ? known.with(*run_equations) : known.with(reading_equations);
+  }
 };
 
-/// Margins at the size worth identifying: one row per cause, column 0 against no cause, then against each cause.
+/// Margins at the size worth identifying, one row per cause: first against no cause, then against each cause.
 using Margins = std::vector<std::vector<double>>;
 
 /// Plans for the causes that the set of all candidate measurements detects.
@@ -36,7 +38,7 @@ class Planner {
         context_(context),
         bench_(bench_of(declared, options)),
         signatures_(declared, bench_, options.noise) {
-    unit_ = declared.transmission ? "" : "N";
+    load_unit_ = declared.transmission ? "" : "N";
     for (const PlannedRun& run : candidate_runs(bench_)) add(run);
     for (const fusee::EffectParameter* reading : unread_numbers(declared)) add(*reading);
     start_ = Information::none(signatures_.columns());
@@ -49,46 +51,47 @@ class Planner {
     plan.slow = bench_.speeds.front();
     plan.from = bench_.from;
     plan.to = bench_.to;
-    plan.load_unit = unit_;
+    plan.load_unit = load_unit_;
     plan.left_out = left_out_;
     std::vector<std::size_t> chosen = choose(options_.minutes, {});
     chosen = without_redundant(chosen);
-    const std::vector<std::size_t> all = choose(1e9, chosen);
+    constexpr double k_unlimited = 1e9;  // minutes
+    const std::vector<std::size_t> all = choose(k_unlimited, chosen);
     Information known = start_;
-    put_steps(chosen, known, 0, plan.steps);
+    append_steps(chosen, known, 0, plan.steps);
     plan.minutes = plan.steps.empty() ? 0.0 : plan.steps.back().end_minute;
-    describe(known, plan);
-    std::vector<std::size_t> rest(all.begin() + static_cast<std::ptrdiff_t>(chosen.size()), all.end());
-    put_steps(rest, known, plan.minutes, plan.beyond);
+    add_causes(known, plan);
+    const std::vector<std::size_t> further(all.begin() + static_cast<std::ptrdiff_t>(chosen.size()), all.end());
+    append_steps(further, known, plan.minutes, plan.beyond);
     return plan;
   }
 
  private:
-  void report(const std::string& what) const { context_.begin_step("simulating: " + what); }
+  void report(const std::string& step) const { context_.begin_step("simulating: " + step); }
 
   void add(const PlannedRun& run) {
-    report(words(run, bench_.speeds.front(), unit_));
-    const auto seen = signatures_.of(run);
-    if (!seen) return;
-    Option option;
-    option.step.run = run;
-    option.step.words = words(run, bench_.speeds.front(), unit_);
-    option.step.setup_minutes = setup_minutes_of(run);
-    option.step.minutes = minutes_of(run) + option.step.setup_minutes;
-    option.seen = seen;
-    options_of_bench_.push_back(std::move(option));
+    report(words(run, bench_.speeds.front(), load_unit_));
+    const auto equations = signatures_.of(run);
+    if (!equations) return;
+    Candidate candidate;
+    candidate.step.run = run;
+    candidate.step.words = words(run, bench_.speeds.front(), load_unit_);
+    candidate.step.setup_minutes = setup_minutes_of(run);
+    candidate.step.minutes = minutes_of(run) + candidate.step.setup_minutes;
+    candidate.run_equations = equations;
+    candidates_.push_back(std::move(candidate));
   }
 
   void add(const fusee::EffectParameter& reading) {
-    Option option;
-    option.step.reading = &reading;
-    option.step.words = reading.by_hand.words;
-    option.step.minutes = option.step.setup_minutes = k_bench_minutes.reading;
-    option.read = signatures_.of(reading);
-    options_of_bench_.push_back(std::move(option));
+    Candidate candidate;
+    candidate.step.reading = &reading;
+    candidate.step.words = reading.by_hand.words;
+    candidate.step.minutes = candidate.step.setup_minutes = k_bench_minutes.reading;
+    candidate.reading_equations = signatures_.of(reading);
+    candidates_.push_back(std::move(candidate));
   }
 
-  /// Information of the values in [prior].
+  /// Adds the information of the values in [prior].
   void add_known_readings(const DeclaredMechanism& declared) {
     for (const Cause& cause : signatures_.causes()) {
       for (const fusee::EffectParameter* number : cause.numbers) {
@@ -104,10 +107,11 @@ class Planner {
 
   Information everything() const {
     Information known = start_;
-    for (const Option& option : options_of_bench_) known = option.added_to(known);
+    for (const Candidate& candidate : candidates_) known = candidate.added_to(known);
     return known;
   }
 
+  /// Keeps the causes that all candidates together detect.
   void keep_detectable() {
     left_out_ = signatures_.left_out();
     const Information all = everything();
@@ -127,70 +131,73 @@ class Planner {
     Margins margins;
     for (const Cause& cause : causes_) {
       std::vector<double>& row = margins.emplace_back();
-      row.push_back(k_plan.worth_a_name * margin(signatures_, known, cause, nullptr));
-      for (const Cause& rival : causes_)
-        row.push_back(&rival == &cause
-                          ? 1.0
-                          : std::min(row.front(), k_plan.worth_a_name * margin(signatures_, known, cause, &rival)));
+      row.push_back(k_plan.least_share * margin(signatures_, known, cause, nullptr));
+      for (const Cause& rival : causes_) {
+        const bool is_itself = &rival == &cause;
+        row.push_back(
+            is_itself ? 1.0 : std::min(row.front(), k_plan.least_share * margin(signatures_, known, cause, &rival)));
+      }
     }
     return margins;
   }
 
-  /// Share of all separations that is reached, 0 … 1. Half is the mean over a cause's rivals and over its detection,
-  /// half is the separation from its nearest rival.
+  /// Share of all separations that is reached, 0 … 1, as the mean over the causes. Half of a cause's share is the mean
+  /// over its detection and its rivals; half is the separation from its nearest rival.
   double separation(const Information& known) const {
     double sum = 0;
     for (const std::vector<double>& row : margins_of(known)) {
-      double rivals = 0;
-      for (const double reached : row) rivals += std::min(1.0, reached);
+      double reached = 0;
+      for (const double margin_of_pair : row) reached += std::min(1.0, margin_of_pair);
       const double nearest = *std::min_element(row.begin(), row.end());
-      sum += 0.5 * rivals / static_cast<double>(row.size()) + 0.5 * std::min(1.0, nearest);
+      sum += 0.5 * reached / static_cast<double>(row.size()) + 0.5 * std::min(1.0, nearest);
     }
     return causes_.empty() ? 1.0 : sum / static_cast<double>(causes_.size());
   }
 
-  /// Adds the step of largest gain per minute, as long as one exceeds the least gain and fits into the minutes.
+  /// Adds the step of largest gain per minute to `chosen`, as long as one exceeds the least gain and fits into the
+  /// minutes.
   std::vector<std::size_t> choose(double minutes, std::vector<std::size_t> chosen) const {
     Information known = start_;
     double used = 0;
     for (const std::size_t i : chosen) {
-      known = options_of_bench_[i].added_to(known);
-      used += options_of_bench_[i].step.minutes;
+      known = candidates_[i].added_to(known);
+      used += candidates_[i].step.minutes;
     }
     // The slow run comes first: its repeats measure the noise floor.
-    if (chosen.empty() && !options_of_bench_.empty() && options_of_bench_.front().step.run) {
-      if (options_of_bench_.front().step.minutes > minutes) return {};
+    if (chosen.empty() && !candidates_.empty() && candidates_.front().step.run) {
+      if (candidates_.front().step.minutes > minutes) return {};
       chosen = {0};
-      known = options_of_bench_.front().added_to(known);
-      used = options_of_bench_.front().step.minutes;
+      known = candidates_.front().added_to(known);
+      used = candidates_.front().step.minutes;
     }
     double before = separation(known);
     while (true) {
       double best = 0;
-      std::size_t next = options_of_bench_.size();
+      std::size_t next = candidates_.size();
       double after = before;
-      for (std::size_t i = 0; i < options_of_bench_.size(); ++i) {
-        const Option& option = options_of_bench_[i];
+      for (std::size_t i = 0; i < candidates_.size(); ++i) {
+        const Candidate& candidate = candidates_[i];
         if (std::find(chosen.begin(), chosen.end(), i) != chosen.end()) continue;
-        if (used + option.step.minutes > minutes) continue;
-        const double gained = separation(option.added_to(known)) - before;
-        if (gained < k_plan.least_gain || gained / option.step.minutes <= best) continue;
-        best = gained / option.step.minutes;
+        if (used + candidate.step.minutes > minutes) continue;
+        const double gained = separation(candidate.added_to(known)) - before;
+        if (gained < k_plan.least_gain || gained / candidate.step.minutes <= best) continue;
+        best = gained / candidate.step.minutes;
         next = i;
         after = before + gained;
       }
-      if (next == options_of_bench_.size()) return chosen;
+      if (next == candidates_.size()) return chosen;
       chosen.push_back(next);
-      known = options_of_bench_[next].added_to(known);
-      used += options_of_bench_[next].step.minutes;
+      known = candidates_[next].added_to(known);
+      used += candidates_[next].step.minutes;
       before = after;
     }
   }
 
+  /// Removes steps, the last one first, whose separation the other steps reach as well.
   std::vector<std::size_t> without_redundant(std::vector<std::size_t> chosen) const {
     const auto separation_by = [&](const std::vector<std::size_t>& set) {
       Information known = start_;
-      for (const std::size_t i : set) known = options_of_bench_[i].added_to(known);
+      for (const std::size_t i : set) known = candidates_[i].added_to(known);
       return separation(known);
     };
     for (std::size_t k = chosen.size(); k-- > 1;) {
@@ -206,17 +213,17 @@ class Planner {
     constexpr std::size_t k_most_names = 4;
     for (std::size_t a = 0; a < causes_.size(); ++a) {
       const std::string& name = causes_[a].effect->name;
-      const auto newly = [&](std::size_t i) { return before[a][i] < 1 && after[a][i] >= 1; };
-      if (newly(0)) step.sees.push_back(name);
+      const auto is_new = [&](std::size_t i) { return before[a][i] < 1 && after[a][i] >= 1; };
+      if (is_new(0)) step.detects.push_back(name);
       std::vector<std::string> rivals;
       for (std::size_t b = 0; b < causes_.size(); ++b) {
-        if (b != a && newly(b + 1)) rivals.push_back(causes_[b].effect->name);
+        if (b != a && is_new(b + 1)) rivals.push_back(causes_[b].effect->name);
       }
       if (rivals.empty()) continue;
       std::string from;
       for (std::size_t i = 0; i < rivals.size() && rivals.size() <= k_most_names; ++i)
         from += (i > 0 ? ", " : "") + rivals[i];
-      step.tells.push_back(name + " from " + (from.empty() ? std::to_string(rivals.size()) + " others" : from));
+      step.resolves.push_back(name + " from " + (from.empty() ? std::to_string(rivals.size()) + " others" : from));
     }
   }
 
@@ -231,13 +238,13 @@ class Planner {
     return rivals;
   }
 
-  void put_steps(const std::vector<std::size_t>& chosen, Information& known, double minutes,
-                 std::vector<PlanStep>& into) const {
+  void append_steps(const std::vector<std::size_t>& chosen, Information& known, double minutes,
+                    std::vector<PlanStep>& into) const {
     Margins before = margins_of(known);
     for (const std::size_t i : chosen) {
-      known = options_of_bench_[i].added_to(known);
+      known = candidates_[i].added_to(known);
       const Margins after = margins_of(known);
-      PlanStep step = options_of_bench_[i].step;
+      PlanStep step = candidates_[i].step;
       minutes += step.minutes;
       step.end_minute = minutes;
       list_gain(before, after, step);
@@ -246,25 +253,25 @@ class Planner {
     }
   }
 
-  PlannedCause described(const Information& known, const Cause& cause) const {
-    PlannedCause described;
-    described.name = cause.effect->name;
-    described.usual = usual_rms(known, cause) * options_.noise;
-    const double seen = margin(signatures_, known, cause, nullptr);
-    described.smallest = described.usual / std::max(seen, 1e-9);
-    double least = seen;
+  PlannedCause planned_cause(const Information& known, const Cause& cause) const {
+    PlannedCause planned;
+    planned.name = cause.effect->name;
+    planned.usual = usual_rms(known, cause) * options_.noise;
+    const double detection = margin(signatures_, known, cause, nullptr);
+    planned.smallest = planned.usual / std::max(detection, 1e-9);
+    double least = detection;
     for (const Cause& rival : causes_) {
       if (&rival == &cause) continue;
       const double from_rival = margin(signatures_, known, cause, &rival);
       least = std::min(least, from_rival);
-      if (seen >= 1 && from_rival < 1) described.rivals.push_back(rival.effect->name);
+      if (detection >= 1 && from_rival < 1) planned.rivals.push_back(rival.effect->name);
     }
-    if (least >= 1) described.smallest_alone = described.usual / least;
+    if (least >= 1) planned.smallest_alone = planned.usual / least;
     const fusee::EffectParameter& number = *cause.numbers.front();
-    const double size = usual_size(number, bench_.largest_load()) / std::max(seen, 1e-9);
-    described.key = number.key.name;
-    described.smallest_key = number.key.to_file != nullptr ? number.key.to_file(size) : size;
-    return described;
+    const double size = usual_size(number, bench_.largest_load()) / std::max(detection, 1e-9);
+    planned.key = number.key.name;
+    planned.smallest_key = number.key.to_file != nullptr ? number.key.to_file(size) : size;
+    return planned;
   }
 
   /// Groups of a cause and its unresolved rivals; a group that is contained in another is omitted.
@@ -275,22 +282,24 @@ class Planner {
       if (!group.insert(cause.name).second || group.size() < 2) continue;
       all.push_back(std::move(group));
     }
-    const auto holds = [](const std::set<std::string>& whole, const std::set<std::string>& part) {
+    const auto contains = [](const std::set<std::string>& whole, const std::set<std::string>& part) {
       return std::includes(whole.begin(), whole.end(), part.begin(), part.end());
     };
     std::vector<std::vector<std::string>> groups;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      bool needed = true;
-      for (std::size_t j = 0; j < all.size() && needed; ++j)
-        needed = i == j || !holds(all[j], all[i]) || (all[j] == all[i] && i < j);
-      if (needed) groups.emplace_back(all[i].begin(), all[i].end());
+      bool is_needed = true;
+      for (std::size_t j = 0; j < all.size() && is_needed; ++j) {
+        const bool is_first_of_equals = all[j] == all[i] && i < j;
+        is_needed = i == j || !contains(all[j], all[i]) || is_first_of_equals;
+      }
+      if (is_needed) groups.emplace_back(all[i].begin(), all[i].end());
     }
     return groups;
   }
 
-  void describe(const Information& known, Plan& plan) const {
+  void add_causes(const Information& known, Plan& plan) const {
     if (plan.steps.empty()) return;
-    for (const Cause& cause : causes_) plan.causes.push_back(described(known, cause));
+    for (const Cause& cause : causes_) plan.causes.push_back(planned_cause(known, cause));
     plan.groups = groups_of(plan.causes);
     report("estimating the false-positive rate");
     const FalsePositiveRates rates = false_positive_rates(signatures_, known, causes_, rivals_in(known), options_.seed);
@@ -303,10 +312,10 @@ class Planner {
   const RunContext& context_;
   Bench bench_;
   Signatures signatures_;
-  std::string unit_;
-  std::vector<Option> options_of_bench_;
-  Information start_;
-  std::vector<Cause> causes_;
+  std::string load_unit_;
+  std::vector<Candidate> candidates_;
+  Information start_;          ///< before the first step: the values in [prior]
+  std::vector<Cause> causes_;  ///< those that the plan considers
   std::vector<std::pair<std::string, std::string>> left_out_;
 };
 

@@ -14,7 +14,7 @@
 
 namespace fusee::plan {
 
-/// A cause and its columns [first, first + count): one column a number, each at its usual size.
+/// A cause and its columns [first, first + count): one column for each number, the response at its usual size.
 struct Cause {
   const Effect* effect = nullptr;
   std::vector<const fusee::EffectParameter*> numbers;
@@ -31,9 +31,10 @@ class Signatures {
   Signatures(const DeclaredMechanism& declared, const Bench& bench, double noise);
 
   const std::vector<Cause>& causes() const { return causes_; }
+  /// Effects without a plan, and the reason.
   const std::vector<std::pair<std::string, std::string>>& left_out() const { return left_out_; }
-  Eigen::Index model_first() const { return model_first_; }
-  Eigen::Index unmodelled_first() const { return unmodelled_first_; }
+  Eigen::Index model_first() const { return model_first_; }            ///< first column of the model error
+  Eigen::Index unmodelled_first() const { return unmodelled_first_; }  ///< first column of the unmodelled causes
   Eigen::Index columns() const { return columns_; }
 
   /// Normal equations AᵀA of one run, in units of the noise, and its number of rows. Empty if the joint has no
@@ -51,11 +52,11 @@ class Signatures {
   Eigen::VectorXd response_to(joint::Forward& forward, const Imperfections& from,
                               const fusee::EffectParameter& number) const;
   void add(const Effect& effect);
-  std::string why_not(const Effect& effect) const;
+  std::string reason_to_leave_out(const Effect& effect) const;
 
-  Mechanism expected_;
+  Mechanism expected_;  ///< the joint with its known imperfections
   const Bench& bench_;
-  double noise_;
+  double noise_;  ///< of the joint's sensor, rad
   std::vector<Cause> causes_;
   std::vector<std::pair<std::string, std::string>> left_out_;
   Eigen::Index model_first_ = 0, unmodelled_first_ = 0, columns_ = 0;

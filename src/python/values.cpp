@@ -411,8 +411,8 @@ py::dict step_of(const plan::PlanStep& step, const std::string& file) {
   dict["words"] = to_str(step.words);
   dict["minutes"] = step.minutes;
   dict["by_minutes"] = step.end_minute;
-  dict["sees"] = to_python(step.sees);
-  dict["tells"] = to_python(step.tells);
+  dict["sees"] = to_python(step.detects);
+  dict["tells"] = to_python(step.resolves);
   dict["file"] = to_str(file);
   return dict;
 }

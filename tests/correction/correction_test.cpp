@@ -43,10 +43,11 @@ DeclaredMechanism frictionless() {
   return mechanism;
 }
 
-/// Deviation from the law of `wanted`, rad, of a joint with the true geometry `truth` and a pulley drawn for
-/// `made_for`. Tendons are wound on its outline, scaled by `scale`, `offset` further out and moved by `runout`.
-double miss(const Mechanism& wanted, const Mechanism& truth, const joint::IdentifiedJoint& made_for, double scale = 1,
-            double offset = 0, const Vec2& runout = {0, 0}) {
+/// Largest deviation from the law of `wanted`, rad, of a joint with the true geometry `truth` and a pulley drawn for
+/// `made_for`. Tendons are wound on its outline, scaled by `scale`, `offset` further out and moved by `runout`, both
+/// mm.
+double law_error(const Mechanism& wanted, const Mechanism& truth, const joint::IdentifiedJoint& made_for,
+                 double scale = 1, double offset = 0, const Vec2& runout = {0, 0}) {
   const Mechanism& drawn = made_for.mechanism;
   profile::SynthesisOptions options;
   options.chord_error_mm = 0.001;
@@ -123,9 +124,9 @@ TEST(IdentifiedJoint, CorrectsGuideRadius) {
   mechanism.identified.pins.radius = 2.0;
   DeclaredMechanism truth = declared();
   truth.guides.radius += 2.0;
-  const double before = miss(declared(), truth, joint::identified_joint(declared()));
+  const double before = law_error(declared(), truth, joint::identified_joint(declared()));
   EXPECT_GT(degrees(before), 0.2);
-  EXPECT_LT(degrees(miss(declared(), truth, joint::identified_joint(mechanism))), 0.03);
+  EXPECT_LT(degrees(law_error(declared(), truth, joint::identified_joint(mechanism))), 0.03);
 }
 
 TEST(IdentifiedJoint, CorrectsLength) {
@@ -133,17 +134,17 @@ TEST(IdentifiedJoint, CorrectsLength) {
   mechanism.identified.joint.length = 2.0;
   DeclaredMechanism truth = declared();
   truth.joint.R += 2.0;
-  const double before = miss(declared(), truth, joint::identified_joint(declared()));
-  EXPECT_LT(miss(declared(), truth, joint::identified_joint(mechanism)), 0.1 * before);
+  const double before = law_error(declared(), truth, joint::identified_joint(declared()));
+  EXPECT_LT(law_error(declared(), truth, joint::identified_joint(mechanism)), 0.1 * before);
 }
 
 TEST(IdentifiedJoint, CorrectsPulleyOffset) {
   for (const double offset : {0.2, -0.3}) {
     DeclaredMechanism mechanism = declared();
     mechanism.identified.pulley.outline.offset = offset;
-    const double before = miss(declared(), declared(), joint::identified_joint(declared()), 1, offset);
+    const double before = law_error(declared(), declared(), joint::identified_joint(declared()), 1, offset);
     EXPECT_GT(degrees(before), 0.2);
-    EXPECT_LT(miss(declared(), declared(), joint::identified_joint(mechanism), 1, offset), 0.05 * before);
+    EXPECT_LT(law_error(declared(), declared(), joint::identified_joint(mechanism), 1, offset), 0.05 * before);
     // Grooves, anchors and holes are those of the actual tendon.
     EXPECT_EQ(joint::identified_joint(mechanism).mechanism.tendon, declared().tendon);
   }
@@ -152,16 +153,16 @@ TEST(IdentifiedJoint, CorrectsPulleyOffset) {
 TEST(IdentifiedJoint, CorrectsPulleyScale) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.pulley.scale = -0.02;
-  const double before = miss(declared(), declared(), joint::identified_joint(declared()), 0.98);
-  EXPECT_LT(miss(declared(), declared(), joint::identified_joint(mechanism), 0.98), 0.05 * before);
+  const double before = law_error(declared(), declared(), joint::identified_joint(declared()), 0.98);
+  EXPECT_LT(law_error(declared(), declared(), joint::identified_joint(mechanism), 0.98), 0.05 * before);
 }
 
 TEST(IdentifiedJoint, CorrectsRunout) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.pulley.outline.runout_x = 0.3;
   mechanism.identified.pulley.outline.runout_y = -0.2;
-  const double before = miss(declared(), declared(), joint::identified_joint(declared()), 1, 0, {0.3, -0.2});
-  EXPECT_LT(miss(declared(), declared(), joint::identified_joint(mechanism), 1, 0, {0.3, -0.2}), 0.05 * before);
+  const double before = law_error(declared(), declared(), joint::identified_joint(declared()), 1, 0, {0.3, -0.2});
+  EXPECT_LT(law_error(declared(), declared(), joint::identified_joint(mechanism), 1, 0, {0.3, -0.2}), 0.05 * before);
 }
 
 TEST(RoundChoice, StaysRoundIfSufficient) {
@@ -222,13 +223,13 @@ TEST(CorrectedToml, SecondCalibrationReplacesFirst) {
   EXPECT_EQ(twice.find("\n[identified]"), twice.rfind("\n[identified]"));
 }
 
-/// One run up and down, simulated with hysteresis: θ lags by half of `loop` each way.
+/// One run up and down, simulated with hysteresis: θ lags by half of `width`, rad, each way.
 struct HysteresisRun {
   measurement::Measurement measurement;
   calibration::Calibration calibration;
 };
 
-HysteresisRun hysteresis_run(const DeclaredMechanism& mechanism, double loop) {
+HysteresisRun hysteresis_run(const DeclaredMechanism& mechanism, double width) {
   const transmission::Transmission law(mechanism);
   HysteresisRun data;
   measurement::Run run;
@@ -238,15 +239,15 @@ HysteresisRun hysteresis_run(const DeclaredMechanism& mechanism, double loop) {
     const double share = up ? i / 199.0 : (399 - i) / 199.0;
     measurement::Sample sample;
     sample.alpha = law.alpha_min() + (law.alpha_max() - law.alpha_min()) * share;
-    sample.theta = law.theta(sample.alpha) + (up ? -0.5 : 0.5) * loop;
+    sample.theta = law.theta(sample.alpha) + (up ? -0.5 : 0.5) * width;
     run.samples.push_back(sample);
-    before.push_back((up ? -0.5 : 0.5) * loop);
+    before.push_back((up ? -0.5 : 0.5) * width);
   }
   run.strokes = {{0, 199, 1, 0, false}, {200, 399, -1, 0, false}};
   data.measurement.runs.push_back(run);
   data.calibration.residuals_before = {before};
   data.calibration.residuals_after = {std::vector<double>(400, 0.0)};
-  data.calibration.identified.shaft.backlash = loop / law.at_alpha(0).g;
+  data.calibration.identified.shaft.backlash = width / law.at_alpha(0).g;
   return data;
 }
 
@@ -264,8 +265,8 @@ void log_as_identified(const DeclaredMechanism& mechanism, HysteresisRun& data) 
 }
 
 TEST(Correct, HysteresisGoesIntoTable) {
-  const double loop = radians(0.6);
-  HysteresisRun data = hysteresis_run(frictionless(), loop);
+  const double width = radians(0.6);
+  HysteresisRun data = hysteresis_run(frictionless(), width);
   log_as_identified(frictionless(), data);
   const Correction correction = correct(frictionless(), data.measurement, data.calibration);
   EXPECT_FALSE(correction.has_pulley);

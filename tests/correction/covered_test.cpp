@@ -110,11 +110,11 @@ std::vector<Line> lines_of(const std::string& csv) {
 double deviation_from_table(const Log& log, const std::vector<Line>& table, bool with_curve) {
   double squares = 0, rows = 0;
   for (std::size_t i = log.size() / 4 + 1; i < log.size(); ++i) {
-    const std::size_t way = log[i].alpha > log[i - 1].alpha ? 1 : 2;
+    const std::size_t column = log[i].alpha > log[i - 1].alpha ? 1 : 2;
     const double alpha = degrees(log[i].alpha);
-    const auto place = [&](const Line& line) { return line[way] - (with_curve ? 0.0 : line[way + 2]); };
+    const auto alpha_of = [&](const Line& line) { return line[column] - (with_curve ? 0.0 : line[column + 2]); };
     for (std::size_t k = 1; k < table.size(); ++k) {
-      const double from = place(table[k - 1]), to = place(table[k]);
+      const double from = alpha_of(table[k - 1]), to = alpha_of(table[k]);
       if (alpha < from || alpha >= to) continue;
       const double theta = table[k - 1][0] + (table[k][0] - table[k - 1][0]) * (alpha - from) / (to - from);
       squares += std::pow(degrees(log[i].theta) - theta, 2);
@@ -136,10 +136,10 @@ TEST(EmpiricalCurve, CoversBumpAsPredicted) {
   const calibration::EmpiricalCurve& curve = found.calibration.curve;
   ASSERT_TRUE(curve.used) << curve.why;
   EXPECT_GT(degrees(curve.gain), 0.15);
-  const RemainingError left = error_on_new_runs(found);
-  EXPECT_NEAR(left.gain(), curve.gain, 0.05 * curve.gain);
-  EXPECT_NEAR(left.effects, curve.held_out_effects, 0.05 * left.effects);
-  EXPECT_NEAR(left.with_curve, curve.held_out_rms, 0.2 * left.with_curve);
+  const RemainingError residual = error_on_new_runs(found);
+  EXPECT_NEAR(residual.gain(), curve.gain, 0.05 * curve.gain);
+  EXPECT_NEAR(residual.effects, curve.held_out_effects, 0.05 * residual.effects);
+  EXPECT_NEAR(residual.with_curve, curve.held_out_rms, 0.2 * residual.with_curve);
   EXPECT_EQ(found.correction.by_curve, curve.gain);
   EXPECT_GE(found.correction.by_table, found.correction.by_curve);
 }

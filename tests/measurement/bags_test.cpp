@@ -86,7 +86,7 @@ class Mcap {
     std::string schema, channel;
     const auto id = static_cast<std::uint16_t>(++topics_);
     put(schema, id);
-    for (const std::string& words : {type, std::string("ros2msg"), std::string()}) text(schema, words);
+    for (const std::string& field : {type, std::string("ros2msg"), std::string()}) text(schema, field);
     record(3, schema);
     put(channel, id);
     put(channel, id);
@@ -172,7 +172,7 @@ TEST(Bags, HaveSameRowsFromEveryWriter) {
   expect_corpus_rows(rows_of(corpus_file("good_packed_messages.db3")), 16, "packed messages");
 }
 
-// Everything after reading depends on these alone, so that results have the same bytes.
+// Results depend on samples, strokes, notes and reasons alone: where these agree, they have the same bytes.
 TEST(Bags, GiveSameMeasurementAsTable) {
   const std::filesystem::path data = std::filesystem::path(FUSEE_SOURCE_DIR) / "tests/data/bags";
   Measurement plain;
@@ -280,7 +280,7 @@ TEST(Bags, CorpusIsReadOrRefused) {
 
 // ---- joining --------------------------------------------------------------------------------------------------------
 
-/// Linear signals at rates of their own: interpolation must reproduce them.
+/// Linear signals of two angles that are logged at different times: interpolation must reproduce them. Steps in ms.
 Mcap two_rates(std::int64_t theta_step, std::int64_t theta_shift) {
   Mcap mcap;
   const int motor = mcap.topic("/motor/state"), joint = mcap.topic("/joint/state");
@@ -296,8 +296,10 @@ Mcap two_rates(std::int64_t theta_step, std::int64_t theta_shift) {
 TEST(Joining, InterpolatesSlowerAngleOntoFaster) {
   for (const std::int64_t step : {4, 25, 100}) {
     const LoggedRows rows = rows_of(two_rates(step, 3).finished());
-    const std::size_t whole = step == 4 ? 497 : step == 25 ? 197 : 190;
-    EXPECT_EQ(rows.samples.size(), whole) << step;
+    // Rows of the faster angle within the times of the other. θ every 4 ms: 500 less the 3 after the last α at 1990 ms.
+    // α every 10 ms: from 10 ms to the last θ at 1978 ms or 1903 ms.
+    const std::size_t expected = step == 4 ? 497 : step == 25 ? 197 : 190;
+    EXPECT_EQ(rows.samples.size(), expected) << step;
     for (const Sample& sample : rows.samples) {
       // Time counts from the first row of the faster topic.
       EXPECT_NEAR(sample.theta, 0.5 - 0.2 * sample.alpha, 1e-12) << step;
@@ -318,6 +320,7 @@ TEST(Joining, DoesNotBridgeGaps) {
   }
   const LoggedRows rows = rows_of(mcap.finished());
   for (const Sample& sample : rows.samples) EXPECT_FALSE(sample.time > 0.306 && sample.time < 0.5) << sample.time;
+  // Without θ are the first row, and 20 rows from 310 ms to 500 ms.
   EXPECT_EQ(rows.samples.size(), 100u - 1 - 20);
 }
 
@@ -333,7 +336,7 @@ TEST(Joining, DoesNotMixLogsOfARestartedClock) {
     }
   }
   const LoggedRows rows = rows_of(mcap.finished());
-  EXPECT_EQ(rows.samples.size(), 98u);
+  EXPECT_EQ(rows.samples.size(), 98u);  // 50 of each log, less the first one, which is before θ
   for (const Sample& sample : rows.samples) EXPECT_NEAR(sample.theta, sample.alpha - 0.003, 1e-12);
   Measurement measurement;
   const measurement::Run run = parse_run(mcap.finished(), "run", {}, measurement);
@@ -547,7 +550,7 @@ TEST(PlotJuggler, EmptyCellsAreJoinedAsInBag) {
 
 // ---- limits ---------------------------------------------------------------------------------------------------------
 
-/// A zstd frame (RFC 8878) of blocks that each repeat one byte 128 kB times.
+/// A zstd frame (RFC 8878) of blocks that each repeat one byte 128·1024 times.
 std::string repeated_zeros(int blocks) {
   std::string frame("\x28\xB5\x2F\xFD\x00\x58", 6);  // a window of 2 MB
   for (int i = 0; i < blocks; ++i) {
@@ -567,10 +570,10 @@ TEST(Unpacking, StopsAtItsLimit) {
   EXPECT_FALSE(some.whole);
   EXPECT_EQ(some.bytes.size(), 1'000'000u);
   UnpackingLimit limit;
-  const std::size_t most = limit.after(packed.size());
+  const std::size_t most = limit.raise_for(packed.size());
   EXPECT_LT(most, std::size_t{65} << 20);
   limit.use(most);
-  EXPECT_EQ(limit.after(1), 1000u);
+  EXPECT_EQ(limit.raise_for(1), 1000u);
 }
 
 TEST(Unpacking, ReportsDamagedAndCutOffFrames) {

@@ -27,8 +27,8 @@ std::vector<double> triangle(double size, int per_stroke, int strokes) {
   std::vector<double> alphas;
   for (int i = 0; i <= per_stroke * strokes; ++i) {
     const int stroke = i / per_stroke, step = i % per_stroke;
-    const double way = -size + 2 * size * step / per_stroke;
-    alphas.push_back(stroke % 2 == 0 ? way : -way);
+    const double rising = -size + 2 * size * step / per_stroke;
+    alphas.push_back(stroke % 2 == 0 ? rising : -rising);
   }
   return alphas;
 }
@@ -55,7 +55,7 @@ ParsedRun parsed(const std::string& text, const MeasurementOptions& options = {}
   return result;
 }
 
-MeasurementOptions named(const std::map<std::string, std::string>& columns) {
+MeasurementOptions column_options(const std::map<std::string, std::string>& columns) {
   MeasurementOptions options;
   options.columns = columns;
   return options;
@@ -108,7 +108,7 @@ TEST(Measurement, ReadsBenchLog) {
   EXPECT_DOUBLE_EQ(p.run.samples[0].theta, radians(-10.0));
   EXPECT_TRUE(p.run.has_time);
   EXPECT_FALSE(p.run.has_load);
-  EXPECT_NEAR(degrees(p.run.speed), 16.0, 1e-9);
+  EXPECT_NEAR(degrees(p.run.speed), 16.0, 1e-9);  // 80° in 50 rows of 0.1 s
 }
 
 TEST(Measurement, CutsStrokesAtReversals) {
@@ -150,9 +150,9 @@ TEST(Measurement, AcceptsCommentsMarksAndLineEnds) {
     EXPECT_EQ(plain.run.samples[i].theta, strange.run.samples[i].theta);
 }
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
-    text.replace(at, what.size(), by);
+std::string replaced(std::string text, const std::string& old_text, const std::string& new_text) {
+  for (std::size_t at = text.find(old_text); at != std::string::npos; at = text.find(old_text, at + new_text.size()))
+    text.replace(at, old_text.size(), new_text);
   return text;
 }
 
@@ -175,14 +175,15 @@ TEST(Measurement, ReadsEverySeparator) {
 
 TEST(Measurement, TakesUnitFromColumnName) {
   const std::string text = "clock_ms,motor_rad,joint_rad\n500,0.5,0.1\n";
-  const ParsedRun p = parsed(text, named({{"time", "clock_ms"}, {"alpha", "motor_rad"}, {"theta", "joint_rad"}}));
+  const ParsedRun p =
+      parsed(text, column_options({{"time", "clock_ms"}, {"alpha", "motor_rad"}, {"theta", "joint_rad"}}));
   EXPECT_DOUBLE_EQ(p.run.samples.at(0).time, 0.5);
   EXPECT_DOUBLE_EQ(p.run.samples.at(0).alpha, 0.5);
   EXPECT_DOUBLE_EQ(p.run.samples.at(0).theta, 0.1);
 }
 
 TEST(Measurement, RejectsColumnWithTwoRoles) {
-  EXPECT_THAT(error_of("alpha_deg,theta_deg\n1,2\n", named({{"load", "theta_deg"}})),
+  EXPECT_THAT(error_of("alpha_deg,theta_deg\n1,2\n", column_options({{"load", "theta_deg"}})),
               HasSubstr("\"theta_deg\" is taken as theta and as load"));
 }
 
@@ -231,12 +232,12 @@ TEST(Measurement, OmitsTruncatedLastRow) {
 
 TEST(Measurement, AssignsRolesToColumns) {
   const std::string text = "alpha_deg,theta_deg,tau_out_Nm\n1,2,3\n";
-  const ParsedRun p = parsed(text, named({{"load", "tau_out_Nm"}}));
+  const ParsedRun p = parsed(text, column_options({{"load", "tau_out_Nm"}}));
   EXPECT_TRUE(p.run.has_load);
   EXPECT_EQ(p.run.samples.at(0).load, 3);
   EXPECT_EQ(p.measurement.load_unit, "Nm");
-  EXPECT_THAT(error_of(text, named({{"load", "tau_oat_Nm"}})), HasSubstr("the nearest is \"tau_out_Nm\""));
-  EXPECT_THAT(error_of(text, named({{"loud", "tau_out_Nm"}})), HasSubstr("did you mean load?"));
+  EXPECT_THAT(error_of(text, column_options({{"load", "tau_oat_Nm"}})), HasSubstr("the nearest is \"tau_out_Nm\""));
+  EXPECT_THAT(error_of(text, column_options({{"loud", "tau_out_Nm"}})), HasSubstr("did you mean load?"));
 }
 
 TEST(Measurement, SuggestsNearestColumn) {
@@ -332,6 +333,7 @@ TEST(Measurement, ContinuesRestartedClock) {
 
 TEST(Measurement, KeepsOrderOfSwappedHalves) {
   const std::string text = timed([](int i) { return shortest(0.1 * i); });
+  // The row at 13 s is row 130 of 201: the second part has 71 rows.
   const std::size_t body = text.find('\n') + 1, middle = text.find("\n13,") + 1;
   const ParsedRun p = parsed(text.substr(0, body) + text.substr(middle) + text.substr(body, middle - body));
   ASSERT_THAT(p.run.samples, SizeIs(201));
@@ -432,6 +434,7 @@ TEST(Strokes, FindsManyCycles) {
   EXPECT_EQ(p.run.strokes.back().cycle, 199);
 }
 
+// Without the rows from 7 s to 14 s, α steps from 9.6° on its way down to 24° on its way up.
 TEST(Strokes, GapCutsStroke) {
   std::string text = csv(triangle(40, 50, 6), quarter);
   text.erase(text.find("\n7,") + 1, text.find("\n14,") - text.find("\n7,"));
@@ -493,7 +496,7 @@ TEST(Measurement, FindsSmallOutliersInLargeMotion) {
             shortest(10 * std::sin(radians(alphas[i])) + noise + (i % 90 == 17 ? 0.8 : 0.0)) + "\n";
   }
   const ParsedRun p = parsed(text);
-  EXPECT_THAT(p.run.samples, SizeIs(198));
+  EXPECT_THAT(p.run.samples, SizeIs(198));  // of 201, without rows 17, 107 and 197
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("3 rows with theta more than"));
 }
 
@@ -531,6 +534,7 @@ TEST(Measurement, PlayIsNotFrozenSensor) {
 }
 
 TEST(Measurement, ReportsFrozenSensors) {
+  // α rises by 1.6° a row: from 30.4° at 4.4 s to 40° the saturated θ is constant.
   const auto saturated = [](double alpha) { return 0.25 * std::clamp(alpha, -30.0, 30.0); };
   EXPECT_THAT(reasons_of(parsed(csv(triangle(40, 50, 4), saturated)).measurement),
               HasSubstr("theta is constant at 7.5 deg while alpha moves over 9.6 deg (at 4.4 s)"));
@@ -601,12 +605,13 @@ TEST(Measurement, ThinsLongLog) {
   const ParsedRun p = parsed(text);
   EXPECT_LT(p.run.samples.size(), std::size_t{1} << 20);
   EXPECT_GT(p.run.samples.size(), 500'000u);
-  EXPECT_THAT(p.run.strokes, SizeIs(12));
+  EXPECT_THAT(p.run.strokes, SizeIs(12));  // of 100000 rows each
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("of 1200000 rows one in 2 is used"));
 }
 
 // ---- comparison with the file ---------------------------------------------------------------------------------------
 
+/// A run of the forearm whose logged angles are multiplied by these factors; with `exchanged` under each other's name.
 Measurement of_joint(double alpha_factor, double theta_factor, bool exchanged = false) {
   const transmission::Transmission law(testing::forearm());
   Measurement measurement;
@@ -624,7 +629,7 @@ TEST(MeasurementAgainstDeclared, ReportsSwappedSignedOrRadianColumns) {
   EXPECT_EQ(reasons_of(of_joint(1, 1)), "");
   EXPECT_EQ(reasons_of(of_joint(1, 1.2)), "");
   EXPECT_THAT(reasons_of(of_joint(1, -1)), HasSubstr("opposite sign"));
-  EXPECT_THAT(reasons_of(of_joint(1, 1, true)), HasSubstr("exchanged"));
+  EXPECT_THAT(reasons_of(of_joint(1, 1, /*exchanged=*/true)), HasSubstr("exchanged"));
   EXPECT_THAT(reasons_of(of_joint(radians(1.0), radians(1.0))), HasSubstr("both angles look like radians"));
   EXPECT_THAT(reasons_of(of_joint(radians(1.0), 1)), HasSubstr("alpha looks like radians"));
   EXPECT_THAT(reasons_of(of_joint(1, radians(1.0))), HasSubstr("theta looks like radians"));
@@ -651,6 +656,7 @@ TEST(MeasurementAgainstDeclared, RemovesWholeTurns) {
   }
 }
 
+// The second run reads a turn less: −290° is 70° − 360°.
 TEST(MeasurementAgainstDeclared, RatioRunsStartOnSameTurn) {
   Mechanism ratio;
   ratio.transmission = RatioTransmission{4.0};
@@ -668,7 +674,7 @@ TEST(MeasurementAgainstDeclared, RatioRunsStartOnSameTurn) {
 TEST(MeasurementAgainstDeclared, ReportsUnsetZero) {
   const transmission::Transmission law(testing::forearm());
   const double most = degrees(law.alpha_max());
-  const auto beside = [&](double offset) {
+  const auto reasons_with_offset = [&](double offset) {
     Measurement measurement;
     measurement.runs.push_back(parse_run(
         csv(triangle(0.9 * most, 60, 4), [&](double alpha) { return offset + degrees(law.theta(radians(alpha))); }),
@@ -676,11 +682,11 @@ TEST(MeasurementAgainstDeclared, ReportsUnsetZero) {
     compare_with_declared(testing::forearm(), measurement);
     return reasons_of(measurement);
   };
-  EXPECT_EQ(beside(10), "");  // within the range of zero_offset
-  EXPECT_THAT(beside(100), HasSubstr("theta is 100 deg away from the declared angle"));
+  EXPECT_EQ(reasons_with_offset(10), "");  // within the range of zero_offset
+  EXPECT_THAT(reasons_with_offset(100), HasSubstr("theta is 100 deg away from the declared angle"));
 }
 
-TEST(MeasurementAgainstDeclared, NoisyMotionSuspectsNoColumn) {
+TEST(MeasurementAgainstDeclared, MotionWithinNoiseNeedsLargerRange) {
   Measurement measurement;
   std::string text = "alpha_deg,theta_deg\n";
   const std::vector<double> alphas = triangle(0.05, 50, 4);

@@ -15,13 +15,13 @@ struct Bench {
   double noise = 0;  ///< rad
   int cycles = 6;
   int rows = 200;      ///< per stroke
-  double shift = 0;    ///< change of θ from cycle to cycle
-  double quantum = 0;  ///< resolution of θ
+  double shift = 0;    ///< change of θ from cycle to cycle, rad
+  double quantum = 0;  ///< sensor step of θ, rad
   double alpha_quantum = 0;
-  double colour = 0;  ///< correlation of the noise from row to row
-  double load_noise = 0;
-  std::vector<double> loads = {};  ///< one per cycle; each bends the joint by .01 rad/N
-  bool same_places = false;
+  double colour = 0;               ///< correlation of the noise from row to row
+  double load_noise = 0;           ///< N
+  std::vector<double> loads = {};  ///< one per cycle, N; each moves the joint by −.01 rad/N
+  bool same_places = false;        ///< rows of all cycles are at the same α
   unsigned seed = 7;
 };
 
@@ -243,7 +243,7 @@ TEST(NoiseFloor, ComparesDwells) {
   }
   // The scatter between visits counts, once per visit.
   const NoiseFloor apart = noise_floor(dwells_at_ends(1e-3, 2e-3, 12));
-  EXPECT_NEAR(apart.rms, std::sqrt(5.0) * 1e-3, 2e-4);
+  EXPECT_NEAR(apart.rms, std::sqrt(5.0) * 1e-3, 2e-4);  // noise 1e-3 and scatter 2e-3
   EXPECT_GT(apart.colour, 0.6);
   EXPECT_LT(apart.degrees_of_freedom, 0.5 * noise_floor(dwells_at_ends(1e-3, 0, 12)).degrees_of_freedom);
 }
@@ -283,7 +283,7 @@ TEST(NoiseFloor, ComparesNeighbouringDwells) {
   for (unsigned seed = 1; seed <= logs; ++seed) {
     const NoiseFloor floor = noise_floor(dwells_without_repeats(1e-3, seed));
     EXPECT_FALSE(floor.from_repeats);
-    EXPECT_LT(floor.degrees_of_freedom, 32);
+    EXPECT_LT(floor.degrees_of_freedom, 32);  // two differences in each of 16 strokes, which share rows
     squares += floor.rms * floor.rms / logs;
   }
   EXPECT_NEAR(std::sqrt(squares), 1e-3, 3e-5);

@@ -88,7 +88,7 @@ void expect_motion(const Run& run, double within = 1e-5, int first = 0) {
   }
 }
 
-MeasurementOptions named(const std::map<std::string, std::string>& columns) {
+MeasurementOptions with_columns(const std::map<std::string, std::string>& columns) {
   MeasurementOptions options;
   options.columns = columns;
   return options;
@@ -133,7 +133,7 @@ TEST(LoggedClock, ContinuesManyOverflows) {
   const ReadRun found = read(table("time_us,alpha_deg,theta_deg", {time, alpha(), theta()}));
   expect_motion(found.run);
   EXPECT_EQ(breaks_of(found.run), 0u);
-  EXPECT_THAT(found.notes, HasSubstr("the clock's counter ran over 122 times"));
+  EXPECT_THAT(found.notes, HasSubstr("the clock's counter ran over 122 times"));  // 8 s in periods of 65.536 ms
 }
 
 TEST(LoggedClock, RestartBeginsNewMotion) {
@@ -200,7 +200,7 @@ TEST(LoggedTime, TakesUnitFromName) {
   for (const auto& [name, unit] : std::vector<std::pair<std::string, double>>{
            {"millis", 1e-3}, {"Zeit in s", 1}, {"t [us]", 1e-6}, {"clock_ns", 1e-9}})
     expect_motion(
-        read(table(name + ",alpha_deg,theta_deg", {in(unit), alpha(), theta()}), named({{"time", name}})).run);
+        read(table(name + ",alpha_deg,theta_deg", {in(unit), alpha(), theta()}), with_columns({{"time", name}})).run);
 }
 
 TEST(LoggedTime, InfersUnitOrRefuses) {
@@ -209,6 +209,7 @@ TEST(LoggedTime, InfersUnitOrRefuses) {
   EXPECT_THAT(error_of(text), HasSubstr("the unit of \"time\" is unknown: as s, the rows are 20 s apart"));
   EXPECT_THAT(error_of(text), HasSubstr("--unit time=ms"));
   expect_motion(read(text, in_units({{"time", "ms"}})).run);
+  // 2025-03-01T10:00:00Z in ms since 1970.
   const Value epoch = [](int row) { return whole(1740823200000.0 + 1000 * time_of(row)); };
   const ReadRun found = read(table("time,alpha_deg,theta_deg", {epoch, alpha(), theta()}));
   expect_motion(found.run);
@@ -291,7 +292,7 @@ TEST(LoggedTime, ReadsTimeStampsOfSpreadsheets) {
   EXPECT_DOUBLE_EQ(*read_time_stamp("59:50.5"), 3590.5);
 }
 
-// Serial numbers of Excel and MATLAB count days.
+// Serial numbers of Excel and MATLAB count days: 45717.4 is the morning of 2025-03-01 in Excel.
 TEST(LoggedTime, RefusesDaysTakenForSeconds) {
   const Value days = [](int row) { return fixed(45717.4 + time_of(row) / 86400, 11); };
   const std::string text = table("time,alpha_deg,theta_deg", {days, alpha(), theta()});
@@ -330,7 +331,7 @@ TEST(LoggedAngles, TakeUnitFromName) {
   expect_motion(
       read(table("time_s,motor,joint", {seconds(), scaled(alpha_of, radians(1.0), 9), scaled(theta_of, 1000, 3)}),
            [] {
-             MeasurementOptions options = named({{"alpha", "motor"}, {"theta", "joint"}});
+             MeasurementOptions options = with_columns({{"alpha", "motor"}, {"theta", "joint"}});
              options.units = {{"alpha", "rad"}, {"theta", "mdeg"}};
              return options;
            }())
@@ -367,7 +368,7 @@ TEST(LoggedAngles, ReadCounts) {
 }
 
 TEST(LoggedAngles, ReportUnitOfWholeNumbers) {
-  const MeasurementOptions roles = named({{"alpha", "motor"}, {"theta", "joint"}});
+  const MeasurementOptions roles = with_columns({{"alpha", "motor"}, {"theta", "joint"}});
   const auto logged = [](double per_turn, double zero, double size = 0) {
     return table("time_s,motor,joint",
                  {seconds(), counts(alpha_of, per_turn, zero, size), counts(theta_of, per_turn, zero, size)});
@@ -396,7 +397,7 @@ TEST(LoggedAngles, ReportUnitOfWholeNumbers) {
 
 TEST(LoggedAngles, InferUnitFromDeclaredRange) {
   const DeclaredMechanism joint = testing::forearm();
-  const MeasurementOptions expected = expecting(joint, named({{"alpha", "motor"}, {"theta", "joint"}}));
+  const MeasurementOptions expected = expecting(joint, with_columns({{"alpha", "motor"}, {"theta", "joint"}}));
   ASSERT_GT(expected.alpha_span, 1);
   for (const auto& [unit, factor] : std::vector<std::pair<std::string, double>>{{"deg", 1}, {"rad", radians(1.0)}}) {
     const double size = 0.4 * degrees(expected.alpha_span) / 60, of_theta = 0.4 * degrees(expected.theta_span) / 30;
@@ -409,7 +410,7 @@ TEST(LoggedAngles, InferUnitFromDeclaredRange) {
   // ROS positions, over several turns of a motor.
   const ReadRun ros = read(
       table("time_s,motor_position,joint_position", {seconds(), scaled(alpha_of, 0.2, 9), scaled(theta_of, 0.2, 9)}),
-      named({{"alpha", "motor_position"}, {"theta", "joint_position"}}));
+      with_columns({{"alpha", "motor_position"}, {"theta", "joint_position"}}));
   EXPECT_NEAR(ros.run.samples[20].alpha, 0.2 * alpha_of(20), 1e-6);
   EXPECT_THAT(ros.notes, HasSubstr("alpha taken as rad"));
 }
@@ -430,7 +431,7 @@ TEST(LoggedLoads, ConvertUnits) {
         LoadName{"load_Ncm", 10, "Nmm"}, LoadName{"load_mNm", 1, "Nmm"}, LoadName{"load [kgf*cm]", 98.0665, "Nmm"},
         LoadName{"load_kg_cm", 98.0665, "Nmm"}, LoadName{"load [oz-in]", 7.061551814226043, "Nmm"},
         LoadName{"load (lb in)", 112.9848290276167, "Nmm"}, LoadName{"load [ft.lbf]", 1355.8179483314, "Nmm"}}) {
-    for (const MeasurementOptions& options : {MeasurementOptions{}, named({{"load", written.name}})}) {
+    for (const MeasurementOptions& options : {MeasurementOptions{}, with_columns({{"load", written.name}})}) {
       const ReadRun found = read(table(std::string("time_s,alpha_deg,theta_deg,") + written.name,
                                        {seconds(), alpha(), theta(), [](int) { return "2"; }}),
                                  options);
@@ -459,16 +460,16 @@ TEST(LoggedLoads, RejectUnknownUnit) {
     return table("alpha_deg,theta_deg," + name, {alpha(), theta(), [](int) { return "2"; }});
   };
   EXPECT_THAT(error_of(logged("load [stone]")), HasSubstr("the unit of \"load [stone]\" is unknown: \"stone\""));
-  EXPECT_THAT(error_of(logged("load_stone"), named({{"load", "load_stone"}})), HasSubstr("units: N, mN, cN"));
+  EXPECT_THAT(error_of(logged("load_stone"), with_columns({{"load", "load_stone"}})), HasSubstr("units: N, mN, cN"));
   EXPECT_THAT(error_of(logged("pull"), in_units({{"load", "stone"}})), HasSubstr("there is no unit \"stone\" of load"));
   EXPECT_THAT(read(logged("load_cell")).notes, HasSubstr("column \"load_cell\" is not used"));
   EXPECT_THAT(read(logged("Last_N")).notes,
               HasSubstr("column \"Last_N\" is not used: if it is the load, add --column load=Last_N"));
-  EXPECT_EQ(read(logged("Last_N"), named({{"load", "Last_N"}})).notes, read(logged("load_N")).notes);
+  EXPECT_EQ(read(logged("Last_N"), with_columns({{"load", "Last_N"}})).notes, read(logged("load_N")).notes);
   EXPECT_EQ(read(logged("tension1_N")).notes, read(logged("load_N")).notes);
-  const ReadRun bare = read(logged("pull"), named({{"load", "pull"}}));
+  const ReadRun bare = read(logged("pull"), with_columns({{"load", "pull"}}));
   EXPECT_THAT(bare.notes, HasSubstr("load: taken as N, as the name \"pull\" states no unit"));
-  EXPECT_THAT(error_of("alpha_deg,theta_deg,tension1_Nm\n1,2,3\n", named({{"tension1", "tension1_Nm"}})),
+  EXPECT_THAT(error_of("alpha_deg,theta_deg,tension1_Nm\n1,2,3\n", with_columns({{"tension1", "tension1_Nm"}})),
               HasSubstr("is a torque"));
 }
 
@@ -478,7 +479,7 @@ TEST(LoggedText, ReadsQuotesOfRfc4180) {
   const std::string remark = "\"he said \"\"stop\"\",\nand it; stopped\"";
   const ReadRun found = read(table("time_s,\"Motor, deg\",\"Joint, deg\",remark",
                                    {seconds(), alpha(), theta(), [&](int row) { return row == 7 ? remark : "\"\""; }}),
-                             named({{"alpha", "Motor, deg"}, {"theta", "Joint, deg"}}));
+                             with_columns({{"alpha", "Motor, deg"}, {"theta", "Joint, deg"}}));
   expect_motion(found.run);
   EXPECT_EQ(found.notes, read(plain()).notes);
   // A quotation mark within a cell opens no quoted text.
@@ -513,7 +514,7 @@ TEST(LoggedText, SkipsPreamble) {
       table("Time[ms],Realtime Tick,Present Position,Goal Position,",
             {[](int row) { return whole(1000 * time_of(row)); }, [](int) { return "1"; }, counts(theta_of, 4096, 2048),
              counts(alpha_of, 4096, 2048), [](int) { return ""; }});
-  const ReadRun found = read(wizard, named({{"alpha", "Goal Position"}, {"theta", "Present Position"}}));
+  const ReadRun found = read(wizard, with_columns({{"alpha", "Goal Position"}, {"theta", "Present Position"}}));
   ASSERT_THAT(found.run.samples, SizeIs(k_rows));
   EXPECT_NEAR(degrees(found.run.samples[20].alpha) - 180, alpha_of(20), 0.05);
   EXPECT_THAT(found.notes, HasSubstr("the header is line 4"));
@@ -569,7 +570,7 @@ TEST(ColumnNames, GiveTheOptionThatReadsAmbiguousAngles) {
     for (const auto& [role, name] : options)
       words += " --column " + role + "=" + (name.find(' ') == std::string::npos ? name : '"' + name + '"');
     EXPECT_THAT(error, HasSubstr("add" + words + " if "));
-    expect_motion(read(text, named(options)).run);
+    expect_motion(read(text, with_columns(options)).run);
   }
   EXPECT_THAT(error_of(table("time_s,left,right", {seconds(), alpha(), theta()})),
               HasSubstr("there is no column alpha_deg and no theta_deg"));
@@ -638,8 +639,9 @@ TEST(LoggedText, ReadsRaggedSeparators) {
   const std::vector<Value> padded = {seconds(), alpha(), theta(), [](int) { return ",,"; }};
   expect_motion(read(table("time_s,alpha_deg,theta_deg", padded)).run);
   expect_motion(read(table("time_s,alpha_deg,theta_deg,,,", columns)).run);
-  EXPECT_THAT(error_of(table("time_s;alpha_deg;theta_deg", columns, '\t')),
-              HasSubstr("the row has 1 values, the header 3, and so in 399 rows below"));
+  EXPECT_THAT(
+      error_of(table("time_s;alpha_deg;theta_deg", columns, '\t')),
+      HasSubstr("the row has 1 values, the header 3, and so in 399 rows below"));  // the last one may be truncated
   EXPECT_THAT(error_of(table("time_s;alpha_deg;theta_deg", columns, '\t')),
               HasSubstr("separate the values by the same mark as the names"));
 }
@@ -687,42 +689,42 @@ TEST(LoggedText, ReadsMissingValues) {
 TEST(LoggedText, AcceptsRepeatedHeader) {
   const std::vector<Value> columns = {seconds(), alpha(), theta()};
   const std::string header = "time_s,alpha_deg,theta_deg";
-  const std::string rest = table("", columns, ',', 200).substr(1);
-  const ReadRun found = read(table(header, columns, ',', 0, 200) + header + "\n" + rest);
+  const std::string second_half = table("", columns, ',', 200).substr(1);
+  const ReadRun found = read(table(header, columns, ',', 0, 200) + header + "\n" + second_half);
   expect_motion(found.run);
   EXPECT_TRUE(found.run.samples[200].after_break);
   EXPECT_EQ(breaks_of(found.run), 1u);
   EXPECT_THAT(found.notes, HasSubstr("the header is repeated 1 time, first in line 202: a new motion begins there"));
   // A row truncated by the restart, followed by the logger's start-up text.
   const ReadRun booted = read(table(header, columns, ',', 0, 200) +
-                              "3.98,1\nets Jun  8 2016\nrst:0x1 (POWERON),boot:0x13\n" + header + "\n" + rest);
+                              "3.98,1\nets Jun  8 2016\nrst:0x1 (POWERON),boot:0x13\n" + header + "\n" + second_half);
   expect_motion(booted.run);
   EXPECT_THAT(booted.notes, HasSubstr("and 3 rows before it were not data"));
   // The header of a second file with a byte order mark, of another version, or behind a cut row.
   for (const char* const before : {"\xEF\xBB\xBF", "3.98,12.", "3.98,12.5,3."})
-    expect_motion(read(table(header, columns, ',', 0, 200) + before + header + "\n" + rest).run);
-  expect_motion(read(table(header, columns, ',', 0, 200) + "Time_s, Alpha_deg, Theta_deg\n" + rest).run);
-  EXPECT_THAT(error_of(table(header, columns, ',', 0, 200) + "theta_deg,alpha_deg,time_s\n" + rest),
+    expect_motion(read(table(header, columns, ',', 0, 200) + before + header + "\n" + second_half).run);
+  expect_motion(read(table(header, columns, ',', 0, 200) + "Time_s, Alpha_deg, Theta_deg\n" + second_half).run);
+  EXPECT_THAT(error_of(table(header, columns, ',', 0, 200) + "theta_deg,alpha_deg,time_s\n" + second_half),
               HasSubstr("run.csv:202:1: error: this line names the columns again, but not as the first header"));
 }
 
-std::string utf16(const std::string& text, bool big) {
-  std::string bytes = big ? "\xFE\xFF" : "\xFF\xFE";
-  for (const char c : text) bytes += big ? std::string(1, '\0') + c : c + std::string(1, '\0');
+std::string utf16(const std::string& text, bool is_big_endian) {
+  std::string bytes = is_big_endian ? "\xFE\xFF" : "\xFF\xFE";
+  for (const char c : text) bytes += is_big_endian ? std::string(1, '\0') + c : c + std::string(1, '\0');
   return bytes;
 }
 
 TEST(LoggedText, ReadsEveryEncoding) {
-  expect_motion(read(utf16(plain(), false)).run);
-  expect_motion(read(utf16(plain(), true)).run);
+  expect_motion(read(utf16(plain(), /*is_big_endian=*/false)).run);
+  expect_motion(read(utf16(plain(), /*is_big_endian=*/true)).run);
   const std::vector<Value> columns = {seconds(), alpha(), theta()};
   const std::string latin = table("Zeit in s;Winkel oben in \xB0;Winkel unten in \xB0", columns, ';');
   const std::string hint = error_of(latin);
   EXPECT_THAT(hint, HasSubstr("\"Winkel oben in \xC2\xB0\""));
   for (const char* const degree : {"\xC2\xB0", "\xB0"}) {
-    const MeasurementOptions options = named({{"time", "Zeit in s"},
-                                              {"alpha", std::string("Winkel oben in ") + degree},
-                                              {"theta", std::string("Winkel unten in ") + degree}});
+    const MeasurementOptions options = with_columns({{"time", "Zeit in s"},
+                                                     {"alpha", std::string("Winkel oben in ") + degree},
+                                                     {"theta", std::string("Winkel unten in ") + degree}});
     const ReadRun found = read(latin, options);
     expect_motion(found.run);
     EXPECT_EQ(found.notes, read(plain()).notes);

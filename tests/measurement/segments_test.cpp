@@ -24,7 +24,7 @@ struct Row {
 };
 
 /// `rows` rows at each angle, and `between` on the way to the next one.
-std::vector<Row> held_at(const std::vector<double>& angles, int rows, int between = 0, double load = 0) {
+std::vector<Row> dwells_at(const std::vector<double>& angles, int rows, int between = 0, double load = 0) {
   std::vector<Row> log;
   for (std::size_t i = 0; i < angles.size(); ++i) {
     log.insert(log.end(), static_cast<std::size_t>(rows), {angles[i], load});
@@ -60,24 +60,21 @@ std::string reasons_of(const Measurement& measurement) {
 
 /// Dwells with the direction of approach, "+40 -40 …"; "·" for a segment in motion.
 std::string dwells_of(const fusee::measurement::Run& run) {
-  std::string words;
+  std::string dwells;
   for (const Segment& segment : run.segments) {
     const int direction = run.strokes[segment.stroke].direction;
-    words += (words.empty() ? "" : " ") +
-             (segment.is_dwell ? (direction > 0   ? "+"
-                                  : direction < 0 ? "-"
-                                                  : "") +
-                                     rounded(std::round(degrees(run.samples[(segment.first + segment.last) / 2].alpha)))
-                               : std::string("·"));
+    const std::string sign = direction > 0 ? "+" : direction < 0 ? "-" : "";
+    const double alpha = degrees(run.samples[(segment.first + segment.last) / 2].alpha);
+    dwells += (dwells.empty() ? "" : " ") + (segment.is_dwell ? sign + rounded(std::round(alpha)) : std::string("·"));
   }
-  return words;
+  return dwells;
 }
 
 std::vector<double> triangle(double size, int per_stroke, int strokes) {
   std::vector<double> alphas;
   for (int i = 0; i <= per_stroke * strokes; ++i) {
-    const double way = -size + 2 * size * (i % per_stroke) / per_stroke;
-    alphas.push_back(i / per_stroke % 2 == 0 ? way : -way);
+    const double rising = -size + 2 * size * (i % per_stroke) / per_stroke;
+    alphas.push_back(i / per_stroke % 2 == 0 ? rising : -rising);
   }
   return alphas;
 }
@@ -87,7 +84,7 @@ std::vector<double> triangle(double size, int per_stroke, int strokes) {
 TEST(Segments, RecordDirectionOfApproach) {
   for (const double noise : {0.0, 0.01, 0.05}) {
     for (const int between : {0, 2}) {
-      const Measurement m = read(held_at({-40, 0, 40, 10, -40, 0, 40, 10, -40}, 12, between), noise);
+      const Measurement m = read(dwells_at({-40, 0, 40, 10, -40, 0, 40, 10, -40}, 12, between), noise);
       EXPECT_EQ(reasons_of(m), "") << noise << " " << between;
       const std::string dwells = dwells_of(m.runs[0]);
       EXPECT_EQ(dwells, between == 0 ? "+-40 +0 +40 -10 --40 +0 +40 -10 --40"
@@ -98,7 +95,7 @@ TEST(Segments, RecordDirectionOfApproach) {
 }
 
 TEST(Segments, StrokesBetweenEndsAreSingleDwells) {
-  const Measurement m = read(held_at({-40, 40, -40, 40, -40, 40}, 20));
+  const Measurement m = read(dwells_at({-40, 40, -40, 40, -40, 40}, 20));
   EXPECT_EQ(reasons_of(m), "");
   EXPECT_EQ(dwells_of(m.runs[0]), "+-40 +40 --40 +40 --40 +40");
   EXPECT_EQ(m.runs[0].speed, 0);
@@ -109,7 +106,7 @@ TEST(Segments, StrokesBetweenEndsAreSingleDwells) {
 /// Three rows at each end look like jitter, and the joint, which stops early, does not follow.
 TEST(Segments, JointMayStopEarly) {
   const std::vector<double> ends = {-95, 94, -72, 70, -48, 46, -24, 23};
-  const Measurement stopped = read(held_at(ends, 3), 0.002, 0, true, -10);
+  const Measurement stopped = read(dwells_at(ends, 3), 0.002, 0, true, -10);
   EXPECT_THAT(reasons_of(stopped), IsEmpty());
   EXPECT_EQ(dwells_of(stopped.runs.front()), "+-95 +94 --72 +70 --48 +46 --24 +23");
 }
@@ -117,18 +114,18 @@ TEST(Segments, JointMayStopEarly) {
 TEST(Segments, OneRowAtEachEndIsMotion) {
   std::vector<double> ends;
   for (int i = 0; i < 30; ++i) ends.push_back(i % 2 == 0 ? -40.0 : 40.0);
-  const Measurement m = read(held_at(ends, 1));
+  const Measurement m = read(dwells_at(ends, 1));
   EXPECT_EQ(reasons_of(m), "");
   EXPECT_THAT(m.runs[0].segments, SizeIs(30));
 }
 
 TEST(Segments, LargeStepIsNotUnwrapped) {
-  const Measurement m = read(held_at({-150, 150, -150, 150}, 10));
+  const Measurement m = read(dwells_at({-150, 150, -150, 150}, 10));
   EXPECT_EQ(dwells_of(m.runs[0]), "+-150 +150 --150 +150");
 }
 
 TEST(Segments, FlickeringSensorIsDwell) {
-  const Measurement m = read(held_at({-40, 0, 40, 0, -40, 0, 40}, 30), 0.05, 0.1);
+  const Measurement m = read(dwells_at({-40, 0, 40, 0, -40, 0, 40}, 30), 0.05, 0.1);
   EXPECT_EQ(dwells_of(m.runs[0]), "+-40 +0 +40 -0 --40 +0 +40");
   EXPECT_NEAR(degrees(m.alpha_quantum), 0.1, 1e-6);
 }
@@ -158,7 +155,7 @@ TEST(Segments, SeparateLoadingAndUnloading) {
   }
   const Measurement m = read(log);
   EXPECT_EQ(reasons_of(m), "");
-  ASSERT_THAT(m.runs[0].segments, SizeIs(25));
+  ASSERT_THAT(m.runs[0].segments, SizeIs(25));  // five loads at five angles
   std::vector<int> pulls;
   for (std::size_t i = 5; i < 10; ++i) pulls.push_back(m.runs[0].segments[i].pull);
   EXPECT_THAT(pulls, ElementsAre(0, 1, 1, -1, -1));

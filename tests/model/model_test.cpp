@@ -67,7 +67,7 @@ TEST(LeastLargestError, ErrorsAlternate) {
       last = error;
     }
   }
-  EXPECT_EQ(alternations, 6);
+  EXPECT_EQ(alternations, 6);  // degree + 2
 }
 
 /// θ of an equality, solved by bisection and independently of the model.
@@ -99,10 +99,11 @@ TEST_P(ModelOfProfile, EqualityErrorsAreTrue) {
 
 /// Length of a taut string from C over a pin to the anchor: the outer side of the convex hull of C, the anchor and a
 /// polygon about the pin.
-double taut(const model::WrappedTendon& tendon, const Vec2& C) {
+double taut_length(const model::WrappedTendon& tendon, const Vec2& C) {
   constexpr int links = 400;
   const Vec2 outward = (tendon.outer - tendon.pin).normalized();
   // The polygon's corners lie on rays from the pin between the directions of C and of the anchor, over the outer side.
+  // Its sides touch the circle.
   const double from = std::atan2((C - tendon.pin).y(), (C - tendon.pin).x()),
                to = std::atan2((tendon.anchor - tendon.pin).y(), (tendon.anchor - tendon.pin).x());
   const double outer = std::atan2(outward.y(), outward.x());
@@ -142,8 +143,8 @@ TEST_P(TautString, LengthsMatchTautString) {
     const double alpha = std::lerp(map.alpha_min, map.alpha_max, i / 6.0), theta = map.theta(alpha);
     const Vec2 end(std::cos(theta) * constrained.end.x() + std::sin(theta) * constrained.end.y(),
                    std::cos(theta) * constrained.end.y() - std::sin(theta) * constrained.end.x());
-    const double length =
-        taut(constrained, end) + (constrained.sheath_exit ? (*constrained.sheath_exit - constrained.anchor).norm() : 0);
+    const double length = taut_length(constrained, end) +
+                          (constrained.sheath_exit ? (*constrained.sheath_exit - constrained.anchor).norm() : 0);
     // A moment arm is no longer than the lever.
     EXPECT_NEAR(length, constrained.home_length + tendons.length(alpha),
                 constrained.end.norm() * (tendons.error + 1e-6))
@@ -314,7 +315,7 @@ TEST(Table, ErrorQuartersWithTwiceThePieces) {
                           fine = *model::joint_table(curve, file.mechanism, {}, radians(0.002));
   ASSERT_EQ(coarse.pieces, 16);
   ASSERT_EQ(fine.pieces, 64);
-  EXPECT_NEAR(coarse.errors.theta / fine.errors.theta, 16, 3);
+  EXPECT_NEAR(coarse.errors.theta / fine.errors.theta, 16, 3);  // four times the pieces
 }
 
 TEST(Table, RejectsErrorLimitBelowFloatResolution) {

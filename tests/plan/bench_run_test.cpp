@@ -16,13 +16,14 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
+/// Strokes of 3.5 rad.
 constexpr PlannedRun k_run{.from = -1.5, .to = 2.0, .cycles = 3, .speed = 0.25, .load = 5};
 
 TEST(PlannedRun, DurationFollowsStrokes) {
   EXPECT_DOUBLE_EQ(minutes_of(k_run), 3 * 2 * (3.5 / 0.25) / 60);
-  PlannedRun held = k_run;
-  held.dwell = 30;
-  EXPECT_DOUBLE_EQ(minutes_of(held), minutes_of(k_run) + 3 * 2 * 30 / 60.0);
+  PlannedRun with_dwells = k_run;
+  with_dwells.dwell = 30;
+  EXPECT_DOUBLE_EQ(minutes_of(with_dwells), minutes_of(k_run) + 3 * 2 * 30 / 60.0);
 }
 
 TEST(PlannedRun, RowsCoverStrokesInTheirTime) {
@@ -33,7 +34,7 @@ TEST(PlannedRun, RowsCoverStrokesInTheirTime) {
     EXPECT_DOUBLE_EQ(rows.rows.front().alpha, run.from);
     EXPECT_DOUBLE_EQ(rows.rows.back().alpha, run.from);
     EXPECT_NEAR(rows.rows.back().time, 60 * minutes_of(run), 1e-9);
-    double way = 0;
+    double path = 0;  // rad
     for (std::size_t i = 1; i < rows.rows.size(); ++i) {
       const double step = std::abs(rows.rows[i].alpha - rows.rows[i - 1].alpha);
       const double time = rows.rows[i].time - rows.rows[i - 1].time;
@@ -42,9 +43,9 @@ TEST(PlannedRun, RowsCoverStrokesInTheirTime) {
         EXPECT_NEAR(step / time, run.speed, 1e-9);
       }
       EXPECT_EQ(rows.rows[i].load, run.load);
-      way += step;
+      path += step;
     }
-    EXPECT_NEAR(way, run.cycles * 2 * 3.5, 1e-9);
+    EXPECT_NEAR(path, run.cycles * 2 * 3.5, 1e-9);
   }
 }
 

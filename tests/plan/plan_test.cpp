@@ -37,7 +37,7 @@ const PlannedCause& cause(const Plan& plan, const std::string& name) {
 // With θ proportional to α both offsets are one number: no run resolves them.
 TEST(Plan, GroupsIndistinguishableCauses) {
   PlanOptions one_run;
-  one_run.minutes = 1.9;
+  one_run.minutes = 1.9;  // enough for the slow run of 1.5 min alone
   const Plan plan = plan_runs(testing::linear_wrist(), one_run);
   ASSERT_EQ(plan.steps.size(), 1u);
   EXPECT_THAT(cause(plan, "motor_offset").rivals, Contains("zero_offset"));
@@ -90,7 +90,7 @@ TEST(Plan, WithoutTimeListsFurtherSteps) {
   const Plan plan = plan_runs(ratio_joint(), options);
   EXPECT_THAT(plan.steps, IsEmpty());
   ASSERT_THAT(plan.beyond, Not(IsEmpty()));
-  EXPECT_THAT(plan.beyond.front().sees, Not(IsEmpty()));
+  EXPECT_THAT(plan.beyond.front().detects, Not(IsEmpty()));
 }
 
 TEST(Plan, WithoutLoadOmitsLoadEffects) {
@@ -105,6 +105,7 @@ TEST(Plan, WithoutLoadOmitsLoadEffects) {
 
 TEST(Plan, FalsePositivesAreRare) {
   const Plan plan = plan_runs(testing::forearm());
+  // 2 % of 250 data sets.
   EXPECT_LE(plan.nothing.wrong, 5);
   EXPECT_LE(plan.one.wrong, 5);
   EXPECT_GT(plan.one.alone, plan.one.samples / 2);
@@ -112,14 +113,14 @@ TEST(Plan, FalsePositivesAreRare) {
 
 TEST(Plan, OmitsKnownReadings) {
   DeclaredMechanism known = testing::forearm();
-  const auto asks = [](const DeclaredMechanism& joint) {
+  const auto requested_keys = [](const DeclaredMechanism& joint) {
     std::vector<std::string> keys;
     for (const fusee::EffectParameter* reading : unread_numbers(joint)) keys.emplace_back(reading->key.name);
     return keys;
   };
-  EXPECT_THAT(asks(known), Contains("pulley_scale_percent"));
+  EXPECT_THAT(requested_keys(known), Contains("pulley_scale_percent"));
   known.prior.pulley_scale = {1.0, 0.001};
-  EXPECT_THAT(asks(known), Not(Contains("pulley_scale_percent")));
+  EXPECT_THAT(requested_keys(known), Not(Contains("pulley_scale_percent")));
 }
 
 // ---- the algebra ----------------------------------------------------------------------------------------------------
@@ -173,7 +174,7 @@ TEST_F(Separations, ConstantHasErrorOfMean) {
   const Cause& zero = named("zero_offset");
   const double rows = known.rows;
   EXPECT_NEAR(usual_rms(known, zero) * options.noise, radians(2.0), 1e-9);
-  const double alone = radians(2.0) / options.noise * std::sqrt(rows) / 4.1;
+  const double alone = radians(2.0) / options.noise * std::sqrt(rows) / 4.1;  // PlanThresholds::resolved_distance
   EXPECT_NEAR(margin(signatures, known, zero, nullptr), alone, 0.05 * alone);
 }
 

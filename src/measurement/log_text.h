@@ -1,5 +1,5 @@
 /// \file
-/// Internal: helpers for the text of a log, which is UTF-8 here.
+/// Internal: helpers for the text of a log. Text is UTF-8 unless stated otherwise.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace fusee::measurement {
 
 /// Removes blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
-/// Quotes text for a message: control characters become ?, long text is cut.
+/// Quotes text for a message: control characters become ?, and text of more than 40 bytes is cut.
 std::string shown(std::string_view text);
 /// Converts Latin-1 or Windows-1252 to UTF-8; UTF-8 is unchanged.
 std::string to_utf8(std::string_view bytes);

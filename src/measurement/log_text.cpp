@@ -1,4 +1,4 @@
-#include "measurement/words.h"
+#include "measurement/log_text.h"
 
 #include <array>
 
@@ -9,7 +9,7 @@ namespace {
 
 unsigned char byte_at(std::string_view text, std::size_t i) { return static_cast<unsigned char>(text[i]); }
 
-/// Length of the UTF-8 character that begins at `at`; 0 if it is invalid.
+/// Length in bytes of the UTF-8 character that begins at `at`; 0 if it is invalid (RFC 3629).
 std::size_t character_length(std::string_view text, std::size_t at) {
   const unsigned char first = byte_at(text, at);
   const std::size_t length = first < 0x80                    ? 1
@@ -34,21 +34,22 @@ std::string_view trimmed(std::string_view text) {
 }
 
 std::string shown(std::string_view text) {
-  constexpr std::size_t k_most = 40;
-  std::string words;
+  constexpr std::size_t k_most_bytes = 40;
+  std::string characters;
   std::size_t i = 0;
-  while (i < text.size() && i < k_most) {
+  while (i < text.size() && i < k_most_bytes) {
     const std::size_t length = character_length(text, i);
+    // Control characters: U+0000 … U+001F, U+007F, and U+0080 … U+009F in two bytes.
     const bool is_control = byte_at(text, i) < 0x20 || byte_at(text, i) == 0x7F ||
                             (length == 2 && byte_at(text, i) == 0xC2 && byte_at(text, i + 1) < 0xA0);
     if (length == 0 || is_control) {
-      words += '?';
+      characters += '?';
     } else {
-      words += text.substr(i, length);
+      characters += text.substr(i, length);
     }
     i += length == 0 ? 1 : length;
   }
-  return "\"" + words + (i < text.size() ? "…\"" : "\"");
+  return "\"" + characters + (i < text.size() ? "…\"" : "\"");
 }
 
 std::string to_utf8(std::string_view bytes) {
