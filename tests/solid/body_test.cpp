@@ -33,7 +33,7 @@ BodyLayout layout_of(const Mechanism& mechanism, const profile::SynthesisResult&
                      double hub_radius = 0) {
   BodyLayout layout = axial_layout(mechanism, rims_of(mechanism, shape), parts, k_steep_lean);
   layout.bore = bore_layout(mechanism, 5);
-  ceiling_recess(layout);
+  add_recess_ceiling(layout);
   layout.hub_radius = hub_radius;
   if (hub_radius > 0) layout.z_hub = layout.z_top + 8;
   return layout;
