@@ -221,12 +221,12 @@ StepContour pocket_contour(const solid::Anchor& anchor, const solid::BodyLayout&
   const auto place = [&](double along, double across) -> Vec2 {
     return anchor.pocket + along * bend.heading + across * outer;
   };
-  if (!(layout.channel_ceiling > 0 && bend.straight > radius + solid::k_deeper))
+  if (!(layout.channel_ceiling > 0 && bend.straight > radius + solid::k_pocket_excess))
     return {place(radius, 0), {{place(-radius, 0), place(0, radius)}, {place(radius, 0), place(0, -radius)}}};
   const double half = solid::half_tab(layout.channel_width, radius), behind = std::sqrt(radius * radius - half * half);
   return {place(-behind, half),
-          {{place(-radius - solid::k_deeper, half), {}},
-           {place(-radius - solid::k_deeper, -half), {}},
+          {{place(-radius - solid::k_pocket_excess, half), {}},
+           {place(-radius - solid::k_pocket_excess, -half), {}},
            {place(-behind, -half), {}},
            {place(-behind, half), place(radius, 0)}}};
 }
@@ -234,7 +234,7 @@ StepContour pocket_contour(const solid::Anchor& anchor, const solid::BodyLayout&
 void add_pocket(std::vector<StepTool>& tools, const solid::Anchor& anchor, const solid::BodyLayout& layout,
                 const HeightAxis& z) {
   const bool left = anchor.side == transmission::Side::left, turned = left && layout.parts == Parts::two;
-  const double closed = anchor.bend->half_height + solid::k_deeper;
+  const double closed = anchor.bend->half_height + solid::k_pocket_excess;
   if (turned || !left) {
     const double open = (left ? layout.z_p1 : layout.z_hub - layout.z_p2) + solid::k_overshoot;
     tools.push_back(prism_between(pocket_contour(anchor, layout), z.at(-closed), z.at(open)));

@@ -13,24 +13,25 @@
 namespace fusee::helical_solid {
 namespace {
 
+// Number of half-planes in which thicknesses are measured.
 constexpr std::size_t k_gauge_planes = 360;
-// Grooves are at least this deep. Shallower minima are chords of other faces.
+// Least depth of a groove. Shallower minima of an outline are chords of other faces.
 constexpr double k_least_groove = 0.3;
-// Loss of a measured thickness by rounding to float and by the file formats.
-constexpr double k_grain_of_gauge = 1e-4;
+// Tolerance of a measured thickness, for rounding to float and in file formats. mm
+constexpr double k_gauge_tolerance = 1e-4;
 // Ribs are measured at this fraction of a groove's depth. Higher up, a chord may lie below the groove edge.
-constexpr double k_share_of_depth = 0.9;
-// Relative difference between volumes of the same facets.
-constexpr double k_volume_grain = 1e-5;
+constexpr double k_rib_height_ratio = 0.9;
+// Relative tolerance of the volume. It covers the difference between two sums over the same facets.
+constexpr double k_volume_tolerance = 1e-5;
 
 // The smallest value and its place.
 struct Minimum {
   double value = std::numeric_limits<double>::infinity();
   Vec3 at = Vec3::Zero();
 
-  void note(double here, double angle, double r, double z) {
-    if (here >= value) return;
-    value = here;
+  void consider(double candidate, double angle, double r, double z) {
+    if (candidate >= value) return;
+    value = candidate;
     at = {r * elementary::cos(angle), r * elementary::sin(angle), z};
   }
   Check check(const std::string& name, double limit) const {
@@ -45,7 +46,8 @@ class PartGauge {
       : layout_(pulley.layout), section_(section) {
     auto cuts = half_plane_cuts(mesh, k_gauge_planes);
     std::vector<std::vector<OutlinePiece>> outlines;
-    std::vector<std::vector<FloorPlace>> floors, whole(k_gauge_planes);
+    // For each half-plane: all floors, and those that belong to a groove.
+    std::vector<std::vector<FloorPlace>> floors, groove_floors(k_gauge_planes);
     for (std::vector<OutlinePiece>& cut : cuts) {
       for (OutlinePiece& piece : cut) {
         for (double* size : {&piece.z0, &piece.r0, &piece.z1, &piece.r1}) *size /= layout_.scale;
@@ -55,18 +57,19 @@ class PartGauge {
     }
     for (const FloorTrace& trace : floor_traces(floors)) {
       for (std::size_t k = 0; k < trace.places.size(); ++k)
-        whole[(trace.first + k) % k_gauge_planes].push_back(trace.places[k]);
+        groove_floors[(trace.first + k) % k_gauge_planes].push_back(trace.places[k]);
     }
     for (std::size_t k = 0; k < k_gauge_planes; ++k) {
-      std::sort(whole[k].begin(), whole[k].end(), [](const FloorPlace& a, const FloorPlace& b) { return a.z < b.z; });
-      measure(half_plane_angle(k, k_gauge_planes), cuts[k], outlines[k], whole[k]);
+      std::sort(groove_floors[k].begin(), groove_floors[k].end(),
+                [](const FloorPlace& a, const FloorPlace& b) { return a.z < b.z; });
+      measure(half_plane_angle(k, k_gauge_planes), cuts[k], outlines[k], groove_floors[k]);
     }
   }
 
   void add_checks(std::vector<Check>& checks, double chord_error_mm) const {
-    checks.push_back(rib_.check("rib", section_.rib - k_grain_of_gauge));
+    checks.push_back(rib_.check("rib", section_.rib - k_gauge_tolerance));
     checks.push_back(depth_.check("groove_depth", section_.depth - chord_error_mm));
-    checks.push_back(wall_.check("bore_wall", layout_.min_wall - k_grain_of_gauge));
+    checks.push_back(wall_.check("bore_wall", layout_.min_wall - k_gauge_tolerance));
   }
 
  private:
@@ -74,16 +77,17 @@ class PartGauge {
                const std::vector<FloorPlace>& floors) {
     for (std::size_t i = 0; i < floors.size(); ++i) {
       const FloorPlace& floor = floors[i];
-      depth_.note(std::min(floor.low_crest, floor.high_crest) - floor.r, angle, floor.r, floor.z);
-      wall_.note(floor.r - bore_at(pieces, floor.z), angle, floor.r, floor.z);
-      if (i > 0) rib_.note(thickness_between(outline, floors[i - 1], floor), angle, floor.r, floor.z);
+      depth_.consider(std::min(floor.low_crest, floor.high_crest) - floor.r, angle, floor.r, floor.z);
+      wall_.consider(floor.r - bore_at(pieces, floor.z), angle, floor.r, floor.z);
+      if (i > 0) rib_.consider(thickness_between(outline, floors[i - 1], floor), angle, floor.r, floor.z);
     }
   }
 
-  // Height over which the outline projects further than the nearer floor's groove is deep.
+  // Thickness of the rib between two floors: the height over which the outline projects beyond most of the groove's
+  // depth, from the floor that is nearer to the axis.
   double thickness_between(const std::vector<OutlinePiece>& outline, const FloorPlace& low,
                            const FloorPlace& high) const {
-    const double level = std::min(low.r, high.r) + k_share_of_depth * section_.depth;
+    const double level = std::min(low.r, high.r) + k_rib_height_ratio * section_.depth;
     double thickness = 0;
     for (const OutlinePiece& piece : outline) {
       if (piece.z1 <= low.z || piece.z0 >= high.z) continue;
@@ -119,8 +123,8 @@ std::vector<Check> check_helical_pulley(const solid::TriangleMesh& mesh, const H
   std::vector<Check> checks = solid::check_mesh(mesh);
   if (!all_ok(checks)) return checks;
   checks.push_back(exactly("euler_number", solid::euler_number(mesh), pulley.expected_euler, "1"));
-  const double off = std::abs(solid::enclosed_volume(mesh) - pulley.expected_volume);
-  checks.push_back(at_most("volume", off, k_volume_grain * pulley.expected_volume, "mm³"));
+  const double deviation = std::abs(solid::enclosed_volume(mesh) - pulley.expected_volume);
+  checks.push_back(at_most("volume", deviation, k_volume_tolerance * pulley.expected_volume, "mm³"));
   PartGauge(mesh, pulley, section).add_checks(checks, chord_error_mm);
   return checks;
 }

@@ -13,11 +13,11 @@ namespace {
 // Pieces shorter than this along the axis count as level.
 constexpr double k_level = 1e-7;
 // Largest variation of the radius within a floor (mm), from float rounding in a large part.
-constexpr double k_ground = 1e-3;
+constexpr double k_floor_variation = 1e-3;
 
 // Adds the cut of a facet by the half-plane in direction (c, s).
 void cut(const std::array<const Vec3*, 3>& corners, double c, double s, std::vector<OutlinePiece>& pieces) {
-  std::array<double, 3> aside{};
+  std::array<double, 3> aside{};  // distances of the corners to the left of the half-plane
   for (std::size_t k = 0; k < 3; ++k) aside[k] = c * corners[k]->y() - s * corners[k]->x();
   OutlinePiece piece;
   int ends = 0;
@@ -41,9 +41,9 @@ double radius_at(const OutlinePiece& piece, double z) {
   return piece.r0 + (piece.r1 - piece.r0) * (z - piece.z0) / (piece.z1 - piece.z0);
 }
 
-// Largest step of a floor between neighbouring half-planes (mm), beyond the arc between them: a floor that rises at
-// 45° makes a step of the arc's length.
-constexpr double k_next = 0.4;
+// Largest step of a floor between neighbouring half-planes, in addition to the arc between them. A floor that rises at
+// 45° makes a step of the arc's length. mm
+constexpr double k_additional_step = 0.4;
 // A groove's end wall stands across the groove, and a half-plane may cut it at an angle. This angle at each end is
 // omitted.
 constexpr double k_end_of_groove = radians(4);
@@ -52,9 +52,9 @@ constexpr double k_end_of_groove = radians(4);
 class FloorJoiner {
  public:
   explicit FloorJoiner(const std::vector<std::vector<FloorPlace>>& floors) : floors_(floors), planes_(floors.size()) {
-    for (const auto& of_plane : floors_) {
-      next_.emplace_back(of_plane.size(), k_none);
-      has_before_.emplace_back(of_plane.size(), false);
+    for (const auto& in_plane : floors_) {
+      next_.emplace_back(in_plane.size(), k_none);
+      has_previous_.emplace_back(in_plane.size(), false);
     }
     for (std::size_t k = 0; k < planes_; ++k) join(k, (k + 1) % planes_);
   }
@@ -63,7 +63,7 @@ class FloorJoiner {
     std::vector<FloorTrace> traces;
     for (std::size_t k = 0; k < planes_; ++k) {
       for (std::size_t i = 0; i < floors_[k].size(); ++i) {
-        if (has_before_[k][i]) continue;
+        if (has_previous_[k][i]) continue;
         FloorTrace trace = trace_from(k, i);
         if (trace.places.size() >= planes_ / 2) traces.push_back(without_ends(std::move(trace)));
       }
@@ -77,17 +77,18 @@ class FloorJoiner {
  private:
   static constexpr std::size_t k_none = std::numeric_limits<std::size_t>::max();
 
+  // Joins each floor of a half-plane to the nearest one of the next.
   void join(std::size_t here, std::size_t there) {
     for (std::size_t i = 0; i < floors_[here].size(); ++i) {
-      double nearest = k_next + k_two_pi / static_cast<double>(planes_) * floors_[here][i].r;
+      double nearest = k_additional_step + k_two_pi / static_cast<double>(planes_) * floors_[here][i].r;
       for (std::size_t j = 0; j < floors_[there].size(); ++j) {
         const FloorPlace &a = floors_[here][i], &b = floors_[there][j];
-        const double away = elementary::hypot(a.z - b.z, a.r - b.r);
-        if (away >= nearest || has_before_[there][j]) continue;
-        nearest = away;
+        const double step = elementary::hypot(a.z - b.z, a.r - b.r);
+        if (step >= nearest || has_previous_[there][j]) continue;
+        nearest = step;
         next_[here][i] = j;
       }
-      if (next_[here][i] != k_none) has_before_[there][next_[here][i]] = true;
+      if (next_[here][i] != k_none) has_previous_[there][next_[here][i]] = true;
     }
   }
 
@@ -111,8 +112,10 @@ class FloorJoiner {
 
   const std::vector<std::vector<FloorPlace>>& floors_;
   std::size_t planes_;
+  // For each floor of each half-plane: the floor in the next half-plane that continues it, and whether it continues
+  // one.
   std::vector<std::vector<std::size_t>> next_;
-  std::vector<std::vector<bool>> has_before_;
+  std::vector<std::vector<bool>> has_previous_;
 };
 
 }  // namespace
@@ -129,18 +132,19 @@ std::vector<std::vector<OutlinePiece>> half_plane_cuts(const solid::TriangleMesh
   for (const auto& triangle : mesh.triangles) {
     const std::array<const Vec3*, 3> corners{&mesh.vertices[triangle[0]], &mesh.vertices[triangle[1]],
                                              &mesh.vertices[triangle[2]]};
-    const double at = elementary::atan2(corners[0]->y(), corners[0]->x());
-    double low = at, high = at;
+    const double start = elementary::atan2(corners[0]->y(), corners[0]->x());
+    double low = start, high = start;
     for (const Vec3* corner : {corners[1], corners[2]}) {
-      const double angle = at + std::remainder(elementary::atan2(corner->y(), corner->x()) - at, k_two_pi);
+      const double angle = start + std::remainder(elementary::atan2(corner->y(), corner->x()) - start, k_two_pi);
       low = std::min(low, angle);
       high = std::max(high, angle);
     }
+    // Half-planes that the facet may reach, not yet reduced to one turn.
     const auto from = static_cast<long>(std::floor((low - first) / step)),
                to = static_cast<long>(std::ceil((high - first) / step));
-    const auto whole = static_cast<long>(count);
-    for (long k = from; k <= to && k < from + whole; ++k) {
-      const auto plane = static_cast<std::size_t>(((k % whole) + whole) % whole);
+    const auto one_turn = static_cast<long>(count);
+    for (long k = from; k <= to && k < from + one_turn; ++k) {
+      const auto plane = static_cast<std::size_t>(((k % one_turn) + one_turn) % one_turn);
       cut(corners, directions[plane].x(), directions[plane].y(), cuts[plane]);
     }
   }
@@ -156,7 +160,7 @@ std::vector<OutlinePiece> outermost(std::vector<OutlinePiece> pieces) {
   }
   std::sort(heights.begin(), heights.end());
   std::vector<OutlinePiece> outline;
-  std::vector<const OutlinePiece*> here;
+  std::vector<const OutlinePiece*> here;  // pieces at the present height
   auto next = pieces.begin();
   for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
     const double low = heights[k], high = heights[k + 1], middle = 0.5 * (low + high);
@@ -175,33 +179,34 @@ std::vector<OutlinePiece> outermost(std::vector<OutlinePiece> pieces) {
 std::vector<FloorPlace> floors_of(const std::vector<OutlinePiece>& outline, double least_rise) {
   std::vector<FloorPlace> floors;
   if (outline.empty()) return floors;
-  // From each crest, follow the outline down to the lowest ground. A rise of at least `least_rise` ends a floor.
+  // Follows the outline upwards from each crest to the least radius after it. A rise of at least `least_rise` from
+  // there ends a floor.
   double crest = outline.front().r0, crest_z = outline.front().z0;
-  double ground = crest, from = crest_z, to = crest_z;
-  bool is_down = false;
+  double least = crest, from = crest_z, to = crest_z;  // least radius since the crest, and the heights that have it
+  bool is_in_groove = false;
   const auto follow = [&](double z, double r) {
-    if (r < ground - k_ground) {
-      ground = r;
+    if (r < least - k_floor_variation) {
+      least = r;
       from = to = z;
-    } else if (r <= ground + k_ground) {
-      ground = std::min(ground, r);
+    } else if (r <= least + k_floor_variation) {
+      least = std::min(least, r);
       to = z;
     }
-    if (!is_down) {
-      if (r >= crest - k_ground) {
+    if (!is_in_groove) {
+      if (r >= crest - k_floor_variation) {
         crest = std::max(crest, r);
         crest_z = z;
-        ground = r;
+        least = r;
         from = to = z;
       }
-      is_down = r < crest - least_rise;
+      is_in_groove = r < crest - least_rise;
     }
-    if (is_down && r > ground + least_rise) {
-      floors.push_back({0.5 * (from + to), ground, crest, r, crest_z, z});
-      is_down = false;
-      crest = ground = r;
+    if (is_in_groove && r > least + least_rise) {
+      floors.push_back({0.5 * (from + to), least, crest, r, crest_z, z});
+      is_in_groove = false;
+      crest = least = r;
       crest_z = from = to = z;
-    } else if (!is_down && !floors.empty() && floors.back().high_crest < r) {
+    } else if (!is_in_groove && !floors.empty() && floors.back().high_crest < r) {
       floors.back().high_crest = r;
       floors.back().high_crest_z = z;
     }

@@ -14,20 +14,21 @@ struct OutlinePiece {
   double z0 = 0, r0 = 0, z1 = 0, r1 = 0;  ///< z0 < z1
 };
 
-/// The angle of half-plane `k` of `count`, evenly spaced. None coincides with an angle that drawings favour.
+/// The angle of half-plane `k` of `count`, evenly spaced. None lies at a multiple of the spacing, where parts often
+/// have corners.
 double half_plane_angle(std::size_t k, std::size_t count);
 /// The outline pieces of the mesh in each half-plane, unordered. Level pieces are omitted.
 std::vector<std::vector<OutlinePiece>> half_plane_cuts(const solid::TriangleMesh& mesh, std::size_t count);
 /// The outermost pieces at every height, from below, without gaps within the part.
 std::vector<OutlinePiece> outermost(std::vector<OutlinePiece> pieces);
 
-/// A local minimum of radius between two rises of an outline.
+/// A local minimum of radius between two crests of an outline: the section of a groove's floor.
 struct FloorPlace {
-  double z = 0, r = 0;                       ///< the middle of the ground
-  double low_crest = 0, high_crest = 0;      ///< distances from the axis of the crests on both sides
-  double low_crest_z = 0, high_crest_z = 0;  ///< heights at which the ground meets the crests
+  double z = 0, r = 0;                       ///< the middle of the floor
+  double low_crest = 0, high_crest = 0;      ///< distances from the axis of the crests below and above
+  double low_crest_z = 0, high_crest_z = 0;  ///< heights at which these crests end towards the floor
 };
-/// Ignores rises lower than `least_rise`.
+/// The floors in an outline, from below. Minima less than `least_rise` below a crest are no floors.
 std::vector<FloorPlace> floors_of(const std::vector<OutlinePiece>& outline, double least_rise);
 
 /// A floor followed from half-plane to half-plane, counter-clockwise: place k lies in half-plane (first + k) mod count.

@@ -31,8 +31,8 @@ constexpr double k_hub_sagitta = 0.01;
 // after which the bulge over a channel declines.
 constexpr double k_blend_from = 0.5;
 
-// Largest fraction of a turn's columns that is re-triangulated beside a groove's end.
-constexpr std::size_t k_share_of_turn = 4;
+// Beside a groove's end, at most a turn's columns divided by this are triangulated in one loop.
+constexpr std::size_t k_loop_divisor = 4;
 
 // Smooth step: 0 up to k_blend_from, 1 at share 1.
 double blend(double share) {
@@ -41,12 +41,13 @@ double blend(double share) {
 }
 
 // A closed ring that follows a groove's outermost turn, the lowest or highest. A turn of a spiral is open, so the ring
-// leaves it in the half with the most clearance and returns to the place where the turn began.
+// leaves it in the half with the most clearance and returns to the place where the turn began. `outward`: distance of
+// the ring from the pitch curve, mm.
 std::vector<Vec2> ring_about(const Winding& winding, std::size_t columns, bool lowest, double outward) {
   const bool from_front = lowest != winding.falls;
   const std::size_t last = winding.rows.size() - 1;
   const auto row_at = [&](std::size_t k) -> const WindingRow& { return winding.rows[from_front ? k : last - k]; };
-  const Vec2 gap = row_at(0).position - row_at(columns).position;
+  const Vec2 gap = row_at(0).position - row_at(columns).position;  // between both ends of the turn
   const double turn = std::abs(row_at(columns).turn - row_at(0).turn);
   std::vector<Vec2> ring(columns);
   for (std::size_t k = 0; k < columns; ++k) {
@@ -74,7 +75,7 @@ class BlankBuilder {
   }
 
   solid::TriangleMesh build() {
-    std::vector<Feature> ladder = features();
+    std::vector<Feature> ladder = add_features();
     for (std::size_t i = 0; i < columns_; ++i) add_strip(ladder, i);
     triangulate_bands();
     add_end_walls(ladder);
@@ -85,9 +86,9 @@ class BlankBuilder {
  private:
   // An element that rises through the strips: a ring, or a groove with all its turns.
   struct Feature {
-    const Winding* winding = nullptr;  // null: a ring
-    Index first = 0;                   // a ring's first vertex
-    std::vector<Index> rows = {};      // a groove's: the first of each row
+    const Winding* winding = nullptr;  // the groove's; null: a ring
+    Index first = 0;                   // first vertex of a ring
+    std::vector<Index> rows = {};      // first vertex of each row of a groove
   };
 
   // One column's part of a ladder: a ring's vertex or a turn's section, from `low` to `high`.
@@ -100,50 +101,54 @@ class BlankBuilder {
     return static_cast<Index>(mesh_.vertices.size() - 1);
   }
 
-  Feature ring(const std::vector<Vec2>& plan, double z) {
-    const Feature here{nullptr, static_cast<Index>(mesh_.vertices.size()), {}};
+  Feature add_ring(const std::vector<Vec2>& plan, double z) {
+    const Feature ring{nullptr, static_cast<Index>(mesh_.vertices.size()), {}};
     for (const Vec2& point : plan) add(point, z);
-    rings_.push_back(here.first);
-    return here;
+    rings_.push_back(ring.first);
+    return ring;
   }
 
-  // A filled row consists of the two groove edges only.
-  Feature groove(const Winding& winding) {
-    Feature here{&winding, 0, {}};
+  // Adds the vertices of a groove. A filled row consists of the two groove edges only.
+  Feature add_rows(const Winding& winding) {
+    Feature groove{&winding, 0, {}};
     for (std::size_t j = 0; j < winding.rows.size(); ++j) {
       const WindingRow& row = winding.rows[j];
-      here.rows.push_back(static_cast<Index>(mesh_.vertices.size()));
+      groove.rows.push_back(static_cast<Index>(mesh_.vertices.size()));
       for (std::size_t k = 0; k < section_.size(); ++k) {
         const bool is_groove_edge = k == 0 || k + 1 == section_.size();
         if (winding.is_filled(j) && !is_groove_edge) continue;
         const solid::GroovePoint& point = section_[k];
         const double bulge = winding.is_filled(j) ? bulge_of(winding, j, k == 0) : 0.0;
-        add(row.position + (point.offset + bulge - 0.5 * layout_.tendon_diameter) * row.normal, row.height + point.dz);
+        const double outward = point.offset + bulge - 0.5 * layout_.tendon_diameter;  // from the pitch curve
+        add(row.position + outward * row.normal, row.height + point.dz);
       }
     }
-    return here;
+    return groove;
   }
 
+  // Distance by which a groove edge of a filled row projects beyond other rows.
   static double bulge_of(const Winding& winding, std::size_t row, bool low) {
     return (low ? winding.bulge_low : winding.bulge_high) * (1.0 - blend(winding.share_of_fill(row)));
   }
 
-  std::vector<Feature> features() {
+  // Adds the vertices of all features, from below.
+  std::vector<Feature> add_features() {
     std::vector<Feature> all;
     const double foot = layout_.elephant_foot;
-    if (foot > 0) all.push_back(ring(ring_about(fan_.p1, columns_, true, groove_edge_ - foot), 0.0));
+    if (foot > 0) all.push_back(add_ring(ring_about(fan_.p1, columns_, true, groove_edge_ - foot), 0.0));
     lowest_ = 0;
     all.push_back(
-        ring(ring_about(fan_.p1, columns_, true, groove_edge_), foot > 0 ? solid::rise_of(layout_, foot) : 0.0));
-    all.push_back(groove(fan_.p1));
-    all.push_back(ring(ring_about(fan_.p1, columns_, false, groove_edge_), heights_.lower));
-    all.push_back(ring(ring_about(fan_.p2, columns_, true, groove_edge_), heights_.upper));
-    all.push_back(groove(fan_.p2));
-    all.push_back(ring(ring_about(fan_.p2, columns_, false, groove_edge_), heights_.top));
+        add_ring(ring_about(fan_.p1, columns_, true, groove_edge_), foot > 0 ? solid::rise_of(layout_, foot) : 0.0));
+    all.push_back(add_rows(fan_.p1));
+    all.push_back(add_ring(ring_about(fan_.p1, columns_, false, groove_edge_), heights_.lower));
+    all.push_back(add_ring(ring_about(fan_.p2, columns_, true, groove_edge_), heights_.upper));
+    all.push_back(add_rows(fan_.p2));
+    all.push_back(add_ring(ring_about(fan_.p2, columns_, false, groove_edge_), heights_.top));
     highest_ = all.back().first;
     return all;
   }
 
+  // A row's section: its lowest and its highest vertex.
   Segment segment(const Feature& groove, std::size_t row) const {
     const Index first = groove.rows[row];
     return {first, first + (groove.winding->is_filled(row) ? 1 : static_cast<Index>(section_.size() - 1))};
@@ -171,7 +176,7 @@ class BlankBuilder {
   using Edge = std::pair<Index, Index>;
   using BandsByEdge = std::map<Edge, std::size_t>;
 
-  // Cost of a triangle: its last side, plus a large penalty if it does not face outwards.
+  // Cost of a triangle: the length of its last side, plus a large penalty if it does not face outwards.
   double cost_of(const Facet& facet) const {
     constexpr double k_fold = 1e6, k_edge_on = 0.02;
     const Vec3 &p = mesh_.vertices[facet[0]], &q = mesh_.vertices[facet[1]], &r = mesh_.vertices[facet[2]];
@@ -184,6 +189,8 @@ class BlankBuilder {
   // (dynamic programming over sub-polygons).
   void triangulate_loop(const std::vector<Index>& loop) {
     const std::size_t n = loop.size();
+    // For the sub-polygon from corner i to corner j, at i n + j: its least cost, and the third corner of the triangle
+    // on its side from i to j.
     std::vector<double> cost(n * n, 0.0);
     std::vector<std::size_t> middle(n * n, 0);
     for (std::size_t width = 2; width < n; ++width) {
@@ -191,9 +198,9 @@ class BlankBuilder {
         const std::size_t j = i + width;
         double best = std::numeric_limits<double>::infinity();
         for (std::size_t k = i + 1; k < j; ++k) {
-          const double here = cost[i * n + k] + cost[k * n + j] + cost_of({loop[i], loop[k], loop[j]});
-          if (here >= best) continue;
-          best = here;
+          const double candidate = cost[i * n + k] + cost[k * n + j] + cost_of({loop[i], loop[k], loop[j]});
+          if (candidate >= best) continue;
+          best = candidate;
           middle[i * n + j] = k;
         }
         cost[i * n + j] = best;
@@ -211,9 +218,9 @@ class BlankBuilder {
     }
   }
 
-  // Points with one normal on two turns need not lie above one another. Strips between them are flat nevertheless. A
-  // groove's end between the turn before and a ring may stand across neighbouring strips, so these strips are
-  // re-triangulated between nearest corners.
+  // Triangulates all bands. Most have four corners. A groove's end is a step in its column and may lean over
+  // neighbouring strips, because points with one normal on two turns need not lie above one another. A band with a
+  // groove's end is therefore triangulated in one loop with these neighbours.
   void triangulate_bands() {
     BandsByEdge with_left, with_right;
     std::vector<bool> triangulated(bands_.size(), false);
@@ -234,6 +241,8 @@ class BlankBuilder {
     }
   }
 
+  // The corners of a band with a groove's end and of the neighbouring bands over which that end leans,
+  // counter-clockwise. Marks these neighbours as triangulated.
   std::vector<Index> loop_about(const Band& band, const BandsByEdge& with_left, const BandsByEdge& with_right,
                                 std::vector<bool>& triangulated) const {
     const bool on_right = band.right.size() > 2;
@@ -244,13 +253,13 @@ class BlankBuilder {
       lows.push_back(edge.first);
       highs.push_back(edge.second);
       const auto found = bands.find(edge);
-      if (found == bands.end() || triangulated[found->second] || lows.size() > columns_ / k_share_of_turn) break;
+      if (found == bands.end() || triangulated[found->second] || lows.size() > columns_ / k_loop_divisor) break;
       if (is_beside(edge, ended, whole)) break;
       triangulated[found->second] = true;
       const std::vector<Index>& next = on_right ? bands_[found->second].left : bands_[found->second].right;
       edge = {next.front(), next.back()};
     }
-    // From the end's column, the corners run to the right if the end is on the left, and to the left otherwise.
+    // The corners run away from the end's column: to the right if it is on the left, and otherwise to the left.
     if (on_right) std::swap(lows, highs);
     lows.insert(lows.end(), highs.rbegin(), highs.rend());
     return lows;
@@ -269,8 +278,8 @@ class BlankBuilder {
     const bool under_ring = lies_under_ring(ended);
     const Vec3 step = under_ring ? Vec3(at(ended[3]) - at(whole.back())) : Vec3(at(ended[0]) - at(whole.front()));
     return std::all_of(ended.begin() + 1, ended.begin() + 3, [&](Index v) {
-      const Vec3 low = at(edge.first), way = at(edge.second) - low;
-      const Vec3 beside = low + (at(v).z() - low.z()) / way.z() * way;
+      const Vec3 low = at(edge.first), along = at(edge.second) - low;
+      const Vec3 beside = low + (at(v).z() - low.z()) / along.z() * along;  // on the edge, at the height of v
       return (at(v) - beside).dot(step) > 0.5 * step.squaredNorm();
     });
   }
@@ -285,27 +294,30 @@ class BlankBuilder {
   // Adds all bands of a strip, from below.
   void add_strip(const std::vector<Feature>& ladder, std::size_t i) {
     const std::size_t next = (i + 1) % columns_;
-    std::vector<Index> left, right;  // since the last feature of both columns
-    const auto meet = [&](Segment on_left, Segment on_right) {
+    std::vector<Index> left, right;  // the present band's corners, upwards
+    // Ends the present band at a feature and begins the next one above it.
+    const auto pass_feature = [&](Segment on_left, Segment on_right) {
       left.push_back(on_left.low);
       right.push_back(on_right.low);
       if (left.size() > 1) bands_.push_back({left, right});
       left = {on_left.high};
       right = {on_right.high};
     };
-    for (const Feature& step : ladder) {
-      if (step.winding == nullptr) {
-        const Index a = step.first + static_cast<Index>(i), b = step.first + static_cast<Index>(next);
-        meet({a, a}, {b, b});
+    for (const Feature& feature : ladder) {
+      if (feature.winding == nullptr) {
+        const Index a = feature.first + static_cast<Index>(i), b = feature.first + static_cast<Index>(next);
+        pass_feature({a, a}, {b, b});
         continue;
       }
-      add_groove(step, rows_in(*step.winding, i), rows_in(*step.winding, next), left, right, meet);
+      add_turns(feature, rows_in(*feature.winding, i), rows_in(*feature.winding, next), left, right, pass_feature);
     }
   }
 
-  void add_groove(const Feature& groove, const std::vector<std::size_t>& on_left,
-                  const std::vector<std::size_t>& on_right, std::vector<Index>& left, std::vector<Index>& right,
-                  const auto& meet) {
+  // Adds a groove's turns in a strip. `on_left`, `on_right`: its rows in both columns, upwards. A row at a groove's end
+  // has no neighbour in the other column and adds two corners to the present band.
+  void add_turns(const Feature& groove, const std::vector<std::size_t>& on_left,
+                 const std::vector<std::size_t>& on_right, std::vector<Index>& left, std::vector<Index>& right,
+                 const auto& pass_feature) {
     std::size_t l = 0, r = 0;
     const std::size_t last = groove.winding->rows.size() - 1;
     while (l < on_left.size() || r < on_right.size()) {
@@ -318,7 +330,7 @@ class BlankBuilder {
       } else {
         demand(l < on_left.size() && r < on_right.size() && on_right[r] == on_left[l] + 1,
                "turns that do not continue");
-        meet(segment(groove, on_left[l]), segment(groove, on_right[r]));
+        pass_feature(segment(groove, on_left[l]), segment(groove, on_right[r]));
         add_step(groove, on_left[l]);
         ++l;
         ++r;
@@ -326,7 +338,7 @@ class BlankBuilder {
     }
   }
 
-  // Adds the band from a row to the next one.
+  // Adds the groove's surface from a row to the next one.
   void add_step(const Feature& groove, std::size_t row) {
     const Segment a = segment(groove, row), b = segment(groove, row + 1);
     if (groove.winding->is_filled(row) || groove.winding->is_filled(row + 1)) {
@@ -404,8 +416,9 @@ class BlankBuilder {
     return holes;
   }
 
+  // Adds the faces at both ends, the hub, and the walls of bore and screw holes.
   void add_faces() {
-    std::vector<std::vector<Index>> below{ring_indices(lowest_)}, above;
+    std::vector<std::vector<Index>> below{ring_indices(lowest_)}, above;  // loops of the lowest and the highest face
     const double top = layout_.hub_radius > 0 ? heights_.hub_top : heights_.top;
     if (layout_.hub_radius > 0) {
       const Polygon circle = hub_circle();
@@ -441,8 +454,8 @@ class BlankBuilder {
   std::vector<solid::GroovePoint> section_;  // upwards, offsets from the floor
   solid::TriangleMesh mesh_;
   std::vector<Band> bands_;
-  std::vector<Index> rings_;
-  Index lowest_ = 0, highest_ = 0;
+  std::vector<Index> rings_;        // first vertex of each ring
+  Index lowest_ = 0, highest_ = 0;  // first vertex of the lowest and of the highest ring
 };
 
 }  // namespace

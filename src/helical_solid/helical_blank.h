@@ -9,7 +9,7 @@
 
 namespace fusee::helical_solid {
 
-/// Heights of the rings that bound the grooves. The lowest ring is chamfered.
+/// Heights of the rings that bound the grooves. The lowest ring, at height 0, is chamfered.
 struct RingHeights {
   double lower = 0;  ///< of the middle flange
   double upper = 0;  ///< of the middle flange; a cone joins both rings where P2 projects over P1
@@ -23,7 +23,7 @@ Polygon rim_of(const Fan& fan, transmission::Side side, double groove_edge);
 /// Largest projection of the middle flange's upper ring over its lower one, mm. The cone between them supports it.
 double middle_step(const Fan& fan, double groove_edge);
 
-/// In mm of the finished part, not scaled and not rounded to float.
+/// The closed mesh of the body before cuts, in mm of the finished part, not scaled and not rounded to float.
 solid::TriangleMesh helical_blank(const Fan& fan, const HelicalSection& section, const solid::BodyLayout& layout,
                                   const RingHeights& heights);
 

@@ -28,26 +28,30 @@
 #include "solid/size.h"
 #include "solid/support_attribution.h"
 #include "solid/tools.h"
+
 namespace fusee::helical_solid {
 namespace {
 
-// A rib of two lines of a 0.4 mm nozzle, plus the loss of a typical printer.
+// Thickness of a rib: two lines of a 0.4 mm nozzle, plus the loss of a typical printer. mm
 constexpr double k_rib = 0.9;
-// Diameters and walls tried for an automatic bore, as for one-turn pulleys.
+// Diameters tried for an automatic bore, as for one-turn pulleys (solid/plan.cpp).
 constexpr std::array<double, 6> k_bore_diameters{5.0, 4.0, 3.0, 2.5, 2.0, 1.5};
-// Slicers simplify outlines to this resolution (PrusaSlicer: 0.0125 mm at layers of 0.2 mm), and neighbouring layers of
-// a groove's flank get different corners. On slopes of 2.5° above the requested one PrusaSlicer put supports under 3 of
-// 64 parts (seed 17001). 0.2/tan(46°) − 0.0125 = 0.2/tan(47.9°), which leaves the margin of other parts.
-constexpr double k_drawn_coarsely = radians(1.5);
-constexpr double k_most_wall = 1.2, k_wall_of_radius = 0.12, k_thinnest_wall = 0.4;
+// Additional slope of ceilings. Slicers simplify outlines (PrusaSlicer to 0.0125 mm at layers of 0.2 mm), and
+// neighbouring layers of a groove's flank get different corners. With the margin of other parts, 2.5° above the
+// requested slope, PrusaSlicer put supports under 3 of 64 parts (seed 17001). A layer then projects too far already at
+// 47.9°, because 0.2/tan(46°) − 0.0125 = 0.2/tan(47.9°). With this addition a part has the same margin as others.
+constexpr double k_simplification_slope = radians(1.5);
+// Automatic wall, as for one-turn pulleys: of parts of ordinary size, per mm of radius for small ones, and the least.
+constexpr double k_wall = 1.2, k_wall_per_radius = 0.12, k_least_wall = 0.4;
 // Fractions of the automatic knot pocket tried if the full size does not fit. Knots are 2.5 to 3 tendons thick.
 constexpr std::array k_pocket_shares{1.0, 0.9, 0.8, 0.72};
 // Height of the groove edge that the chamfer at the bed leaves.
 constexpr double k_least_groove_edge = 0.2;
 // Minimum material between a channel and the outside.
 constexpr double k_channel_cover = 0.25;
-// In a shallower groove a channel stays open too long for its ceiling to be supported.
-constexpr double k_least_depth_of_tendon = 2.0 / 3.0;
+// Least depth of a groove in tendon diameters. In a shallower one a channel stays open too long for its ceiling to be
+// supported.
+constexpr double k_least_depth_ratio = 2.0 / 3.0;
 // Tolerance of rounding for a size at its limit.
 constexpr double k_grain = 1e-6;
 // Minimum height of the cone between the middle flange's two rings, which keeps them distinct.
@@ -83,7 +87,7 @@ class Planner {
 
   /// Returns the conditions that fail.
   std::vector<profile::Condition> plan() {
-    if (!spirals_are_whole()) return profile::failed_of(pulley_.conditions);
+    if (!are_spirals_long_enough()) return profile::failed_of(pulley_.conditions);
     lay_out();
     const solid::BodyLayout layout = pulley_.layout;
     for (const double share : k_pocket_shares) {
@@ -92,7 +96,7 @@ class Planner {
       place_along_axis();
       if (mechanism_.body.knot_pocket > 0 || pockets_fit()) break;
     }
-    conditions();
+    add_conditions();
     return profile::failed_of(pulley_.conditions);
   }
 
@@ -101,7 +105,8 @@ class Planner {
     pulley_.conditions.push_back(condition_of(std::move(name), value >= limit, value, limit, std::move(message)));
   }
 
-  bool spirals_are_whole() {
+  // Adds the conditions on length and size of both spirals. True if they hold.
+  bool are_spirals_long_enough() {
     for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
       const std::vector<helix::SpiralRow>& rows = spiral(side).rows;
       const auto stands_still = [](const helix::SpiralRow& a, const helix::SpiralRow& b) { return !(b.turn > a.turn); };
@@ -151,7 +156,7 @@ class Planner {
     layout.scale = 1.0 / (1.0 - mechanism_.material.shrinkage);
     layout.min_wall = mechanism_.body.min_wall > 0
                           ? mechanism_.body.min_wall
-                          : std::clamp(k_wall_of_radius * least_floor(), k_thinnest_wall, k_most_wall);
+                          : std::clamp(k_wall_per_radius * least_floor(), k_least_wall, k_wall);
     layout.elephant_foot =
         std::clamp(std::min(section_.depth - k_least_groove_edge,
                             (layout.flange_thickness - k_least_groove_edge) / solid::rise_of(layout, 1.0)),
@@ -170,22 +175,23 @@ class Planner {
           fmt::format("knot pockets reduced to {} for lack of space", mm(2.0 * sizes.pocket_radius)));
   }
 
-  // Both heights fall as the turn grows. The ends that stay wound, P1's last and P2's first, are therefore the outer
-  // ones.
-  SpiralPlace placed(const helix::Spiral& spiral, double lowest_at) const {
+  // The place of a spiral with its last row at height 0. The height falls as the turn grows. The ends that stay wound,
+  // P1's last and P2's first, are therefore at the outer faces.
+  SpiralPlace placed(const helix::Spiral& spiral) const {
     SpiralPlace place;
     place.direction = spiral.slope > 0 ? -1.0 : 1.0;
-    place.offset = lowest_at - place.direction * spiral.rows.back().z;
+    place.offset = -place.direction * spiral.rows.back().z;
     return place;
   }
 
   void place_along_axis() {
     solid::BodyLayout& layout = pulley_.layout;
     const double flange = layout.flange_thickness, groove_edge = section_.depth - 0.5 * d_;
+    // Length of the filled rows, which must enclose the run-out.
     const double filled = run_outs_[0].bend_radius + 2.0 * layout.pocket_radius + layout.min_wall;
     const double fall1 = std::abs(p1_.slope) * filled, fall2 = std::abs(p2_.slope) * filled;
-    pulley_.p1 = placed(p1_, 0.0);
-    pulley_.p2 = placed(p2_, 0.0);
+    pulley_.p1 = placed(p1_);
+    pulley_.p2 = placed(p2_);
     fan_ = make_fan(SpiralCurve(p1_, pulley_.p1), SpiralCurve(p2_, pulley_.p2), groove_edge, 0.5 * d_, chord_error_mm_,
                     filled);
     ends_ = {GrooveEnd{transmission::Side::left, fan_.p1.groove_back(), 1.0, -1.0, 0.0},
@@ -223,28 +229,31 @@ class Planner {
   void cover_channels() {
     const solid::BodyLayout& layout = pulley_.layout;
     const double groove_edge = section_.depth - 0.5 * d_;
-    const auto carried = [&](double rise) {
+    // The projection that a face of this height supports.
+    const auto supported_projection = [&](double rise) {
       return layout.ceiling_slope > 0 ? rise / solid::rise_of(layout, 1.0) : std::numeric_limits<double>::max();
     };
-    const std::array<double, 2> carried_low = {
-        carried(layout.z_p1 - section_.walls.below_width() - layout.flange_thickness),
-        carried(least_rise_to_fill(fan_.p2))};
+    const std::array<double, 2> supported_low = {
+        supported_projection(layout.z_p1 - section_.walls.below_width() - layout.flange_thickness),
+        supported_projection(least_rise_to_fill(fan_.p2))};
     const std::array<Winding*, 2> windings = {&fan_.p1, &fan_.p2};
     for (std::size_t i = 0; i < ends_.size(); ++i) {
       const Polygon rim = rim_of(fan_, ends_[i].side, groove_edge);
       const double cover = entry_cover(rim, ends_[i], run_outs_[i]), wanted = std::max(0.0, k_channel_cover - cover);
-      // The entry lies between the two groove edges.
+      // The entry lies half-way between the two groove edges, so the mean of their bulges counts.
       Winding& winding = *windings[i];
-      winding.bulge_low = std::clamp(carried_low[i], 0.0, wanted);
-      winding.bulge_high = std::min(2.0 * wanted - winding.bulge_low, winding.bulge_low + carried(section_.width()));
+      winding.bulge_low = std::clamp(supported_low[i], 0.0, wanted);
+      winding.bulge_high =
+          std::min(2.0 * wanted - winding.bulge_low, winding.bulge_low + supported_projection(section_.width()));
       const double bulge = 0.5 * (winding.bulge_low + winding.bulge_high);
-      const double neighbour = axial_lead(i) - (i == 0 ? section_.walls.below_width() : section_.walls.above_width());
+      const double to_neighbour =
+          axial_lead(i) - (i == 0 ? section_.walls.below_width() : section_.walls.above_width());
       run_outs_[i].channel_radii =
-          channel_radii(rim, ends_[i], run_outs_[i], {k_channel_cover - bulge, section_.depth, neighbour});
+          channel_radii(rim, ends_[i], run_outs_[i], {k_channel_cover - bulge, section_.depth, to_neighbour});
     }
   }
 
-  // Axial distance to the turn beside the groove's end.
+  // Axial distance from groove end i to the turn beside it.
   double axial_lead(std::size_t i) const {
     const std::vector<WindingRow>& rows = i == 0 ? fan_.p1.rows : fan_.p2.rows;
     const std::size_t end = i == 0 ? rows.size() - 1 - fan_.p1.filled_back : fan_.p2.filled_front;
@@ -268,16 +277,18 @@ class Planner {
     for (WindingRow& row : winding.rows) row.height += by;
   }
 
-  // Radius within which every turn of P2 and the upper face's rim lie. That rim leaves the outermost turn.
+  // Radius of the largest circle about the axis within every groove edge of P2 and the upper face's rim, which does not
+  // follow the outermost turn everywhere.
   double upper_rim() const {
-    double room = face_rim(transmission::Side::right);
-    for (const WindingRow& row : fan_.p2.rows) room = std::min(room, row.position.norm() + section_.depth - 0.5 * d_);
-    return room;
+    double least = face_rim(transmission::Side::right);
+    for (const WindingRow& row : fan_.p2.rows) least = std::min(least, row.position.norm() + section_.depth - 0.5 * d_);
+    return least;
   }
+  // Radius of the largest circle about the axis within the rim of an end face.
   double face_rim(transmission::Side side) const {
     return solid::inradius(rim_of(fan_, side, section_.depth - 0.5 * d_));
   }
-  // Largest radius available to the bore.
+  // Least distance of a groove's floor or a face's rim from the axis.
   double least_radius() const {
     return std::min({least_floor(), face_rim(transmission::Side::left) - pulley_.layout.elephant_foot,
                      face_rim(transmission::Side::right)});
@@ -287,6 +298,7 @@ class Planner {
   double pocket_inside(std::size_t i) const {
     return pocket_place(ends_[i], run_outs_[i]).norm() - run_outs_[i].pocket_radius;
   }
+  // Largest possible radius of the bore.
   double room_for_bore() const {
     return std::min({least_radius(), pocket_inside(0), pocket_inside(1)}) - pulley_.layout.min_wall;
   }
@@ -312,12 +324,13 @@ class Planner {
     return furthest;
   }
 
-  void conditions() {
+  void add_conditions() {
     const solid::BodyLayout& layout = pulley_.layout;
-    neighbours(fan_.p1, transmission::Side::left);
-    neighbours(fan_.p2, transmission::Side::right);
-    free_end(transmission::Side::left, p1_.rows[p1_.first_used].s - p1_.rows.front().s, p1_.rows[p1_.first_used].rho);
-    free_end(transmission::Side::right, p2_.rows.back().s - p2_.rows[p2_.last_used].s, p2_.rows[p2_.last_used].rho);
+    add_neighbouring_turns(fan_.p1, transmission::Side::left);
+    add_neighbouring_turns(fan_.p2, transmission::Side::right);
+    add_free_end(transmission::Side::left, p1_.rows[p1_.first_used].s - p1_.rows.front().s,
+                 p1_.rows[p1_.first_used].rho);
+    add_free_end(transmission::Side::right, p2_.rows.back().s - p2_.rows[p2_.last_used].s, p2_.rows[p2_.last_used].rho);
     const double bore_wall = least_radius() - reach();
     add("bore_wall", bore_wall, layout.min_wall,
         fmt::format(
@@ -328,11 +341,11 @@ class Planner {
     for (profile::Condition& condition : solid::hub_conditions(mechanism_, layout, upper_rim()))
       pulley_.conditions.push_back(std::move(condition));
     if (auto tall = solid::too_tall(layout)) pulley_.conditions.push_back(std::move(*tall));
-    for (std::size_t i = 0; i < ends_.size(); ++i) knot_pocket(i);
-    add("groove_depth_at_knot", section_.depth, k_least_depth_of_tendon * d_,
+    for (std::size_t i = 0; i < ends_.size(); ++i) add_knot_pocket(i);
+    add("groove_depth_at_knot", section_.depth, k_least_depth_ratio * d_,
         fmt::format("a groove of {} (body.groove_depth_mm) leaves the channel to the knot open; at least two thirds of "
                     "the tendon's diameter is required: {}",
-                    mm(section_.depth), mm(k_least_depth_of_tendon * d_)));
+                    mm(section_.depth), mm(k_least_depth_ratio * d_)));
     if (layout.bore.horn_recess > 0)
       pulley_.conditions.push_back(
           condition_of("horn_recess", false, layout.bore.horn_recess, 0.0,
@@ -343,11 +356,14 @@ class Planner {
           condition_of("parts", false, 2, 1, "a multi-turn pulley is printed in one part (print.parts)"));
   }
 
+  // Wall between pocket i and the bore or the hub. Towards the hub no wall is required, but the pocket must stay
+  // outside.
   double wall_inside(std::size_t i) const {
     const solid::BodyLayout& layout = pulley_.layout;
     const double hub = ends_[i].side == transmission::Side::right ? layout.hub_radius : 0.0;
     return pocket_inside(i) - std::max(reach(), hub > 0 ? hub - layout.min_wall : 0.0);
   }
+  // Wall between pocket i and the rim of its face.
   double wall_outside(std::size_t i) const {
     return rim_wall(rim_of(fan_, ends_[i].side, section_.depth - 0.5 * d_), ends_[i], run_outs_[i]);
   }
@@ -356,48 +372,51 @@ class Planner {
     return least >= pulley_.layout.min_wall - k_grain;
   }
 
-  void knot_pocket(std::size_t i) {
+  void add_knot_pocket(std::size_t i) {
     const solid::BodyLayout& layout = pulley_.layout;
     const auto pulley = transmission::pulley_name(ends_[i].side);
-    const auto one = [&](const std::string& name, double wall, const std::string& to) {
+    const auto add_wall = [&](const std::string& name, double wall, const std::string& to) {
       add(fmt::format("{}_{}", name, pulley), wall, layout.min_wall - k_grain,
           fmt::format("{}'s knot pocket of {} (body.knot_pocket_mm) leaves {} to {}; at least {} is required "
                       "(body.min_wall_mm)",
                       pulley, mm(2.0 * layout.pocket_radius), solid::wall_words(wall), to, mm(layout.min_wall)));
     };
-    one("knot_pocket", wall_inside(i), "the bore or the hub");
-    one("knot_pocket_rim", wall_outside(i), "the rim");
+    add_wall("knot_pocket", wall_inside(i), "the bore or the hub");
+    add_wall("knot_pocket_rim", wall_outside(i), "the rim");
   }
 
-  void neighbours(const Winding& winding, transmission::Side side) {
-    double least = std::numeric_limits<double>::infinity(), lead = 0, needed = 0;
-    const WindingRow* place = nullptr;
+  // Condition on the pair of neighbouring turns with the least axial clearance.
+  void add_neighbouring_turns(const Winding& winding, transmission::Side side) {
+    double least_clearance = std::numeric_limits<double>::infinity(), lead = 0, needed = 0;
+    const WindingRow* tightest = nullptr;
     for (std::size_t j = 0; j + fan_.columns() < winding.rows.size(); ++j) {
       const WindingRow *low = &winding.rows[j], *high = &winding.rows[j + fan_.columns()];
       if (low->height > high->height) std::swap(low, high);
-      const double here = high->height - low->height;
-      const double wanted = least_lead(section_, (high->position - low->position).dot(low->normal));
-      if (here - wanted >= least) continue;
-      least = here - wanted;
-      lead = here;
-      needed = wanted;
-      place = low;
+      const double lead_here = high->height - low->height;
+      const double needed_here = least_lead(section_, (high->position - low->position).dot(low->normal));
+      if (lead_here - needed_here >= least_clearance) continue;
+      least_clearance = lead_here - needed_here;
+      lead = lead_here;
+      needed = needed_here;
+      tightest = low;
     }
-    if (place == nullptr) return;
+    if (tightest == nullptr) return;
     add(fmt::format("neighbouring_turns_{}", transmission::pulley_name(side)), lead, needed - k_grain,
         fmt::format(
             "{}'s turns are {} apart at {:.0f}°, a groove, its rib and the step between them require {} (body.lead_mm)",
-            transmission::pulley_name(side), mm(lead), degrees(std::remainder(place->turn, k_two_pi)), mm(needed)));
+            transmission::pulley_name(side), mm(lead), degrees(std::remainder(tightest->turn, k_two_pi)), mm(needed)));
   }
 
-  // The straight tendon must rise above the groove edge before the groove ends.
-  void free_end(transmission::Side side, double there, double rho) {
+  // The straight tendon must rise above the groove edge before the groove ends. It rises by h from a circle of radius ρ
+  // over the length sqrt((ρ + h)² − ρ²) of the tangent. `available`: length of the groove beyond the working arc, mm.
+  // `rho`: radius of curvature there.
+  void add_free_end(transmission::Side side, double available, double rho) {
     const double rise = section_.depth, needed = std::sqrt(rise * (2.0 * rho + rise));
-    add(fmt::format("free_end_{}", transmission::pulley_name(side)), there, needed,
+    add(fmt::format("free_end_{}", transmission::pulley_name(side)), available, needed,
         fmt::format(
             "{}'s groove ends {} beyond the tendon's working arc; at least {} is required for the tendon to clear the "
             "end (body.spare_turns)",
-            transmission::pulley_name(side), mm(there), mm(needed)));
+            transmission::pulley_name(side), mm(available), mm(needed)));
   }
 
   solid::TriangleMesh scaled(solid::TriangleMesh mesh) const {
@@ -405,22 +424,24 @@ class Planner {
     return solid::rounded_to_float(std::move(mesh));
   }
 
-  void cut(int wanted_ways) {
+  void cut(int wanted_variants) {
     const solid::BodyLayout& layout = pulley_.layout;
     const solid::TriangleMesh blank = scaled(helical_blank(fan_, section_, layout, heights_));
     const double volume = solid::enclosed_volume(blank);
-    const bool screw = layout.set_screw.present;
-    pulley_.expected_euler = 2 - 2 * (1 + static_cast<int>(layout.bore.screw_holes.size() + ends_.size()) +
-                                      (screw ? (layout.set_screw.nut_trap ? 2 : 1) : 0));
-    const int ways = solid::cut_variants(blank.triangles.size(), wanted_ways);
-    for (int variant = 0; variant < ways; ++variant) {
+    const bool has_screw = layout.set_screw.present;
+    // Every passage is a handle: bore, screw holes, run-outs, and branches for the set screw and its nut.
+    const int screw_handles = has_screw ? (layout.set_screw.nut_trap ? 2 : 1) : 0;
+    const int handles = 1 + static_cast<int>(layout.bore.screw_holes.size() + ends_.size()) + screw_handles;
+    pulley_.expected_euler = 2 - 2 * handles;
+    const int variants = solid::cut_variants(blank.triangles.size(), wanted_variants);
+    for (int variant = 0; variant < variants; ++variant) {
       std::vector<solid::TriangleMesh> tools;
       for (std::size_t i = 0; i < ends_.size(); ++i) {
         auto tool = run_out_tool(ends_[i], run_outs_[i], variant);
         if (tool) tools.push_back(std::move(*tool));
       }
       if (tools.size() < ends_.size()) continue;
-      if (screw) tools.push_back(solid::set_screw_tool(layout.set_screw, layout.hub_radius, layout.z_hub, variant));
+      if (has_screw) tools.push_back(solid::set_screw_tool(layout.set_screw, layout.hub_radius, layout.z_hub, variant));
       if (cut_with(blank, volume, tools)) return;
     }
     if (!unprintable_.empty()) {
@@ -432,7 +453,7 @@ class Planner {
         condition_of("features", false, 0, 1,
                      fmt::format("run-outs and screw intersect one another: none of {} cut variants leaves a valid "
                                  "solid",
-                                 ways)));
+                                 variants)));
   }
 
   bool cut_with(const solid::TriangleMesh& blank, double volume, const std::vector<solid::TriangleMesh>& tools) {
@@ -460,13 +481,14 @@ class Planner {
   bool prints(const solid::TriangleMesh& mesh) {
     if (mechanism_.print.supports) return true;
     unprintable_ = solid::unprintable_places(mesh, solid::Piece::whole, pulley_.layout,
-                                             mechanism_.print.overhang + k_drawn_coarsely, solid::Corners::round);
+                                             mechanism_.print.overhang + k_simplification_slope, solid::Corners::round);
     return unprintable_.empty();
   }
 
   const Mechanism& mechanism_;
   const helix::Spiral &p1_, &p2_;
-  double chord_error_mm_, d_;
+  double chord_error_mm_;
+  double d_;  ///< diameter of the tendon
   HelicalSection section_;
   HelicalPulley pulley_;
   std::array<RunOutSizes, 2> run_outs_;
@@ -483,7 +505,7 @@ HelicalSection helical_section(const Mechanism& mechanism) {
   section.depth = mechanism.groove_depth();
   section.rib = k_rib;
   section.ceiling_slope =
-      mechanism.print.supports ? 0.0 : mechanism.print.overhang + solid::k_slope_margin + k_drawn_coarsely;
+      mechanism.print.supports ? 0.0 : mechanism.print.overhang + solid::k_slope_margin + k_simplification_slope;
   const double lean = 0.5 * mechanism.body.groove_angle;
   const auto half = [&](double angle) {
     return solid::groove_half(mechanism.body, angle, mechanism.tendon.diameter, section.depth);

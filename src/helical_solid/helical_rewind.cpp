@@ -25,6 +25,7 @@ constexpr std::size_t k_slope_window = 160;
 // Polygon sides that turn by less against each other are one side: rounding of a straight line to float, rad.
 constexpr double k_straight = 1e-4;
 
+// Sine of the angle by which a line turns at place i.
 double turn_at(const FloorLine& line, std::size_t i) {
   const Vec2 before = (line[i] - line[i - 1]).head<2>(), after = (line[i + 1] - line[i]).head<2>();
   return std::abs(cross(before, after)) / (before.norm() * after.norm());
@@ -38,7 +39,8 @@ std::optional<Vec3> corner_after(const FloorLine& line, std::size_t i) {
     return std::nullopt;
   const Vec2 before = (line[i] - line[i - 1]).head<2>(), after = (line[i + 2] - line[i + 1]).head<2>();
   const Vec2 chord = (line[i + 1] - line[i]).head<2>();
-  const double beyond = cross(chord, after) / cross(before, after);  // of `before`
+  // The sides meet at this multiple of `before` past place i.
+  const double beyond = cross(chord, after) / cross(before, after);
   const Vec2 corner = line[i].head<2>() + beyond * before;
   const double share = (corner - line[i].head<2>()).norm() / chord.norm();
   if (!(beyond > 0 && share < 1)) return std::nullopt;
@@ -57,7 +59,9 @@ FloorLine with_corners(const FloorLine& line) {
   return whole;
 }
 
-// One string in its helical groove. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on the left.
+// One string in its helical groove. `hand`: +1 for tendon 2 on the right, −1 for tendon 1 on the left. `end_height`:
+// height of the fixed end of the sloping path. `collar`: only the span below the pin slopes. `home_from_knot`: angle
+// along the groove from its knot to the take-off at home, rad.
 class HelicalString {
  public:
   HelicalString(const FloorLine& floor, const Mechanism& mechanism, double hand, double end_height, bool collar,
@@ -93,6 +97,7 @@ class HelicalString {
   }
 
   double hand() const { return hand_; }
+  // Length of the string beyond its length at home.
   double excess(double theta) const { return length(theta) - home_length_; }
   std::string name() const { return hand_ > 0 ? "tendon 2" : "tendon 1"; }
 
@@ -103,10 +108,11 @@ class HelicalString {
   }
 
  private:
-  struct Place {
-    double wound = 0;  // along the centre line in space
+  // A point of the tendon's centre line in the groove.
+  struct CentreLinePoint {
+    double wound = 0;  // length along the centre line in space, from the groove's beginning
     double height = 0;
-    double slope = 0;  // of the centre line, per planar length
+    double slope = 0;  // rise per length in plan
   };
 
   std::string pulley() const {
@@ -114,10 +120,12 @@ class HelicalString {
   }
   Vec2 plan(std::size_t i) const { return floor_[i].head<2>(); }
 
+  // Length of the string from the groove's beginning to its fixed end, with the wound part negative on the left.
   double length(double theta) const {
     const double rise = end_height_ - take_off_.height, flat = planar(theta) - sloping(theta);
     return hand_ * take_off_.wound + elementary::hypot(sloping(theta), rise) + flat;
   }
+  // Length of the free path in plan, and of its sloping part.
   double planar(double theta) const { return span_ + above_.length(theta, normal_ - alpha_); }
   double sloping(double theta) const { return collar_ ? span_ : planar(theta); }
 
@@ -140,7 +148,7 @@ class HelicalString {
     return (floor_[to].z() - floor_[from].z()) / (planar_[to] - planar_[from]);
   }
 
-  Place centre_line_at(double planar) const {
+  CentreLinePoint centre_line_at(double planar) const {
     const auto after = std::upper_bound(planar_.begin() + 1, planar_.end() - 1, planar);
     const auto b = static_cast<std::size_t>(after - planar_.begin()), a = b - 1;
     const double share = (planar - planar_[a]) / (planar_[b] - planar_[a]);
@@ -148,10 +156,11 @@ class HelicalString {
             slope_between(a, b)};
   }
 
-  // On the right the knot is at the beginning of the groove, on the left at its end.
+  // Finds the corner of the take-off at home. On the right the knot is at the beginning of the groove, on the left at
+  // its end.
   void start(double home_from_knot) {
     const double wanted = hand_ > 0 ? edge_normals_.front() + home_from_knot : edge_normals_.back() - home_from_knot;
-    // The direction of the span at home, on the requested turn.
+    // The tangent depends on the corner, and the corner on the tangent's normal: three rounds suffice.
     double normal = wanted;
     for (int round = 0; round < 3; ++round) {
       const auto edge = std::lower_bound(edge_normals_.begin(), edge_normals_.end(), normal);
@@ -184,23 +193,28 @@ class HelicalString {
   profile::StringAbove above_;
   double end_height_;
   bool collar_;
-  std::vector<double> along_, edge_normals_;  // in plan; of the edge that leaves each corner
-  std::vector<double> planar_, wound_;        // of the centre line at each corner: in plan, in space
+  std::vector<double> along_;         // length of the floor up to each corner, in plan
+  std::vector<double> edge_normals_;  // direction of the outward normal of the edge that leaves each corner, rad
+  std::vector<double> planar_;        // length of the centre line up to each corner, in plan
+  std::vector<double> wound_;         // the same in space
   double home_length_ = 0;
 
+  // The take-off at the pulley's present angle.
   double alpha_ = 0;
   std::size_t corner_ = 0;
-  double normal_ = 0, span_ = 0;
-  Place take_off_;
+  double normal_ = 0;  // direction of the span's normal, rad
+  double span_ = 0;    // length of the lower span in plan
+  CentreLinePoint take_off_;
 };
 
 // The joint angle at which the string is as long as at home.
 double taut_angle(const HelicalString& string, double alpha, double guess) {
+  // Grows with θ on both sides.
   const auto growing = [&string](double theta) { return -string.hand() * string.excess(theta); };
-  double reach = 0.005;
+  double reach = 0.005;  // rad
   while (!(growing(guess - reach) < 0 && growing(guess + reach) > 0)) {
     reach *= 2;
-    if (reach > 0.7)
+    if (reach > 0.7)  // rad
       throw InputError("",
                        "no joint angle near the declared one makes " + string.name() +
                            " taut at α = " + rounded(degrees(alpha), 4) + "°",
@@ -214,6 +228,7 @@ double taut_angle(const HelicalString& string, double alpha, double guess) {
   return 0.5 * (low + high);
 }
 
+// Turns the pulley through a stroke with both strings.
 class Winder {
  public:
   Winder(HelicalString first, HelicalString second) : strings_{std::move(first), std::move(second)} {}
@@ -229,7 +244,7 @@ class Winder {
     profile::RewindPoint point{place.alpha, place.theta, 0, 0};
     point.theta = taut_angle(strings_[0], place.alpha, place.theta);
     point.excess = -strings_[1].excess(point.theta);
-    note(point);
+    record(point);
     for (const HelicalString& string : strings_) {
       const double fleet = std::abs(string.fleet(point.theta));
       if (fleet < rewind_.max_fleet) continue;
@@ -239,7 +254,7 @@ class Winder {
     }
   }
 
-  // Turns in small steps, so that turns are counted without a jump.
+  // Turns in small steps, so that the take-offs stay on the right turns of the grooves.
   void turn_to(double alpha) {
     const int steps = 1 + static_cast<int>(std::abs(alpha - alpha_) / radians(10));
     for (int k = 1; k <= steps; ++k) {
@@ -248,7 +263,7 @@ class Winder {
     alpha_ = alpha;
   }
 
-  void note(const profile::RewindPoint& point) {
+  void record(const profile::RewindPoint& point) {
     profile::RewindResult& result = rewind_.result;
     result.points.push_back(point);
     const double error = std::abs(point.theta - point.theta_declared);

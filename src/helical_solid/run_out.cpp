@@ -13,30 +13,33 @@
 namespace fusee::helical_solid {
 namespace {
 
-// Narrower channels close in the print (the bound of one-turn pulleys' channels).
+// Least width of an automatic channel. Narrower ones close in printing, as on one-turn pulleys.
 constexpr double k_least_channel = 0.6;
-// The channel begins this far before the groove's end, so that the end wall is removed completely. Its peaked ceiling
-// rises above the groove's upper wall and leaves a tooth there, which ends this far beyond the end wall.
+// The channel begins k_before_end before the groove's end, so that the end wall is removed completely. Its peaked
+// ceiling rises above the groove's upper wall and leaves a tooth there, which ends k_past_end beyond the end wall. mm
 constexpr double k_before_end = 0.02;
 constexpr double k_past_end = 0.06;
 constexpr int k_channel_facets = 14;
 constexpr int k_pocket_facets = 28;
 constexpr int k_arc_steps = 9;
-// Least length of a straight channel after the arc, in channel radii.
-constexpr double k_shortest_way = 0.05;
-// Sharpest bend of an arc, in tendon diameters. k_bends steps are tried from the gentlest to it.
+// Least length of a straight channel after the arc, in channel radii. A shorter one is omitted.
+constexpr double k_shortest_straight = 0.05;
+// Least radius of the arc, in tendon diameters.
 constexpr double k_sharpest_bend = 2.0;
-// Sharpest bend in channel radii: seen from above, the flanks of the peaked ceiling must not meet on the inside of the
-// bend. They would at 2.46, where a rising channel has turned by 78°.
-constexpr double k_bend_of_channel = 2.8;
-// Channels dive at 45°. The ridge of a ceiling that flat would lie in the next section.
-constexpr double k_flattest_peak = radians(57.5);
+// Least radius of the arc, in channel radii. Seen from above, the flanks of the peaked ceiling must not meet on the
+// inside of the bend. They would at 2.46, where a rising channel has turned by 78°.
+constexpr double k_sharpest_channel_bend = 2.8;
+// Number of radii tried, from the gentlest to the sharpest bend.
 constexpr int k_bends = 5;
+// Least slope of a channel's ceiling. Channels dive at 45°, and the ridge of a ceiling of that slope would lie in the
+// plane of the next section.
+constexpr double k_flattest_peak = radians(57.5);
 // Radius of the tip of a pocket's cone, in channel radii.
 constexpr double k_tip = 0.2;
+// Step by which a pocket is moved inwards until it fits, mm.
 constexpr double k_step_inward = 0.05;
 
-// A ring of a tube about `centre` in the plane of two unit vectors.
+// A regular polygon about `centre` in the plane of two unit vectors. `start`: position of its first corner, in facets.
 std::vector<Vec3> ring_of(const Vec3& centre, const Vec3& across, const Vec3& up, double radius, int facets,
                           double start) {
   std::vector<Vec3> ring;
@@ -47,7 +50,7 @@ std::vector<Vec3> ring_of(const Vec3& centre, const Vec3& across, const Vec3& up
   return ring;
 }
 
-// `along`: the tendon's direction at the groove's end. `towards`: inwards and to the face, at 45°.
+// Directions of an arc at its two ends: the tendon's at the groove's end, then inwards and to the face at 45°.
 struct Directions {
   Vec3 along, towards;
 };
@@ -72,12 +75,13 @@ Vec3 arc_place(const GrooveEnd& end, const RunOutSizes& sizes, int step) {
 }
 
 // The innermost point of the channel, in the middle of the pocket.
-Vec3 way_end(const GrooveEnd& end, const RunOutSizes& sizes) {
+Vec3 channel_end(const GrooveEnd& end, const RunOutSizes& sizes) {
   const double straight = std::sqrt(2.0) * sizes.inward - sizes.bend_radius;
   return arc_point(end, sizes.bend_radius, 0.5 * k_pi) + straight * directions_of(end).towards;
 }
 
-// The peaked ceiling leaves the circle where the circle is as steep as the cone.
+// A channel's section at `middle` across the direction `ahead`. The peaked ceiling leaves the circle where the circle
+// is as steep as the cone.
 ChannelRing ring_across(const Vec3& middle, const Vec3& ahead, double radius, double ceiling_slope) {
   const Vec3 level = ahead.cross(Vec3::UnitZ()).normalized(), up = level.cross(ahead);
   return {middle,
@@ -88,11 +92,11 @@ ChannelRing ring_across(const Vec3& middle, const Vec3& ahead, double radius, do
           middle + radius / elementary::cos(ceiling_slope) * Vec3::UnitZ()};
 }
 
-// Shrinks a ring nearly to a point.
+// Shrinks a ring nearly to the point `to`.
 ChannelRing narrowed(const ChannelRing& ring, const Vec3& to) {
-  constexpr double k_left = 0.05;
-  const auto nearly = [&](const Vec3& place) -> Vec3 { return to + k_left * (place - to); };
-  return {nearly(ring.middle), ring.level, ring.up, k_left * ring.radius, ring.gap, nearly(ring.ridge)};
+  constexpr double k_scale = 0.05;
+  const auto scaled = [&](const Vec3& point) -> Vec3 { return to + k_scale * (point - to); };
+  return {scaled(ring.middle), ring.level, ring.up, k_scale * ring.radius, ring.gap, scaled(ring.ridge)};
 }
 
 // Points of a channel's section in space, with `facets` chords of its circle.
@@ -113,7 +117,7 @@ solid::TriangleMesh channel_of(const GrooveEnd& end, const RunOutSizes& sizes, i
   return solid::strip(sections);
 }
 
-// A thick flange makes the pocket deeper.
+// Depth of the pocket's cylindrical part. It grows with the thickness of the flange.
 double pocket_depth(const GrooveEnd& end, const RunOutSizes& sizes) {
   return std::abs(end.face - end.row.height) - sizes.cone - sizes.inward;
 }
@@ -129,9 +133,9 @@ solid::TriangleMesh pocket_of(const GrooveEnd& end, const RunOutSizes& sizes, in
   return solid::strip(sections);
 }
 
-// The entry stays slightly inside the groove's section. The channel then cuts the groove's end wall only, and none of
-// its faces coincides with the groove's. In a round seat it is centred on the tendon; in others it lies further out,
-// where their walls leave clearance.
+// Sets the channel's entry, slightly inside the groove's section. The channel then cuts the groove's end wall only, and
+// none of its faces coincides with the groove's. In a round seat the entry is centred on the tendon. In others it lies
+// further out, where their walls leave clearance.
 void set_entry(RunOutSizes& sizes, const Body& body, double d) {
   constexpr double k_inside = 0.03, k_further_out = 0.15, k_least = 0.5;  // of the tendon
   double radius = body.seat_ratio;
@@ -156,9 +160,9 @@ RunOutSizes run_out_sizes(const Mechanism& mechanism, const solid::BodyLayout& l
   sizes.ceiling_slope = std::max(solid::ridge_slope(layout), k_flattest_peak);
   sizes.cone = solid::rise_of(layout, sizes.pocket_radius - sizes.channel_radius);
   sizes.tip = solid::rise_of(layout, (1.0 - k_tip) * std::min(sizes.pocket_radius, sizes.channel_radius));
-  // The pocket leaves a wall to the rim.
+  // Way inwards at which the pocket leaves a wall to a straight rim.
   const double to_rim = sizes.pocket_radius + layout.min_wall - (layout.groove_depth - 0.5 * d);
-  sizes.sharpest_bend = std::max(k_sharpest_bend * d, k_bend_of_channel * sizes.channel_radius);
+  sizes.sharpest_bend = std::max(k_sharpest_bend * d, k_sharpest_channel_bend * sizes.channel_radius);
   sizes.inward = std::max(to_rim, sizes.sharpest_bend / std::sqrt(2.0));
   sizes.bend_radius = std::sqrt(2.0) * sizes.inward;
   return sizes;
@@ -173,7 +177,7 @@ std::vector<Vec2> pocket_profile(const GrooveEnd& end, const RunOutSizes& sizes)
   return profile;
 }
 
-Vec2 pocket_place(const GrooveEnd& end, const RunOutSizes& sizes) { return way_end(end, sizes).head<2>(); }
+Vec2 pocket_place(const GrooveEnd& end, const RunOutSizes& sizes) { return channel_end(end, sizes).head<2>(); }
 
 double rim_wall(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes) {
   return distance_to_edges(rim, pocket_place(end, sizes)) - sizes.pocket_radius;
@@ -185,34 +189,35 @@ double entry_cover(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& 
 
 std::vector<double> channel_radii(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes,
                                   const ChannelRoom& room) {
-  // The peaked ceiling points up, away from the face, in the lower part only.
-  const double upwards = end.outward < 0 ? 1.0 / elementary::cos(sizes.ceiling_slope) : 1.0;
+  // Extent of the channel towards the neighbouring turn, in radii. Only at the lower face that is upwards, up to the
+  // ridge of the peaked ceiling.
+  const double extent = end.outward < 0 ? 1.0 / elementary::cos(sizes.ceiling_slope) : 1.0;
   std::vector<double> radii;
   for (int k = 1; k <= k_arc_steps; ++k) {
     const Vec3 place = arc_place(end, sizes, k);
     const double to_rim = distance_to_edges(rim, place.head<2>());
     const double to_neighbour = room.neighbour + std::abs(place.z() - end.row.height) - room.cover;
     double radius = std::min(to_rim - room.cover, sizes.channel_radius);
-    if (to_rim - radius < room.reach + room.cover) radius = std::min(radius, to_neighbour / upwards);
+    if (to_rim - radius < room.reach + room.cover) radius = std::min(radius, to_neighbour / extent);
     radii.push_back(std::clamp(radius, radii.empty() ? sizes.entry_radius : radii.back(), sizes.channel_radius));
   }
   return radii;
 }
 
 RunOutSizes fitted_into(const Polygon& rim, const GrooveEnd& end, RunOutSizes sizes, double wall) {
-  // A gentler arc would leave the rim, which curves away from it.
+  // A gentler arc would cross the rim, which curves inwards.
   const double gentlest = std::clamp(end.row.rho / std::sqrt(2.0), sizes.sharpest_bend, sizes.bend_radius);
   sizes.bend_radius = gentlest;
-  const double furthest = end.row.position.dot(end.row.normal);
+  const double furthest = end.row.position.dot(end.row.normal);  // to the axis, along the normal
   RunOutSizes best = sizes;
-  double most = -std::numeric_limits<double>::infinity();
+  double thickest = -std::numeric_limits<double>::infinity();
   for (; sizes.inward < furthest; sizes.inward += k_step_inward) {
     for (int k = 0; k < k_bends; ++k) {
       sizes.bend_radius = gentlest + (sizes.sharpest_bend - gentlest) * k / (k_bends - 1);
-      const double here = rim_wall(rim, end, sizes);
-      if (here >= wall) return sizes;
-      if (here <= most) continue;
-      most = here;
+      const double thickness = rim_wall(rim, end, sizes);
+      if (thickness >= wall) return sizes;
+      if (thickness <= thickest) continue;
+      thickest = thickness;
       best = sizes;
     }
   }
@@ -248,12 +253,12 @@ std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& 
   }
   // A straight channel continues into the pocket. Below the lower face it ends in a point where ball and cone meet in
   // front. A flat end would have a ceiling as shallow as the channel.
-  const Vec3 last = way_end(end, sizes);
+  const Vec3 last = channel_end(end, sizes);
   if (end.outward < 0) {
     add(last + 0.8 * sizes.channel_radius * towards, towards, sizes.channel_radius);
     return rings;
   }
-  if ((last - rings.back().middle).norm() > k_shortest_way * sizes.channel_radius)
+  if ((last - rings.back().middle).norm() > k_shortest_straight * sizes.channel_radius)
     add(last, towards, sizes.channel_radius);
   const Vec3 inwards(-end.row.normal.x(), -end.row.normal.y(), 0.0);
   const Vec3 front =

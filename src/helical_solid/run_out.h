@@ -23,9 +23,9 @@ struct RunOutSizes {
   double cone = 0;          ///< height of the cone above it, down to the channel's radius
   /// Height of the further cone down to a fifth of that radius; only in the lower face's pocket, to avoid a ceiling
   double tip = 0;
-  double inward = 0;       ///< distance from the groove's end to the pocket, inwards and equally towards the face
-  double bend_radius = 0;  ///< radius of the arc, at most inward · √2; a straight channel continues it
-  double sharpest_bend = 0;
+  double inward = 0;         ///< distance from the groove's end to the pocket, inwards and equally towards the face
+  double bend_radius = 0;    ///< radius of the arc, at most inward · √2; a straight channel continues it
+  double sharpest_bend = 0;  ///< least `bend_radius`
   std::vector<double> channel_radii = {};  ///< radii along the arc, if they vary
   double ceiling_slope = 0;                ///< angle of the channel's peaked ceiling above the horizontal, rad
 
@@ -33,8 +33,8 @@ struct RunOutSizes {
   double height() const { return pocket_depth + cone + inward; }
 };
 
-/// The sizes for a pulley of large radius. On smaller ones the rim bends towards the pocket. `share`: fraction of the
-/// automatic pocket size.
+/// The sizes for a straight rim, as on a pulley of large radius. fitted_into() adapts them to a rim that bends towards
+/// the pocket. `share`: fraction of the automatic pocket size.
 RunOutSizes run_out_sizes(const Mechanism& mechanism, const solid::BodyLayout& layout, double share);
 
 /// The end of a groove, seen along the tendon towards its knot.
@@ -62,10 +62,11 @@ struct ChannelRoom {
 /// Radii of the channel along the arc: no wider than its clearance allows, no narrower than the entry.
 std::vector<double> channel_radii(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes,
                                   const ChannelRoom& room);
-/// Radii and depths of the pocket, from its face inwards.
+/// Radius (x) and depth (y) of each corner of the pocket's section, from its face inwards.
 std::vector<Vec2> pocket_profile(const GrooveEnd& end, const RunOutSizes& sizes);
 /// Centre of the pocket in plan.
 Vec2 pocket_place(const GrooveEnd& end, const RunOutSizes& sizes);
+/// The fixed end with these sizes.
 HelicalAnchor anchor_at(const GrooveEnd& end, const RunOutSizes& sizes);
 /// Cross-section of a channel: a circle in the plane across the channel (axes `level` and `up`) below a peaked ceiling
 /// whose ridge stands vertically over the centre. It is the section of the volume that a ball with a cone on it sweeps

@@ -8,8 +8,8 @@
 namespace fusee::helical_solid {
 namespace {
 
-// Groove ends closer than this share a column: a narrower column would be a sliver, and the difference is negligible
-// for a run-out.
+// Groove ends closer than this share a column, rad. A narrower column would be a sliver, and the difference is
+// negligible for a run-out.
 constexpr double k_same_column = 0.004;
 // Fraction of the tolerance that the fan uses, because radii of curvature are sampled at columns only.
 constexpr double k_share_of_tolerance = 0.9;
@@ -19,8 +19,10 @@ constexpr double k_widest_column = radians(8);
 // on. mm
 constexpr double k_behind_end = 0.1;
 
+// The angle moved by whole turns to between `first` and `first` + 2π.
 double into_turn(double angle, double first) { return angle - k_two_pi * std::floor((angle - first) / k_two_pi); }
 
+// Angles at which the fan needs a column: the ends of both grooves, and the first filled rows behind their walls.
 std::vector<double> marks_of(const SpiralCurve& p1, const SpiralCurve& p2) {
   const double first = p1.begin();
   std::vector<double> marks{first};
@@ -37,10 +39,11 @@ std::vector<double> marks_of(const SpiralCurve& p1, const SpiralCurve& p2) {
   return marks;
 }
 
-// Columns between two marks follow the density that curvature requires: each takes an equal share of its integral.
+// Adds the columns between two marks. `step_at`: largest width of a column at an angle. Each column takes an equal
+// share of the integral of 1 / step_at.
 void add_columns(std::vector<double>& angles, double from, double to, const auto& step_at) {
   constexpr int k_probes = 64;
-  std::vector<double> count{0.0};
+  std::vector<double> count{0.0};  // number of columns required up to each probe
   for (int k = 0; k < k_probes; ++k) {
     const double step =
         std::min(step_at(from + (to - from) * k / k_probes), step_at(from + (to - from) * (k + 1) / k_probes));
@@ -57,49 +60,52 @@ void add_columns(std::vector<double>& angles, double from, double to, const auto
 }
 
 std::size_t nearest_column(const std::vector<double>& angles, double angle) {
+  // Shifted while it is moved into the turn, so that an angle just below the first one does not move by a turn.
   const double wanted = into_turn(angle + 0.5 * k_same_column, angles.front());
-  std::size_t best = 0;
+  std::size_t nearest = 0;
   double least = k_two_pi;
   for (std::size_t i = 0; i < angles.size(); ++i) {
-    const double away = std::abs(std::remainder(wanted - 0.5 * k_same_column - angles[i], k_two_pi));
-    if (away < least) {
-      least = away;
-      best = i;
+    const double distance = std::abs(std::remainder(wanted - 0.5 * k_same_column - angles[i], k_two_pi));
+    if (distance < least) {
+      least = distance;
+      nearest = i;
     }
   }
-  return best;
+  return nearest;
 }
 
+// The rows of a spiral at the fan's columns.
 Winding winding_on(const std::vector<double>& angles, const SpiralCurve& curve, double floor_inward) {
   Winding winding;
   winding.first_column = nearest_column(angles, curve.begin());
   const std::size_t columns = angles.size();
-  const double base = angles[winding.first_column];
-  const double whole = curve.begin() - base;
-  const double turns = k_two_pi * std::round(whole / k_two_pi);
+  // The curve may begin any number of turns away from the fan's turn.
+  const double to_begin = curve.begin() - angles[winding.first_column];
+  const double whole_turns = k_two_pi * std::round(to_begin / k_two_pi);
   const auto turn_of = [&](std::size_t j) {
     const std::size_t i = winding.first_column + j;
-    return angles[i % columns] + k_two_pi * static_cast<double>(i / columns) + turns;
+    return angles[i % columns] + k_two_pi * static_cast<double>(i / columns) + whole_turns;
   };
   for (std::size_t j = 0; turn_of(j) <= curve.end() + k_same_column; ++j) {
     WindingRow row = curve.at(turn_of(j));
     const double before = j > 0 ? turn_of(j) - turn_of(j - 1) : turn_of(j + 1) - turn_of(j);
     const double after = turn_of(j + 1) - turn_of(j);
     // The floor's chords are ρ step³/24 shorter than its arcs, half of that on each side of a row. Moving the row out
-    // by x lengthens them by x (before + after)/2.
-    const double out = (before * before - before * after + after * after) / 24.0;
-    row.position += (row.rho - floor_inward) * out * row.normal;
+    // by x lengthens them by x (before + after)/2. Both are equal at x = ρ (before² − before · after + after²)/24.
+    const double out_per_rho = (before * before - before * after + after * after) / 24.0;
+    row.position += (row.rho - floor_inward) * out_per_rho * row.normal;
     winding.rows.push_back(row);
   }
   winding.falls = winding.rows.back().height < winding.rows.front().height;
   return winding;
 }
 
-// `row` of the adjacent turn, shifted as the turn before was shifted at the groove's end.
-WindingRow moved_on(WindingRow row, const WindingRow& end, const WindingRow& turn_before) {
-  row.position += end.position - turn_before.position;
-  row.height += end.height - turn_before.height;
-  row.turn += end.turn - turn_before.turn;
+// A row past a groove's end, by repetition of the adjacent turn: its row of the same column, shifted by the difference
+// between the groove's end and the adjacent turn there.
+WindingRow repeated(WindingRow row, const WindingRow& end, const WindingRow& adjacent_to_end) {
+  row.position += end.position - adjacent_to_end.position;
+  row.height += end.height - adjacent_to_end.height;
+  row.turn += end.turn - adjacent_to_end.turn;
   return row;
 }
 
@@ -109,7 +115,7 @@ void fill_back(Winding& winding, std::size_t columns, double length) {
   while ((winding.rows.back().position - end.position).norm() < length && winding.filled_back + 2 < columns) {
     ++winding.filled_back;
     winding.rows.push_back(
-        moved_on(winding.rows[last + winding.filled_back - columns], end, winding.rows[last - columns]));
+        repeated(winding.rows[last + winding.filled_back - columns], end, winding.rows[last - columns]));
   }
 }
 
@@ -117,7 +123,7 @@ void fill_front(Winding& winding, std::size_t columns, double length) {
   const WindingRow begin = winding.rows.front();
   std::vector<WindingRow> filled;
   while ((filled.empty() || (filled.back().position - begin.position).norm() < length) && filled.size() + 2 < columns)
-    filled.push_back(moved_on(winding.rows[columns - filled.size() - 1], begin, winding.rows[columns]));
+    filled.push_back(repeated(winding.rows[columns - filled.size() - 1], begin, winding.rows[columns]));
   winding.filled_front = filled.size();
   winding.first_column = (winding.first_column + columns - filled.size()) % columns;
   winding.rows.insert(winding.rows.begin(), filled.rbegin(), filled.rend());

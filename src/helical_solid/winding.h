@@ -11,13 +11,13 @@
 
 namespace fusee::helical_solid {
 
-/// A point on the pitch curve, in the part's frame.
+/// A point on the pitch curve, in the part's frame. mm
 struct WindingRow {
   Vec2 position = Vec2::Zero();
   Vec2 normal = Vec2::UnitX();
-  double turn = 0;
-  double rho = 0;
-  double height = 0;
+  double turn = 0;    ///< direction of the normal, counted over all turns, rad
+  double rho = 0;     ///< radius of curvature
+  double height = 0;  ///< above the lower face
 };
 
 /// A spiral evaluated at any turn: cubic Hermite interpolation of the positions and tangents of its rows.

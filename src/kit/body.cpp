@@ -20,10 +20,12 @@ bool is_inside(const Polygon& polygon, const Vec2& point) {
   return inside;
 }
 
+// True inside an odd number of loops.
 bool is_within(const std::vector<Polygon>& loops, const Vec2& point) {
   return std::count_if(loops.begin(), loops.end(), [&](const Polygon& loop) { return is_inside(loop, point); }) % 2;
 }
 
+// The outlines of a slab's loops, at its lower or its upper end.
 std::vector<Polygon> outlines(const Slab& slab, bool above) {
   std::vector<Polygon> loops;
   for (const SlabLoop& loop : slab.loops)
@@ -55,20 +57,20 @@ using Firsts = std::vector<std::uint32_t>;
 class StackMesh {
  public:
   explicit StackMesh(const SlabBody& body) {
-    std::vector<Polygon> before;
-    Firsts before_firsts;
+    std::vector<Polygon> below;  // loops at the top of the slab below
+    Firsts below_firsts;
     for (const Slab& slab : body.slabs) {
       const std::vector<Polygon> low = outlines(slab, false), high = outlines(slab, true);
-      const Firsts low_firsts = add_faces(low, slab.low, before, before_firsts);
+      const Firsts low_firsts = add_faces(low, slab.low, below, below_firsts);
       Firsts high_firsts;
       for (std::size_t i = 0; i < high.size(); ++i) {
         high_firsts.push_back(add_ring(high[i], slab.high));
         add_wall(low_firsts[i], high_firsts[i], high[i].size(), slab.loops[i].hole);
       }
-      before = high;
-      before_firsts = high_firsts;
+      below = high;
+      below_firsts = high_firsts;
     }
-    add_faces({}, body.slabs.empty() ? 0.0 : body.slabs.back().high, before, before_firsts);
+    add_faces({}, body.slabs.empty() ? 0.0 : body.slabs.back().high, below, below_firsts);
   }
 
   solid::TriangleMesh take() { return std::move(mesh_); }
@@ -93,40 +95,41 @@ class StackMesh {
     mesh_.triangles.push_back(reversed ? std::array{a, c, b} : std::array{a, b, c});
   }
 
-  /// Adds the flat faces between loops that end at `z` and loops that begin there. Returns the rings of `next`; a
-  /// continued loop keeps its ring.
-  Firsts add_faces(const std::vector<Polygon>& next, double z, const std::vector<Polygon>& before,
-                   const Firsts& firsts) {
-    std::vector<bool> goes_on(before.size(), false);
-    Firsts next_firsts;
+  /// Adds the flat faces between the loops `below`, which end at `z`, and the loops `above`, which begin there. Returns
+  /// the rings of `above`. A loop that is in both continues without a face and keeps its ring.
+  Firsts add_faces(const std::vector<Polygon>& above, double z, const std::vector<Polygon>& below,
+                   const Firsts& below_firsts) {
+    std::vector<bool> is_continued(below.size(), false);
+    Firsts above_firsts;
     std::vector<Polygon> rims;
     std::vector<std::uint32_t> vertex;  // of each rim corner
     const auto add_rim = [&](const Polygon& loop, std::uint32_t first) {
       rims.push_back(loop);
       for (std::uint32_t i = 0; i < loop.size(); ++i) vertex.push_back(first + i);
     };
-    for (const Polygon& loop : next) {
-      const auto same = std::find(before.begin(), before.end(), loop);
-      if (same != before.end()) {
-        const auto place = static_cast<std::size_t>(same - before.begin());
-        goes_on[place] = true;
-        next_firsts.push_back(firsts[place]);
+    for (const Polygon& loop : above) {
+      const auto same = std::find(below.begin(), below.end(), loop);
+      if (same != below.end()) {
+        const auto index = static_cast<std::size_t>(same - below.begin());
+        is_continued[index] = true;
+        above_firsts.push_back(below_firsts[index]);
       } else {
-        next_firsts.push_back(add_ring(loop, z));
-        add_rim(loop, next_firsts.back());
+        above_firsts.push_back(add_ring(loop, z));
+        add_rim(loop, above_firsts.back());
       }
     }
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      if (!goes_on[i]) add_rim(before[i], firsts[i]);
+    for (std::size_t i = 0; i < below.size(); ++i) {
+      if (!is_continued[i]) add_rim(below[i], below_firsts[i]);
     }
-    if (rims.empty()) return next_firsts;
+    if (rims.empty()) return above_firsts;
     std::vector<Vec2> corners;
     for (const Polygon& rim : rims) corners.insert(corners.end(), rim.begin(), rim.end());
     for (const auto& [a, b, c] : solid::triangulate(rims)) {
       const Vec2 middle = (corners[a] + corners[b] + corners[c]) / 3;
-      add(vertex[a], vertex[b], vertex[c], !is_within(before, middle));  // beginning loops face down
+      // The top of the slab below faces up, the bottom of the one above faces down.
+      add(vertex[a], vertex[b], vertex[c], !is_within(below, middle));
     }
-    return next_firsts;
+    return above_firsts;
   }
 
   solid::TriangleMesh mesh_;
@@ -160,8 +163,8 @@ Polygon outline_of(const DiscHull& hull, double grow) {
   return points;
 }
 
-// Thinner holes are engraved lines: no screw and no pin is as thin.
-constexpr double k_finest_hole = 0.4;  // radius
+// Least radius of a hole. Thinner ones are engraved lines, because no screw and no pin is as thin. mm
+constexpr double k_finest_hole = 0.4;
 
 SlabBody trimmed(const SlabBody& body, const PrintTrim& trim) {
   SlabBody result;
@@ -172,10 +175,12 @@ SlabBody trimmed(const SlabBody& body, const PrintTrim& trim) {
       const double least = least_radius(loop.hull);
       // Engraved lines are not widened.
       if (least < k_finest_hole) continue;
-      const double wider = std::max(0.5 * trim.hole, 0.1 - least);
-      const double more = wider + (least + wider) * (1 / elementary::cos(k_pi / loop.hull.corners) - 1);
-      loop.grow_low += more;
-      loop.grow_high += more;
+      // With negative compensation, a radius of 0.1 mm remains.
+      const double compensation = std::max(0.5 * trim.hole, 0.1 - least);
+      // The polygon's sides touch the circle, so its corners lie at radius / cos(π / corners).
+      const double beyond_circle = (least + compensation) * (1 / elementary::cos(k_pi / loop.hull.corners) - 1);
+      loop.grow_low += compensation + beyond_circle;
+      loop.grow_high += compensation + beyond_circle;
     }
     double foot = std::min(trim.elephant_foot, 0.5 * (slab.high - slab.low) / trim.foot_slope);
     // A thin wall gets a smaller chamfer.
@@ -209,6 +214,7 @@ double volume_of(const SlabBody& body, double scale) {
       const Polygon low = outline_of(loop.hull, loop.grow_low), high = outline_of(loop.hull, loop.grow_high);
       Polygon middle = low;
       for (std::size_t i = 0; i < low.size(); ++i) middle[i] = 0.5 * (low[i] + high[i]);
+      // Simpson's rule is exact, because the area is a quadratic in z.
       const double area = (signed_area(low) + 4 * signed_area(middle) + signed_area(high)) / 6;
       volume += (loop.hole ? -1 : 1) * area * (slab.high - slab.low);
     }

@@ -10,19 +10,23 @@
 namespace fusee::kit {
 namespace {
 
+// All sizes in mm.
 constexpr int k_steps = 5;
-constexpr double k_step = 0.1;
-constexpr double k_pitch = 14;
+constexpr double k_step = 0.1;  // from one fit to the next
+constexpr double k_pitch = 14;  // distance of neighbouring columns
 constexpr double k_length = 80, k_width = 52, k_height = 4;
-constexpr double k_peg = 3;  // radius
+constexpr double k_peg = 3;             // radius
+constexpr double k_number_depth = 0.6;  // of engraving
 
+// The x of the column of a step.
 double column(int step) { return 12 + step * k_pitch; }
 
-/// Shaft diameter of the holes, mm: the mechanism's, or a default.
+/// Shaft diameter of the holes: the mechanism's, or a default.
 double tried_shaft(const Mechanism& mechanism) {
   const double shaft = mechanism.body.bore_diameter > 0 ? mechanism.body.bore_diameter : 5;
   return std::clamp(shaft, 2.0, 8.0);
 }
+/// Tendon diameter of the slots.
 double tried_tendon(const Mechanism& mechanism) { return std::clamp(mechanism.tendon.diameter, 0.5, 5.0); }
 
 }  // namespace
@@ -38,7 +42,7 @@ SlabBody coupon_body(const Mechanism& mechanism) {
     cut(disc({x, 11}, k_peg + more + k_step));
     through.push_back({disc({x, 11}, k_peg), false, 0, 0});
   }
-  Slab lower{0, k_height - 0.6, {rim}}, upper{k_height - 0.6, k_height, {rim}};
+  Slab lower{0, k_height - k_number_depth, {rim}}, upper{k_height - k_number_depth, k_height, {rim}};
   for (Slab* slab : {&lower, &upper}) slab->loops.insert(slab->loops.end(), through.begin(), through.end());
   for (int i = 0; i < k_steps; ++i) {
     for (DiscHull& stroke : number_strokes(i, {column(i) + 6.5, 3.2}, {0, 1}))

@@ -24,13 +24,14 @@ const fusee::MotorType* motor_for(const Mechanism& mechanism, const solid::BodyL
   const Body& body = mechanism.body;
   const bool horn = body.bore == Bore::horn;
   const std::string& name = horn ? body.horn : body.shaft;
-  const auto named = [&](const fusee::MotorType& motor) {
+  const auto fits_by_name = [&](const fusee::MotorType& motor) {
     return std::find(motor.fits.begin(), motor.fits.end(), name) != motor.fits.end();
   };
   for (const fusee::MotorType& motor : motor_types()) {
-    if (named(motor)) return &motor;
+    if (fits_by_name(motor)) return &motor;
   }
   if (horn || body.bore == Bore::hex || body.bore == Bore::square) return nullptr;
+  // No motor names this shaft: one whose shaft has the same diameter fits too.
   const double shaft = shaft_of(mechanism, layout);
   for (const fusee::MotorType& motor : motor_types()) {
     if (motor.shaft > 0 && std::abs(motor.shaft - shaft) < 0.05) return &motor;
@@ -57,9 +58,9 @@ std::vector<SlabLoop> motor_holes(const fusee::MotorType& motor, const Vec2& pul
   return holes;
 }
 
-double distance_to_motor(const fusee::MotorType& motor, const Vec2& off, const Vec2& front) {
-  const double along = off.dot(front);
-  return std::max({std::abs(off.x()) - std::max(motor.side, motor.hole_x + motor.hole),
+double distance_to_motor(const fusee::MotorType& motor, const Vec2& from_axis, const Vec2& front) {
+  const double along = from_axis.dot(front);
+  return std::max({std::abs(from_axis.x()) - std::max(motor.side, motor.hole_x + motor.hole),
                    along - std::max(motor.front, motor.hole_front + motor.hole),
                    -along - std::max(motor.back, motor.hole_back + motor.hole)});
 }

@@ -12,12 +12,14 @@ namespace fusee::kit {
 const fusee::MotorType* motor_for(const Mechanism& mechanism, const solid::BodyLayout& layout);
 /// Direction of the motor's front, towards the joint.
 Vec2 motor_front(const Vec2& pulley);
-/// Holes through the plate.
+/// Holes through the plate. `pulley`: position of the pulley's axis.
 std::vector<SlabLoop> motor_holes(const fusee::MotorType& motor, const Vec2& pulley, const Vec2& front);
-/// Distance in the plane from the motor's body and screws to a place relative to the pulley's axis, negative inside.
-double distance_to_motor(const fusee::MotorType& motor, const Vec2& off, const Vec2& front);
+/// Distance in the plane from the motor's body and screws to a place, negative inside. `from_axis`: the place relative
+/// to the pulley's axis.
+double distance_to_motor(const fusee::MotorType& motor, const Vec2& from_axis, const Vec2& front);
 /// Corners of the part of the base plate that supports the motor.
 std::vector<Disc> motor_corners(const fusee::MotorType& motor, const Vec2& pulley, const Vec2& front);
+/// Adds the motor and its screws to the items. `plate`: thickness of the base plate.
 void buy_motor(KitPlan& plan, const fusee::MotorType& motor, double plate);
 
 }  // namespace fusee::kit

@@ -12,6 +12,7 @@
 namespace fusee::kit {
 namespace {
 
+// Depth of engraved lines, mm.
 constexpr double k_engraved = 0.6;
 
 SlabLoop edge(DiscHull hull) { return {std::move(hull), false, 0, 0}; }
@@ -33,7 +34,16 @@ LinkFrame link_frame(double theta) {
   return {along, {along.y(), -along.x()}};
 }
 
+/// Half the width of the link at the tensioner. Beside the slide are 0.25 mm of clearance, a rail of 2.2 mm and a
+/// margin of 0.5 mm.
 double half_width(const KitSizes& sizes) { return 0.5 * sizes.slide_width + 2.95; }
+
+/// A part that does not move with the link, in its print orientation.
+KitPlace fixed_at(const Vec2& shift, double z) { return {shift, z, false, false}; }
+/// A part on the link.
+KitPlace on_link_at(const Vec2& shift, double z) { return {shift, z, false, true}; }
+/// A part on the link that is printed upside down.
+KitPlace turned_over_on_link_at(const Vec2& shift, double z) { return {shift, z, true, true}; }
 
 DiscHull link_hull(const KitSizes& sizes, double R) {
   const double end = half_width(sizes) - 1;
@@ -59,7 +69,7 @@ DiscHull scale_hull(const KitPlan& plan, const Joint& joint) {
   return hull_of(discs, 180);
 }
 
-// Part by part --------------------------------------------------------------------------------------------------------
+// ---- parts ----------------------------------------------------------------------------------------------------------
 
 class PartMaker {
  public:
@@ -71,22 +81,29 @@ class PartMaker {
         pulley_(0, -mechanism.guides.OE - mechanism.pulley.EF) {}
 
   void make() {
-    base();
-    pins();
-    axle();
-    link();
-    sensor();
-    add({"fit_coupon", "the fit coupon: print it first", coupon_body(mechanism_), {}, 1, false});
-    tendons();
+    add_base();
+    add_pins();
+    add_axle();
+    add_link();
+    add_sensor();
+    add_printed("fit_coupon", "the fit coupon: print it first", coupon_body(mechanism_), {});
+    set_tendon_lengths();
   }
 
  private:
-  void add(KitPart part) { plan_.parts.push_back(std::move(part)); }
+  void add_printed(std::string name, std::string words, SlabBody body, std::vector<KitPlace> places, int count = 1) {
+    plan_.parts.push_back({std::move(name), std::move(words), std::move(body), std::move(places), count, false});
+  }
+  // A part that may also be cut from sheets.
+  void add_plate(std::string name, std::string words, SlabBody body, std::vector<KitPlace> places) {
+    plan_.parts.push_back({std::move(name), std::move(words), std::move(body), std::move(places), 1, true});
+  }
   void buy(int count, std::string what, std::string use) {
     plan_.items.push_back({count, std::move(what), std::move(use)});
   }
 
-  void base() {
+  // Adds base plate, legs and motor.
+  void add_base() {
     Slab plate{0, sizes_.base, {}};
     std::vector<Disc> corners;
     for (const Vec2& leg : plan_.legs) {
@@ -99,15 +116,10 @@ class PartMaker {
     for (const KitPin& pin : plan_.pins)
       plate.loops.push_back(round_hole(pin.place, pin.screw ? pin.screw->clearance : 2 * pin.radius));
     for (SlabLoop& loop : holes_of_motor()) plate.loops.push_back(std::move(loop));
-    add({"base_plate",
-         "base plate: joint axis, pins, motor",
-         {{plate}},
-         {{{0, 0}, -sizes_.base, false, false}},
-         1,
-         true});
+    add_plate("base_plate", "base plate: joint axis, pins, motor", {{plate}}, {fixed_at({0, 0}, -sizes_.base)});
     std::vector<KitPlace> legs;
-    for (const Vec2& leg : plan_.legs) legs.push_back({leg, -sizes_.base - sizes_.leg, false, false});
-    add({"leg", "leg under the base plate", tube(k_leg_radius, leg_screw().tapping, sizes_.leg), legs, 4, false});
+    for (const Vec2& leg : plan_.legs) legs.push_back(fixed_at(leg, -sizes_.base - sizes_.leg));
+    add_printed("leg", "leg under the base plate", tube(k_leg_radius, leg_screw().tapping, sizes_.leg), legs, 4);
     buy(4, screw_words(leg_screw(), sizes_.base + 10) + " with low head", "legs, from above");
     if (sizes_.motor) buy_motor(plan_, *sizes_.motor, sizes_.base);
   }
@@ -121,19 +133,15 @@ class PartMaker {
     return {round_hole(pulley_, opening)};
   }
 
-  void pins() {
+  // Adds the pins with their spacers, sleeves and collars.
+  void add_pins() {
     for (const KitPin& pin : plan_.pins) {
       const std::string letter = pin.side == transmission::Side::left ? "b" : "d",
                         name = pin.side == transmission::Side::left ? "B" : "D";
       const double bore = pin.screw ? pin.screw->clearance : 2 * pin.radius + 0.2;
       const auto collar = [&](const std::string& which, double radius, double low, double high,
                               const std::string& words) {
-        add({"pin_" + letter + "_" + which,
-             words,
-             tube(radius, bore, high - low),
-             {{pin.place, low, false, false}},
-             1,
-             false});
+        add_printed("pin_" + letter + "_" + which, words, tube(radius, bore, high - low), {fixed_at(pin.place, low)});
       };
       collar("spacer", pin.collar, 0, pin.gap_low, "spacer below the tendon on pin " + name);
       if (pin.screw) {
@@ -148,30 +156,20 @@ class PartMaker {
     }
   }
 
-  void axle() {
-    add({"axle_spacer",
-         "spacer round the joint's axle, up to the scale",
-         tube(sizes_.axle_tube, sizes_.axle->clearance, sizes_.scale_low),
-         {{{0, 0}, 0, false, false}},
-         1,
-         false});
+  // Adds the joint's axle with its bearings, the scale and the feet.
+  void add_axle() {
+    add_printed("axle_spacer", "spacer round the joint's axle, up to the scale",
+                tube(sizes_.axle_tube, sizes_.axle->clearance, sizes_.scale_low), {fixed_at({0, 0}, 0)});
     std::vector<KitPlace> feet;
-    for (const Vec2& foot : plan_.feet) feet.push_back({foot, 0, false, false});
-    add({"foot_spacer", "spacer from base plate to scale",
-         tube(foot_radius(), sizes_.foot->clearance, sizes_.scale_low), feet, 2, false});
-    add({"scale_plate",
-         "scale of the joint's angle, on axle and feet",
-         scale_body(),
-         {{{0, 0}, sizes_.scale_low, false, false}},
-         1,
-         true});
+    for (const Vec2& foot : plan_.feet) feet.push_back(fixed_at(foot, 0));
+    add_printed("foot_spacer", "spacer from base plate to scale",
+                tube(foot_radius(), sizes_.foot->clearance, sizes_.scale_low), feet, 2);
+    add_plate("scale_plate", "scale of the joint's angle, on axle and feet", scale_body(),
+              {fixed_at({0, 0}, sizes_.scale_low)});
     const double ring = sizes_.link_low - sizes_.scale_low - sizes_.scale_plate + sizes_.ledge;
-    add({"bearing_ring",
-         "ring under the inner ring of the lower bearing",
-         tube(0.5 * sizes_.bearing->spacer, sizes_.axle->clearance, ring),
-         {{{0, 0}, sizes_.scale_low + sizes_.scale_plate, false, false}},
-         1,
-         false});
+    add_printed("bearing_ring", "ring under the inner ring of the lower bearing",
+                tube(0.5 * sizes_.bearing->spacer, sizes_.axle->clearance, ring),
+                {fixed_at({0, 0}, sizes_.scale_low + sizes_.scale_plate)});
     buy(2, "ball bearing " + sizes_.bearing->name + " (" + sizes_.bearing->description + ")", "joint, in the link");
     const double stack = sizes_.base + sizes_.link_low + sizes_.link + sizes_.axle->nut_height + 1;
     buy(1, screw_words(*sizes_.axle, stack) + " with nut", "the joint's axle, from below");
@@ -212,7 +210,8 @@ class PartMaker {
     return lines;
   }
 
-  void link() {
+  // Adds the link, with the post at C and the tensioner's slide.
+  void add_link() {
     const double R = mechanism_.joint.R, top = sizes_.link;
     const Thread& small = *sizes_.small;
     const SlabLoop rim = edge(link_hull(sizes_, R));
@@ -235,14 +234,10 @@ class PartMaker {
       rails.loops.push_back(upright(wall_inner, outer, end - 5, end - 1));
       walls.loops.push_back(upright(wall_inner, outer, end - 5, end - 1));
     }
-    add({"link",
-         "link of length R, on both bearings, with the tensioner's guide",
-         {{ledge, seat, rails, walls}},
-         {{{0, 0}, sizes_.link_low, false, true}},
-         1,
-         true});
-    post();
-    slide();
+    add_plate("link", "link of length R, on both bearings, with the tensioner's guide", {{ledge, seat, rails, walls}},
+              {on_link_at({0, 0}, sizes_.link_low)});
+    add_post();
+    add_slide();
   }
 
   double ledge_hole() const {
@@ -251,13 +246,15 @@ class PartMaker {
   double slide_start() const { return mechanism_.joint.R + sizes_.post + 2.5; }
 
   /// The post hangs down from its flange and is printed standing on it.
-  void post() {
+  void add_post() {
     const Thread& small = *sizes_.small;
     const double top = sizes_.link_low + sizes_.link + sizes_.flange;
     const double cone = sizes_.post - sizes_.waist, chamfer_height = 0.4;
-    const double waist = top - sizes_.z_tendon2 - 0.5 * sizes_.tendon_gap, below = waist + sizes_.tendon_gap;
+    // Heights as it is printed, from the top of its flange.
+    const double waist_begin = top - sizes_.z_tendon2 - 0.5 * sizes_.tendon_gap,
+                 waist_end = waist_begin + sizes_.tendon_gap;
     const double end = top - sizes_.post_low;
-    const double rise = cone * steepness();
+    const double cone_end = waist_end + cone * steepness();
     const SlabLoop bore = round_hole({0, 0}, 2 * sizes_.bore), stem = edge(disc({0, 0}, sizes_.post));
     std::vector<Disc> plate{{{0, 0}, sizes_.post + 1}};
     Slab flange{0, sizes_.flange, {bore}};
@@ -270,23 +267,20 @@ class PartMaker {
     narrow.grow_low = narrow.grow_high = widening.grow_low = -cone;
     widened.grow_high = chamfer_height;
     const double chamfer = end - chamfer_height;
-    add({"post",
-         "post at C: tendon 2 is tied round it, tendon 1 goes up through it",
-         {{flange,
-           {sizes_.flange, waist, {stem, bore}},
-           {waist, below, {narrow, bore}},
-           {below, below + rise, {widening, bore}},
-           {below + rise, chamfer, {stem, bore}},
-           {chamfer, end, {stem, widened}}}},
-         {{{0, mechanism_.joint.R}, top, true, true}},
-         1,
-         false});
+    add_printed("post", "post at C: tendon 2 is tied round it, tendon 1 goes up through it",
+                {{flange,
+                  {sizes_.flange, waist_begin, {stem, bore}},
+                  {waist_begin, waist_end, {narrow, bore}},
+                  {waist_end, cone_end, {widening, bore}},
+                  {cone_end, chamfer, {stem, bore}},
+                  {chamfer, end, {stem, widened}}}},
+                {turned_over_on_link_at({0, mechanism_.joint.R}, top)});
     buy(2, screw_words(small, sizes_.flange + std::min(sizes_.link, 10.0)), "post, into the link");
   }
 
   double steepness() const { return post_steepness(mechanism_); }
 
-  void slide() {
+  void add_slide() {
     const Thread& small = *sizes_.small;
     const SlideLengths lengths = slide_lengths(small);
     const double half = 0.5 * sizes_.slide_width, inner = 0.5 * small.clearance, floor = 2;
@@ -302,18 +296,15 @@ class PartMaker {
         upper.loops.push_back(
             edge(box({x > 0 ? inner : -half + 0.15, low}, {x > 0 ? half - 0.15 : -inner, high}, 0.3)));
     }
-    add({"tensioner_slide",
-         "tensioner: the slide that tendon 1 is clamped to",
-         {{lower, upper}},
-         {{{0, slide_start()}, sizes_.link_low + sizes_.link, false, true}},
-         1,
-         false});
+    add_printed("tensioner_slide", "tensioner: the slide that tendon 1 is clamped to", {{lower, upper}},
+                {on_link_at({0, slide_start()}, sizes_.link_low + sizes_.link)});
     buy(1, screw_words(small, sizes_.travel + lengths.front + lengths.nut + lengths.back + 6) + " with nut",
         "tensioner: through the wall at the link's end, the nut in the slide");
     buy(1, screw_words(small, 6) + " with washer", "clamps tendon 1 on the slide");
   }
 
-  void sensor() {
+  // Adds the magnet's cap and the board with its bracket.
+  void add_sensor() {
     const fusee::BoardType& board = *sizes_.board;
     const Thread& screw = k_threads.front();
     std::vector<Disc> shape{{{0, 0}, sizes_.cap}};
@@ -327,24 +318,20 @@ class PartMaker {
     Slab room{sizes_.web, sizes_.cap_height, {rim, round_hole({0, 0}, 2 * sizes_.recess)}};
     for (Slab* slab : {&web, &room}) slab->loops.insert(slab->loops.end(), screws.begin(), screws.end());
     const double link_top = sizes_.link_low + sizes_.link;
-    add({"magnet_cap",
-         "cap on the link: holds the bearings, and the magnet over the axis",
-         {{web, room}},
-         {{{0, 0}, link_top + sizes_.cap_height, true, true}},
-         1,
-         false});
+    add_printed("magnet_cap", "cap on the link: holds the bearings, and the magnet over the axis", {{web, room}},
+                {turned_over_on_link_at({0, 0}, link_top + sizes_.cap_height)});
     buy(2, screw_words(screw, sizes_.cap_height + 6), "magnet cap, into the link");
     buy(1, "magnet ⌀ " + rounded(board.magnet) + " × " + rounded(board.magnet_height) + ", magnetised across",
         "in the magnet cap, flush");
     std::vector<KitPlace> feet;
-    for (const Vec2& foot : plan_.feet) feet.push_back({foot, sizes_.scale_low + sizes_.scale_plate, false, false});
-    add({"foot_tube", "spacer from scale to bracket",
-         tube(foot_radius(), sizes_.foot->clearance, sizes_.bracket_low - sizes_.scale_low - sizes_.scale_plate), feet,
-         2, false});
-    bracket();
+    for (const Vec2& foot : plan_.feet) feet.push_back(fixed_at(foot, sizes_.scale_low + sizes_.scale_plate));
+    add_printed("foot_tube", "spacer from scale to bracket",
+                tube(foot_radius(), sizes_.foot->clearance, sizes_.bracket_low - sizes_.scale_low - sizes_.scale_plate),
+                feet, 2);
+    add_bracket();
   }
 
-  void bracket() {
+  void add_bracket() {
     const fusee::BoardType& board = *sizes_.board;
     std::vector<Disc> shape;
     std::vector<KitPlace> spacers;
@@ -354,7 +341,7 @@ class PartMaker {
         const Vec2 place(x * board.pitch.x(), y * board.pitch.y());
         shape.push_back({place, 0.5 * board.hole + 2});
         plate.loops.push_back(round_hole(place, board.hole));
-        spacers.push_back({place, sizes_.bracket_low - 3, false, false});
+        spacers.push_back(fixed_at(place, sizes_.bracket_low - 3));
       }
     }
     for (const Vec2& foot : plan_.feet) {
@@ -362,20 +349,16 @@ class PartMaker {
       plate.loops.push_back(round_hole(foot, sizes_.foot->clearance));
     }
     plate.loops.push_back(edge(hull_of(shape)));
-    add({"board_spacer", "spacer between bracket and board", tube(0.5 * board.hole + k_wall, board.hole, 3), spacers, 4,
-         false});
-    add({"bracket",
-         "bracket: the board hangs under it, chip down",
-         {{plate}},
-         {{{0, 0}, sizes_.bracket_low, false, false}},
-         1,
-         true});
+    add_printed("board_spacer", "spacer between bracket and board", tube(0.5 * board.hole + k_wall, board.hole, 3),
+                spacers, 4);
+    add_plate("bracket", "bracket: the board hangs under it, chip down", {{plate}},
+              {fixed_at({0, 0}, sizes_.bracket_low)});
     buy(1, board.name + ": " + board.description, "reads the joint's angle; assumed: " + board.source);
     buy(4, screw_words(thread_within(board.hole), sizes_.bracket + 3 + board.thickness + 4) + " with nuts",
         "board, under the bracket");
   }
 
-  void tendons() {
+  void set_tendon_lengths() {
     const Thread& small = *sizes_.small;
     const double top = sizes_.link_low + sizes_.link + sizes_.flange;
     plan_.tendons[0] = {transmission::Side::left,

@@ -8,6 +8,7 @@
 
 namespace fusee::kit {
 
+// Sizes that all rigs share, mm.
 inline constexpr double k_leg_radius = 5;
 inline constexpr double k_wall = 1.2;  ///< three lines of a 0.4 mm nozzle
 inline constexpr double k_collar_height = 2.5;
@@ -21,6 +22,7 @@ struct SlideLengths {
 SlideLengths slide_lengths(const Thread& thread);
 /// Height of the tensioner's screw above the link.
 double tensioner_axis(const Thread& thread);
+/// Height of the tensioner's wall above the link.
 double tensioner_height(const Thread& thread);
 
 /// Diameter of the motor's shaft.

@@ -26,7 +26,7 @@ bool is_stock_rod(double diameter) {
 }
 
 /// Distance outside a convex polygon, negative inside; a lower bound near corners.
-double outside_of(const Polygon& convex, const Vec2& point) {
+double distance_outside(const Polygon& convex, const Vec2& point) {
   double most = -k_infinite;
   for (std::size_t i = 0; i < convex.size(); ++i) {
     const Vec2 &a = convex[i], edge = convex[(i + 1) % convex.size()] - a;
@@ -57,13 +57,13 @@ std::vector<Vec2> tendon_path(const Mechanism& mechanism, const transmission::Tr
 /// Positions and tendon paths of the mechanism, computed once.
 struct Scene {
   const Mechanism& mechanism;
-  Vec2 pulley;
-  std::array<Vec2, 2> pins;
+  Vec2 pulley;               ///< its axis
+  std::array<Vec2, 2> pins;  ///< B and D
   std::vector<transmission::TransmissionPoint> stroke;
-  std::array<std::vector<std::vector<Vec2>>, 2> paths;  ///< of both tendons, at each place of the stroke
+  std::array<std::vector<std::vector<Vec2>>, 2> paths;  ///< of tendons 1 and 2, at each place of the stroke
   double longest = 0;                                   ///< free length of a tendon, mm
 
-  explicit Scene(const Mechanism& given) : mechanism(given) {
+  explicit Scene(const Mechanism& rig_mechanism) : mechanism(rig_mechanism) {
     const transmission::Transmission transmission(mechanism);
     const transmission::PinPlace place = transmission::pin_place(mechanism, transmission::Side::left, 0);
     pulley = place.pulley_axis();
@@ -82,17 +82,18 @@ struct Scene {
   }
 };
 
-/// The minimum of a value over the stroke, and its place.
+/// The minimum of a value over the stroke, and the α at which it occurs.
 struct Minimum {
   double value = k_infinite;
   double alpha = 0;
-  void see(double other, double where) {
-    if (other < value) *this = {other, where};
+  void consider(double other_value, double other_alpha) {
+    if (other_value < value) *this = {other_value, other_alpha};
   }
 };
 
-// Sizes ---------------------------------------------------------------------------------------------------------------
+// ---- sizes ----------------------------------------------------------------------------------------------------------
 
+/// Sets the sizes that follow from the bearing.
 void size_axle(KitSizes& sizes, const fusee::BearingType& bearing) {
   sizes.bearing = &bearing;
   sizes.axle = &thread_within(bearing.bore);
@@ -102,6 +103,7 @@ void size_axle(KitSizes& sizes, const fusee::BearingType& bearing) {
   sizes.axle_tube = std::max(0.5 * sizes.axle->clearance + k_wall, 0.5 * bearing.spacer);
 }
 
+/// Sets the sizes that follow from pulley and motor.
 void size_pulley(KitSizes& sizes, const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
                  const solid::BodyLayout& layout) {
   const double groove_edge = layout.groove_depth - 0.5 * mechanism.tendon.diameter;
@@ -136,6 +138,7 @@ KitPin pin_of(const KitSizes& sizes, const Scene& scene, transmission::Side side
   return pin;
 }
 
+/// Sets all sizes above the pins, and the legs'. `pins_top`: highest point of both pins.
 void size_link(KitSizes& sizes, const Scene& scene, double pins_top) {
   const Mechanism& mechanism = scene.mechanism;
   const double R = mechanism.joint.R, d = mechanism.tendon.diameter;
@@ -175,13 +178,14 @@ void size_link(KitSizes& sizes, const Scene& scene, double pins_top) {
   sizes.motor_front = motor_front(scene.pulley);
 }
 
-// Distances -----------------------------------------------------------------------------------------------------------
+// ---- distances ------------------------------------------------------------------------------------------------------
 
 class Conditions {
  public:
   explicit Conditions(KitPlan& plan) : plan_(plan) {}
-  /// Replaces "{}" in `change` by the missing distance.
-  void at_least(const std::string& name, const Minimum& found, double limit, const std::string& what,
+  /// Adds the condition that a distance is at least `limit`. Its message gives the `fault` and suggests the `change`,
+  /// in which "{}" is replaced by the missing distance.
+  void at_least(const std::string& name, const Minimum& found, double limit, const std::string& fault,
                 const std::string& change) {
     profile::Condition condition;
     condition.name = name;
@@ -194,7 +198,7 @@ class Conditions {
       std::string hint = change;
       if (const auto place = hint.find("{}"); place != std::string::npos)
         hint.replace(place, 2, trimmed_fixed(std::ceil(10 * (limit - found.value)) / 10, 1) + " mm");
-      condition.message = what + ": " + rounded(found.value, 3) + " mm, and at least " + rounded(limit, 3) +
+      condition.message = fault + ": " + rounded(found.value, 3) + " mm, and at least " + rounded(limit, 3) +
                           " mm is required (α = " + rounded(degrees(found.alpha), 3) + "°)";
       if (!hint.empty()) condition.message += "; try " + hint;
     }
@@ -205,21 +209,23 @@ class Conditions {
   KitPlan& plan_;
 };
 
-/// Clearance of a tendon from a circle.
+/// Clearance of a tendon from a circle. `tendon`: 0 for tendon 1, 1 for tendon 2.
 Minimum tendon_past(const Scene& scene, int tendon, const Vec2& place, double radius) {
   Minimum least;
   for (std::size_t i = 0; i < scene.stroke.size(); ++i)
-    least.see(distance_to_path(scene.paths[tendon][i], place) - radius - 0.5 * scene.mechanism.tendon.diameter,
-              scene.stroke[i].alpha);
+    least.consider(distance_to_path(scene.paths[tendon][i], place) - radius - 0.5 * scene.mechanism.tendon.diameter,
+                   scene.stroke[i].alpha);
   return least;
 }
 
+/// Clearance of the post at C from a circle.
 Minimum post_past(const Scene& scene, const KitSizes& sizes, const Vec2& place, double radius) {
   Minimum least;
   for (const transmission::TransmissionPoint& at : scene.stroke)
-    least.see((scene.mechanism.joint.R * Vec2(elementary::sin(at.theta), elementary::cos(at.theta)) - place).norm() -
-                  sizes.post - radius,
-              at.alpha);
+    least.consider(
+        (scene.mechanism.joint.R * Vec2(elementary::sin(at.theta), elementary::cos(at.theta)) - place).norm() -
+            sizes.post - radius,
+        at.alpha);
   return least;
 }
 
@@ -300,7 +306,8 @@ void check_link(Conditions& checks, const Scene& scene, const KitPlan& plan) {
   const Polygon scale = scale_outline(plan, scene.mechanism);
   Minimum post;
   for (const transmission::TransmissionPoint& at : scene.stroke)
-    post.see(outside_of(scale, R * Vec2(elementary::sin(at.theta), elementary::cos(at.theta))) - sizes.post, at.alpha);
+    post.consider(distance_outside(scale, R * Vec2(elementary::sin(at.theta), elementary::cos(at.theta))) - sizes.post,
+                  at.alpha);
   checks.at_least("post_beside_scale", post, k_clear, "the post at C is too close to the scale",
                   "joint.length_mm larger by {}, or a smaller range (joint.range_deg)");
   const double magnet = sizes.link_low + sizes.link + sizes.cap_height;
@@ -319,20 +326,21 @@ void check_link(Conditions& checks, const Scene& scene, const KitPlan& plan) {
       "tendon 1 is too close to the motor's screws", "body.flange_thickness_mm larger by {}");
 }
 
-// Feet ----------------------------------------------------------------------------------------------------------------
+// ---- feet -----------------------------------------------------------------------------------------------------------
 
 double foot_radius(const KitSizes& sizes) { return 0.5 * sizes.foot->clearance + k_wall; }
 
-/// Clearance of a place for a foot, minus the foot's own size.
-class FootRoom {
+/// Tests places for a foot: it must clear all other parts over the whole stroke.
+class FootPlaces {
  public:
-  FootRoom(const Scene& scene, const KitPlan& plan) : scene_(scene), plan_(plan) {
+  FootPlaces(const Scene& scene, const KitPlan& plan) : scene_(scene), plan_(plan) {
     for (const transmission::TransmissionPoint& at : scene.stroke)
       links_.push_back(link_outline(plan, scene.mechanism, at.theta));
   }
 
-  bool holds(const Vec2& place) const {
+  bool is_free(const Vec2& place) const {
     const KitSizes& sizes = plan_.sizes;
+    // Radius around the place that must be free.
     const double own = foot_radius(sizes) + k_clear + 0.3;
     if (on_scale(place, own)) return false;
     if (place.norm() < 0.5 * sizes.board->size.norm() + own + 1) return false;
@@ -349,7 +357,7 @@ class FootRoom {
       }
     }
     return std::all_of(links_.begin(), links_.end(),
-                       [&](const Polygon& link) { return outside_of(link, place) > own; });
+                       [&](const Polygon& link) { return distance_outside(link, place) > own; });
   }
 
  private:
@@ -365,23 +373,23 @@ class FootRoom {
   std::vector<Polygon> links_;
 };
 
-/// The place nearest to the joint's axis, on the right (+1) or on the left (−1).
-std::optional<Vec2> foot_on(const FootRoom& room, double side, double reach) {
+/// The free place nearest to the joint's axis, at most `reach` away, on the right (`side` = +1) or on the left (−1).
+std::optional<Vec2> foot_on(const FootPlaces& places, double side, double reach) {
   for (double radius = 8; radius < reach; radius += 1) {
     for (int step = 0; step < 21; ++step) {
       // Starts straight to the side and alternates below and above.
       const double angle = radians(step % 2 ? -5.0 * ((step + 1) / 2) : 2.0 * (step / 2));
       const Vec2 place = radius * Vec2(side * elementary::cos(angle), elementary::sin(angle));
-      if (room.holds(place)) return place;
+      if (places.is_free(place)) return place;
     }
   }
   return std::nullopt;
 }
 
-// Base ----------------------------------------------------------------------------------------------------------------
+// ---- base -----------------------------------------------------------------------------------------------------------
 
 /// All features on or under the base plate, with their radii.
-std::vector<Disc> on_base(const Scene& scene, const KitPlan& plan) {
+std::vector<Disc> base_features(const Scene& scene, const KitPlan& plan) {
   const KitSizes& sizes = plan.sizes;
   std::vector<Disc> all{{{0, 0}, sizes.axle_tube}, {scene.pulley, 8}};
   for (const KitPin& pin : plan.pins) all.push_back({pin.place, pin.collar});
@@ -392,11 +400,12 @@ std::vector<Disc> on_base(const Scene& scene, const KitPlan& plan) {
   return all;
 }
 
+/// Puts the legs at the corners of a rectangle around all features of the base.
 void place_legs(const Scene& scene, KitPlan& plan) {
   Vec2 low(k_infinite, k_infinite), high = -low;
-  for (const Disc& thing : on_base(scene, plan)) {
-    low = low.cwiseMin(thing.centre - Vec2(thing.radius, thing.radius));
-    high = high.cwiseMax(thing.centre + Vec2(thing.radius, thing.radius));
+  for (const Disc& feature : base_features(scene, plan)) {
+    low = low.cwiseMin(feature.centre - Vec2(feature.radius, feature.radius));
+    high = high.cwiseMax(feature.centre + Vec2(feature.radius, feature.radius));
   }
   const double out = k_leg_radius + 1;
   low -= Vec2(out, out);
@@ -404,8 +413,9 @@ void place_legs(const Scene& scene, KitPlan& plan) {
   plan.legs = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
 }
 
-KitPlan with_bearing(const Scene& scene, const profile::SynthesisResult& synthesis, const solid::BodyLayout& layout,
-                     const fusee::BearingType& bearing) {
+/// The rig with this bearing, without its parts.
+KitPlan plan_with_bearing(const Scene& scene, const profile::SynthesisResult& synthesis,
+                          const solid::BodyLayout& layout, const fusee::BearingType& bearing) {
   KitPlan plan;
   KitSizes& sizes = plan.sizes;
   sizes.board = &board_types().front();
@@ -418,10 +428,10 @@ KitPlan with_bearing(const Scene& scene, const profile::SynthesisResult& synthes
                   "guides.radius_mm " + rounded(k_least_pin) + " or more");
   check_axle(checks, scene, plan);
   check_pins(checks, scene, plan);
-  const FootRoom room(scene, plan);
+  const FootPlaces places(scene, plan);
   const double reach = 60 + 2.5 * std::max(scene.mechanism.joint.R, scene.pulley.norm() + sizes.pulley_radius);
   for (const double side : {-1.0, 1.0}) {
-    if (const auto place = foot_on(room, side, reach)) plan.feet.push_back(*place);
+    if (const auto place = foot_on(places, side, reach)) plan.feet.push_back(*place);
   }
   checks.at_least("feet", {static_cast<double>(plan.feet.size()), 0}, 2, "", "");
   profile::Condition& feet = plan.conditions.back();
@@ -452,7 +462,8 @@ void add_notes(KitPlan& plan, const Mechanism& mechanism, const solid::BodyLayou
                            rounded(sizes.motor->shaft_length, 3) + " mm is usual: buy one with a long shaft" +
                            (layout.set_screw.present ? ", or set body.hub_height_mm = 0 and press the pulley on" : ""));
   }
-  constexpr double k_usual_bed = 220;
+  constexpr double k_usual_bed = 220;  // mm
+  // The legs' positions are corners of a rectangle, the first and the third opposite.
   const Vec2 base = plan.legs[2] - plan.legs[0] + Vec2(2 * k_leg_radius + 2, 2 * k_leg_radius + 2);
   if (base.maxCoeff() > k_usual_bed)
     plan.notes.push_back("the base plate is " + rounded(std::ceil(base.x()), 4) + " × " +
@@ -470,8 +481,8 @@ void add_notes(KitPlan& plan, const Mechanism& mechanism, const solid::BodyLayou
 
 double shaft_of(const Mechanism& mechanism, const solid::BodyLayout& layout) {
   if (mechanism.body.bore_diameter > 0) return mechanism.body.bore_diameter;
-  const double within = layout.bore.circle ? layout.bore.circle->diameter : 2 * layout.bore.radius;
-  return within - mechanism.material.hole_compensation;
+  const double bore = layout.bore.circle ? layout.bore.circle->diameter : 2 * layout.bore.radius;
+  return bore - mechanism.material.hole_compensation;
 }
 
 KitPlan plan_kit(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
@@ -481,9 +492,9 @@ KitPlan plan_kit(const Mechanism& mechanism, const profile::SynthesisResult& syn
   const std::vector<fusee::BearingType>& all = bearing_types();
   KitPlan plan;
   for (const fusee::BearingType& bearing : all) {
-    // Bearings wider than a third of R are avoided.
+    // Bearings wider than a third of R are avoided, except the smallest.
     if (bearing.outer > mechanism.joint.R / 3 && &bearing != &all.back()) continue;
-    plan = with_bearing(scene, synthesis, layout, bearing);
+    plan = plan_with_bearing(scene, synthesis, layout, bearing);
     if (plan.made()) break;
   }
   if (!plan.made()) return plan;

@@ -18,12 +18,13 @@
 namespace fusee::kit {
 namespace {
 
-constexpr double k_between_holes = 1.2;  // three lines of a 0.4 mm nozzle
-constexpr double k_plate = 4;
-constexpr double k_ledge = 1.2;     // ledge below the bearings and around a spacer
-constexpr double k_beside = 0.5;    // clearance of moving parts
-constexpr double k_round_hole = 5;  // radius of a plate around its holes
-constexpr double k_hole_at_C = 1.6;
+// All in mm.
+constexpr double k_between_holes = 1.2;  // least wall: three lines of a 0.4 mm nozzle
+constexpr double k_plate = 4;            // thickness of the plates
+constexpr double k_ledge = 1.2;          // ledge below the bearings and around a spacer
+constexpr double k_clearance = 0.5;      // of moving parts
+constexpr double k_around_hole = 5;      // width of a plate around its holes
+constexpr double k_hole_at_C = 1.6;      // radius
 
 struct NamedHole {
   std::string name;
@@ -31,12 +32,13 @@ struct NamedHole {
   double radius = 0;
 };
 
-/// Merges holes at one place, because both tendons may end in one hole.
+/// Adds a hole unless one is at its place already, because both tendons may end in one hole.
 void add_hole(std::vector<NamedHole>& holes, const NamedHole& hole) {
   const auto same = [&hole](const NamedHole& other) { return (other.place - hole.place).norm() < 1e-6; };
   if (std::none_of(holes.begin(), holes.end(), same)) holes.push_back(hole);
 }
 
+/// Adds a condition for the wall between each two holes.
 void check_distances(KitPlan& plan, const std::vector<NamedHole>& holes) {
   for (std::size_t i = 0; i < holes.size(); ++i) {
     for (std::size_t k = i + 1; k < holes.size(); ++k) {
@@ -58,7 +60,7 @@ void check_distances(KitPlan& plan, const std::vector<NamedHole>& holes) {
 SlabBody plate_of(const std::vector<NamedHole>& holes, std::vector<Disc> more) {
   Slab plate{0, k_plate, {}};
   for (const NamedHole& hole : holes) {
-    more.push_back({hole.place, hole.radius + k_round_hole});
+    more.push_back({hole.place, hole.radius + k_around_hole});
     plate.loops.push_back({disc(hole.place, hole.radius), true, 0, 0});
   }
   plate.loops.insert(plate.loops.begin(), {DiscHull{std::move(more), 144}, false, 0, 0});
@@ -76,7 +78,7 @@ class TemplateMaker {
     plan_.heights = heights;
   }
 
-  KitPlan made() {
+  KitPlan make() {
     plan_.drilled = true;
     profile::Condition pin;
     pin.name = "pin_radius";
@@ -86,8 +88,8 @@ class TemplateMaker {
     pin.ok = pin.value >= pin.limit;
     if (!pin.ok) pin.message = "a pin this thin is not sold: guides.radius_mm " + rounded(k_least_pin) + " or more";
     plan_.conditions.push_back(pin);
-    base();
-    link();
+    add_base();
+    add_link();
     plan_.status = profile::failed_of(plan_.conditions).empty() ? KitStatus::made : KitStatus::impossible;
     if (!plan_.made()) {
       plan_.parts.clear();
@@ -105,29 +107,33 @@ class TemplateMaker {
   }
 
  private:
-  static double tie(const Mechanism& mechanism) { return std::max(0.5, 0.75 * mechanism.tendon.diameter); }
-  Vec2 end_of(const std::optional<Attachment>& own) const {
-    return own ? Vec2(own->across, own->along) : Vec2(0, mechanism_.joint.R);
+  /// Radius of the hole in which a tendon is tied.
+  static double tie_radius(const Mechanism& mechanism) { return std::max(0.5, 0.75 * mechanism.tendon.diameter); }
+  /// Position of a tendon's end on the link: its own attachment, or C.
+  Vec2 end_of(const std::optional<Attachment>& attachment) const {
+    return attachment ? Vec2(attachment->across, attachment->along) : Vec2(0, mechanism_.joint.R);
   }
 
-  /// Two bearings lie in the link, beside the tendons' ends. The ring on which they stand passes through the drum.
+  /// The largest bearing that fits; null if none does. Two of them lie in the link, beside the tendons' ends. The ring
+  /// on which they stand passes through the drum.
   const fusee::BearingType* largest_bearing() const {
     const Joint& joint = mechanism_.joint;
     double room = joint.R - k_hole_at_C;
     for (const auto& end : {joint.attachment1, joint.attachment2})
-      room = std::min(room, end_of(end).norm() - tie(mechanism_));
+      room = std::min(room, end_of(end).norm() - tie_radius(mechanism_));
     for (const fusee::BearingType& bearing : bearing_types()) {
-      const bool drum_holds = joint.drum_radius == 0 || ring_hole(bearing) + k_ledge <= joint.drum_radius;
-      if (0.5 * bearing.outer + k_between_holes <= room && drum_holds) return &bearing;
+      const bool fits_in_drum = joint.drum_radius == 0 || ring_hole(bearing) + k_ledge <= joint.drum_radius;
+      if (0.5 * bearing.outer + k_between_holes <= room && fits_in_drum) return &bearing;
     }
     return nullptr;
   }
   /// Radius of the opening for the ring of these bearings, which does not rotate.
-  static double ring_hole(const fusee::BearingType& bearing) { return 0.5 * bearing.spacer + k_beside; }
+  static double ring_hole(const fusee::BearingType& bearing) { return 0.5 * bearing.spacer + k_clearance; }
   double hole_in_drum() const { return bearing_ ? ring_hole(*bearing_) : 0.5 * axle_.clearance; }
 
   bool has_idlers() const { return mechanism_.guides.kind == GuideKind::idler; }
 
+  /// Least distance from the joint's axis to an end of a tendon or to the drum's surface.
   double smallest_lever() const {
     const Joint& joint = mechanism_.joint;
     double least = joint.drum_radius > 0 ? joint.drum_radius : joint.R;
@@ -136,7 +142,7 @@ class TemplateMaker {
     return least;
   }
 
-  void base() {
+  void add_base() {
     std::vector<NamedHole> holes{{"axle", {0, 0}, 0.5 * axle_.clearance}};
     const double pin_hole =
         has_idlers() ? 0.5 * thread_within(mechanism_.guides.bearing_radius).clearance : mechanism_.guides.radius;
@@ -150,16 +156,17 @@ class TemplateMaker {
       holes.push_back({side == transmission::Side::left ? "pin_B" : "pin_D", pin.place, pin_hole});
       if (!place.sheath_exit) continue;
       const Vec2 exit = place.pulley_axis() + Vec2(sign * place.sheath_exit->across, place.sheath_exit->above);
-      holes.push_back({side == transmission::Side::left ? "mouth_1" : "mouth_2", exit, ferrule()});
+      holes.push_back({side == transmission::Side::left ? "mouth_1" : "mouth_2", exit, ferrule_radius()});
     }
     const Vec2 pulley = transmission::pin_place(mechanism_, transmission::Side::left, 0).pulley_axis();
     const fusee::MotorType* motor = motor_that_fits(holes, pulley);
     std::vector<Disc> more;
     if (motor) more = motor_corners(*motor, pulley, motor_front(pulley));
     for (Disc& corner : more) corner.radius = 1;
-    const double shaft = mechanism_.body.bore == Bore::horn ? 0.5 * horn_of(mechanism_).bolt_circle + 5
-                                                            : 0.5 * shaft_of(mechanism_, layout_) + 0.5;
-    if (!motor) holes.push_back({"pulley_axis", pulley, shaft});
+    // Radius of the hole for the pulley's axis.
+    const double axis_hole = mechanism_.body.bore == Bore::horn ? 0.5 * horn_of(mechanism_).bolt_circle + 5
+                                                                : 0.5 * shaft_of(mechanism_, layout_) + 0.5;
+    if (!motor) holes.push_back({"pulley_axis", pulley, axis_hole});
     check_distances(plan_, holes);
     SlabBody plate = plate_of(holes, more);
     if (motor) {
@@ -196,6 +203,7 @@ class TemplateMaker {
     return motor;
   }
 
+  /// The drum carries both tendons, with a margin above and below.
   double drum_height() const {
     const auto& heights = plan_.heights;
     return (heights ? heights->drum.high - heights->drum.low : layout_.z_p2 - layout_.z_p1) + 2 * margin();
@@ -209,7 +217,7 @@ class TemplateMaker {
           "no ball bearing of the catalogue fits beside the tendons' ends: the link turns on the axle");
       return;
     }
-    const double ring = (has_drum() ? drum_height() : 0.0) + k_beside + k_ledge;
+    const double ring = (has_drum() ? drum_height() : 0.0) + k_clearance + k_ledge;
     plan_.parts.push_back(
         {"bearing_ring",
          has_drum() ? "ring under the inner ring of the lower bearing, through the drum"
@@ -226,18 +234,18 @@ class TemplateMaker {
     plan_.items.push_back({1, screw_words(axle_, stack) + " with nut", "the joint's axle, from below"});
   }
 
-  double ferrule() const { return std::max(1.5, mechanism_.tendon.diameter); }
+  double ferrule_radius() const { return std::max(1.5, mechanism_.tendon.diameter); }
 
   /// Text for guides whose tendons are helical or run between collars.
   std::string height_words() const {
     if (!plan_.heights) return "";
-    const auto of = [this](std::size_t i, const std::string& name) {
-      const TendonHeights::Span& on = plan_.heights->guides.at(i);
-      return name + (mechanism_.guides.collar ? " between collars at " + rounded(on.low, 4)
-                                              : " smooth from " + rounded(std::floor(on.low - margin()), 4) + " to " +
-                                                    rounded(std::ceil(on.high + margin()), 4));
+    const auto words_of = [this](std::size_t i, const std::string& name) {
+      const TendonHeights::Span& span = plan_.heights->guides.at(i);
+      return name + (mechanism_.guides.collar ? " between collars at " + rounded(span.low, 4)
+                                              : " smooth from " + rounded(std::floor(span.low - margin()), 4) + " to " +
+                                                    rounded(std::ceil(span.high + margin()), 4));
     };
-    return "; " + of(0, "B") + " mm, " + of(1, "D") + " mm above the pulley's lower face";
+    return "; " + words_of(0, "B") + " mm, " + words_of(1, "D") + " mm above the pulley's lower face";
   }
   /// Clearance above and below a tendon's centre line.
   double margin() const { return mechanism_.tendon.diameter + 1; }
@@ -259,14 +267,14 @@ class TemplateMaker {
            "from pin to sheath exit; the pulley's part of the base may be cut off and mounted elsewhere"});
   }
 
-  void link() {
+  void add_link() {
     const Joint& joint = mechanism_.joint;
     std::vector<NamedHole> holes{{"axle", {0, 0}, bearing_ ? 0.5 * bearing_->outer : 0.5 * axle_.clearance}};
-    add_hole(holes, {"end_1", end_of(joint.attachment1), tie(mechanism_)});
-    add_hole(holes, {"end_2", end_of(joint.attachment2), tie(mechanism_)});
+    add_hole(holes, {"end_1", end_of(joint.attachment1), tie_radius(mechanism_)});
+    add_hole(holes, {"end_2", end_of(joint.attachment2), tie_radius(mechanism_)});
     add_hole(holes, {"C", {0, joint.R}, k_hole_at_C});
     check_distances(plan_, holes);
-    const double drum = joint.drum_radius, ring = bearing_ ? k_beside : 0.0;
+    const double drum = joint.drum_radius, ring = bearing_ ? k_clearance : 0.0;
     const double on_axle = bearing_ ? holes.front().radius + k_ledge : axle_.head_radius + 2;
     SlabBody plate = plate_of(holes, {{{0, 0}, std::max(drum, on_axle)}});
     if (bearing_) seat_bearings(plate);
@@ -277,6 +285,8 @@ class TemplateMaker {
                            1,
                            true});
     if (!has_drum()) return;
+    // The wall around the hole in the drum, as the distance between two circles: with a second circle of the drum's
+    // radius at twice that radius, the distance is the drum's radius minus the hole's.
     check_distances(plan_, {{"drum", {2 * drum, 0}, drum}, {"axle", {0, 0}, hole_in_drum()}});
     plan_.parts.push_back(
         {"drum",
@@ -312,7 +322,7 @@ class TemplateMaker {
 
 KitPlan plan_template(const Mechanism& mechanism, const solid::BodyLayout& layout,
                       const std::optional<TendonHeights>& heights) {
-  return TemplateMaker(mechanism, layout, heights).made();
+  return TemplateMaker(mechanism, layout, heights).make();
 }
 
 }  // namespace fusee::kit

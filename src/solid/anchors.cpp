@@ -13,18 +13,19 @@ namespace {
 // Distances from the end of the active arc (or of the requested wrap) at which a channel entry may begin, in tendon
 // diameters.
 constexpr std::array<double, 5> k_laps{1.6, 2.5, 4.0, 6.0, 9.0};
-// Least value of that tendon diameter, relative to the channel's width.
-constexpr double k_least_lap = 0.6;
+// Least unit of these distances, in channel widths. It replaces the diameter of a tendon that is thinner.
+constexpr double k_least_lap_unit = 0.6;
 // Longest straight of a near tie-off, in fillet radii.
 constexpr double k_near_fillets = 6.0;
 // Least distance between a channel's start and a point of the outline, relative to a chord. The body's edges run along
-// the points' normals. If one lay in the wall of the entry, rounding to floats would separate the cut.
+// the points' normals. If such an edge lay in the wall of the entry, rounding to floats would open a gap in the cut.
 constexpr double k_from_point = 0.15;
 // Clearance between a channel and the floor that a tendon lies on.
 constexpr double k_floor_gap = 0.05;
-// Rounding margin for skipping straights that cannot have enough space.
+// Relative margin for rounding when straights without enough space are skipped.
 constexpr double k_skip_margin = 1e-6;
-// Largest number of straights tried. On a pulley of 2 m with a thin tendon a rejection took half a minute.
+// Largest number of straights tried. Without this limit, a rejection took half a minute on a pulley of 2 m with a thin
+// tendon.
 constexpr double k_most_straights = 400;
 // Least radius of a knot's pocket, in channel widths.
 constexpr double k_least_room = 0.55;
@@ -40,11 +41,12 @@ class AnchorSearch {
   // Searches from short to long paths and stops at the first one with the requested pocket.
   std::optional<AnchorPath> run() {
     if (wanted_ < k_least_room * site_.width) return std::nullopt;
+    // In degrees, the preferred turn first.
     constexpr std::array<double, 6> turns{70, 85, 55, 100, 115, 40};
-    const double d = std::max(site_.tendon_diameter, k_least_lap * site_.width);
-    const double first = std::max(k_laps.front() * d, laps_.least), last = std::min(arc_.length(), laps_.most);
+    const double lap_unit = std::max(site_.tendon_diameter, k_least_lap_unit * site_.width);
+    const double first = std::max(k_laps.front() * lap_unit, laps_.least), last = std::min(arc_.length(), laps_.most);
     for (const double lap : k_laps) {
-      const Station station = arc_.at(first + (lap - k_laps.front()) * d);
+      const Station station = arc_.at(first + (lap - k_laps.front()) * lap_unit);
       if (station.lap > last) break;
       for (const double turn : turns) {
         if (try_straights(station, radians(turn))) return best_;
@@ -72,8 +74,8 @@ class AnchorSearch {
       path.room = room_at(pocket, depth, straight);
       const double least = best_ ? std::max(best_->room, k_least_room * site_.width) : k_least_room * site_.width;
       if (!(path.room >= k_least_room * site_.width) || (best_ && path.room <= best_->room)) {
-        // The pocket grows no faster than the straight, and the depth has no dip on the way, because the floor is
-        // convex.
+        // The room grows at most as fast as the straight, so all straights shorter than this have too little. No
+        // straight that is skipped would have ended the loop: the floor is convex, so the depth has no dip in between.
         shortest = straight + (1.0 - k_skip_margin) * (least - path.room);
         continue;
       }
@@ -93,8 +95,8 @@ class AnchorSearch {
     return room;
   }
 
-  // Most channels fail at the floor that the tendon lies on, and most of these with their straight, so both are tested
-  // first.
+  // The floor that the tendon lies on is tested first, and the straight before the rest, because most channels fail
+  // there.
   bool channel_fits(const AnchorPath& path) const {
     if (is_at_floor({{path.pocket() - path.straight * path.heading(), path.pocket(), 0.5 * site_.width}})) return false;
     const std::vector<Bar> bars = path.bars(site_.width);
@@ -160,10 +162,10 @@ std::vector<Bar> AnchorPath::bars(double width) const {
   return result;
 }
 
-double half_tab(double width, double radius) { return std::min(0.5 * width + 0.5 * k_deeper, 0.95 * radius); }
+double half_tab(double width, double radius) { return std::min(0.5 * width + 0.5 * k_pocket_excess, 0.95 * radius); }
 
 std::array<Bar, 2> AnchorPath::tab_sides(double width, double radius) const {
-  const Vec2 end = pocket() - (radius + k_deeper) * heading(), aside = half_tab(width, radius) * outer();
+  const Vec2 end = pocket() - (radius + k_pocket_excess) * heading(), aside = half_tab(width, radius) * outer();
   return {Bar{pocket() + aside, end + aside, 0.0}, Bar{pocket() - aside, end - aside, 0.0}};
 }
 
@@ -173,41 +175,41 @@ ArcWalk::ArcWalk(const profile::Outline& outline, bool wound_end) : outline_(out
   const std::size_t from = from_last ? outline.active_last : outline.active_first;
   const std::size_t to = from_last ? outline.active_first : outline.active_last;
   const std::size_t n = outline.points.size();
-  reach_.push_back(0.0);
-  wrap_.push_back(0.0);
-  index_.push_back(from);
-  while (index_.back() != to) {
-    const std::size_t next = from_last ? (index_.back() + 1) % n : (index_.back() + n - 1) % n;
-    const profile::OutlinePoint &here = outline.points[index_.back()], &there = outline.points[next];
-    reach_.push_back(reach_.back() + (there.position - here.position).norm());
-    wrap_.push_back(wrap_.back() + std::abs(std::remainder(there.psi - here.psi, k_two_pi)));
-    index_.push_back(next);
+  laps_.push_back(0.0);
+  wraps_.push_back(0.0);
+  indices_.push_back(from);
+  while (indices_.back() != to) {
+    const std::size_t next = from_last ? (indices_.back() + 1) % n : (indices_.back() + n - 1) % n;
+    const profile::OutlinePoint &here = outline.points[indices_.back()], &there = outline.points[next];
+    laps_.push_back(laps_.back() + (there.position - here.position).norm());
+    wraps_.push_back(wraps_.back() + std::abs(std::remainder(there.psi - here.psi, k_two_pi)));
+    indices_.push_back(next);
   }
 }
 
-Station ArcWalk::at(double s) const {
+Station ArcWalk::at(double requested_lap) const {
   demand(!is_empty(), "a walk along no arc");
-  auto [k, share] = place(reach_, s);
-  if (share > 1.0 - k_from_point && k + 1 < index_.size()) {
+  auto [k, share] = interval_of(laps_, requested_lap);
+  if (share > 1.0 - k_from_point && k + 1 < indices_.size()) {
     ++k;
     share = 0.0;
   }
   share = std::clamp(share, k_from_point, 1.0 - k_from_point);
-  const profile::OutlinePoint &a = outline_.points[index_[k - 1]], &b = outline_.points[index_[k]];
-  const double lap = reach_[k - 1] + share * (reach_[k] - reach_[k - 1]);
-  return {lap, wrap_[k - 1] + share * (wrap_[k] - wrap_[k - 1]), a.position + share * (b.position - a.position),
+  const profile::OutlinePoint &a = outline_.points[indices_[k - 1]], &b = outline_.points[indices_[k]];
+  const double lap = laps_[k - 1] + share * (laps_[k] - laps_[k - 1]);
+  return {lap, wraps_[k - 1] + share * (wraps_[k] - wraps_[k - 1]), a.position + share * (b.position - a.position),
           (a.normal + share * (b.normal - a.normal)).normalized()};
 }
 
 double ArcWalk::lap_at(double wrap) const {
-  if (is_empty() || wrap > wrap_.back()) return std::numeric_limits<double>::infinity();
-  const auto [k, share] = place(wrap_, wrap);
-  return reach_[k - 1] + share * (reach_[k] - reach_[k - 1]);
+  if (is_empty() || wrap > wraps_.back()) return std::numeric_limits<double>::infinity();
+  const auto [k, share] = interval_of(wraps_, wrap);
+  return laps_[k - 1] + share * (laps_[k] - laps_[k - 1]);
 }
 
-ArcWalk::Place ArcWalk::place(const std::vector<double>& increasing, double value) {
-  const auto above = std::upper_bound(increasing.begin() + 1, increasing.end() - 1, value);
-  const auto k = static_cast<std::size_t>(above - increasing.begin());
+ArcWalk::Interval ArcWalk::interval_of(const std::vector<double>& increasing, double value) {
+  const auto end = std::upper_bound(increasing.begin() + 1, increasing.end() - 1, value);
+  const auto k = static_cast<std::size_t>(end - increasing.begin());
   return {k, std::clamp((value - increasing[k - 1]) / (increasing[k] - increasing[k - 1]), 0.0, 1.0)};
 }
 

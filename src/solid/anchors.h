@@ -16,11 +16,13 @@ namespace fusee::solid {
 
 /// Number of chords of a channel's arc.
 inline constexpr int k_fillet_steps = 6;
-/// A pocket's closed end is deeper than its channel by this, and the tab in which the channel ends is wider and longer
-/// by this. No two of their faces then coincide.
-inline constexpr double k_deeper = 0.07;
-/// Half the width of that tab.
+/// Excess of a pocket over its channel, mm. The pocket's closed end is deeper than the channel by this. The tab of the
+/// pocket, in which the channel ends, is wider and longer than the channel by this. No two of their faces then
+/// coincide.
+inline constexpr double k_pocket_excess = 0.07;
+/// Half the width of the tab between a channel of this width and a pocket of this radius.
 double half_tab(double width, double radius);
+
 /// A place on the closing arc.
 struct Station {
   double lap = 0;   ///< length along the pitch curve from the end of the active arc
@@ -36,40 +38,42 @@ class ArcWalk {
 
   /// +1 if the walk is counter-clockwise, −1 otherwise.
   double sense() const { return sense_; }
-  double length() const { return reach_.back(); }
+  double length() const { return laps_.back(); }
   /// True if the active arc is the whole turn, so that there is no closing arc.
-  bool is_empty() const { return index_.size() < 2; }
+  bool is_empty() const { return indices_.size() < 2; }
   /// The place at or just past `lap`, interpolated between two points. Requires a walk that is not empty.
   Station at(double lap) const;
-  /// Infinite if the arc turns by less than `wrap`.
+  /// The length along the arc over which the pitch curve turns by `wrap`. Infinite if the whole arc turns by less.
   double lap_at(double wrap) const;
 
  private:
-  struct Place {
-    std::size_t above;
-    double share;
+  /// The interval of a list that contains a value.
+  struct Interval {
+    std::size_t end;  ///< index of its upper end
+    double share;     ///< position of the value within it: 0 at the lower end, 1 at the upper end
   };
-  static Place place(const std::vector<double>& increasing, double value);
+  static Interval interval_of(const std::vector<double>& increasing, double value);
 
   const profile::Outline& outline_;
   double sense_ = 1;
-  std::vector<double> reach_;
-  std::vector<double> wrap_;
-  std::vector<std::size_t> index_;
+  // For each point of the arc: its lap, its wrap, and its index in the outline.
+  std::vector<double> laps_;
+  std::vector<double> wraps_;
+  std::vector<std::size_t> indices_;
 };
 
 /// The channel's centre line: from `start` on the pitch curve along the tangent, then an arc that turns inward by
 /// `turn`, then a straight to the pocket.
 struct AnchorPath {
   Vec2 start;
-  Vec2 normal;       ///< outward, at the start
-  double sense = 1;  ///< +1: the channel runs counter-clockwise from its entry, −1: clockwise
-  double fillet = 0;
-  double turn = 0;  ///< > 0
-  double straight = 0;
-  double room = 0;  ///< radius of the largest pocket, at most the requested one
-  double lap = 0;   ///< length along the pitch curve from the end of the active arc to `start`
-  double wrap = 0;  ///< angle by which the pitch curve turns over that length
+  Vec2 normal;          ///< outward, at the start
+  double sense = 1;     ///< +1: the channel runs counter-clockwise from its entry, −1: clockwise
+  double fillet = 0;    ///< radius of the arc
+  double turn = 0;      ///< > 0
+  double straight = 0;  ///< length of the straight
+  double room = 0;      ///< radius of the largest pocket, at most the requested one
+  double lap = 0;       ///< length along the pitch curve from the end of the active arc to `start`
+  double wrap = 0;      ///< angle by which the pitch curve turns over that length
 
   Vec2 heading() const;  ///< direction of the straight
   Vec2 outer() const;    ///< unit vector across the straight, away from the fillet's centre
@@ -77,6 +81,7 @@ struct AnchorPath {
   /// The line at distance `aside` from the centre line, on the side away from the fillet's centre, with its arc in
   /// `steps` chords. Excludes the pocket.
   std::vector<Vec2> edge(double aside, int steps) const;
+  /// A channel of this width as bars: the arc's chords, then the straight.
   std::vector<Bar> bars(double width) const;
   /// Both sides of the tab behind a pocket of this radius, slightly further out than the channel's sides.
   std::array<Bar, 2> tab_sides(double width, double radius) const;
@@ -114,12 +119,13 @@ class AnchorGround {
   double radius_ = 0;
 };
 
+/// Sizes of a tie-off and the obstacles to it, for one search.
 struct AnchorSite {
   const AnchorGround& ground;
   double tendon_diameter = 0;
-  double width = 0;  ///< width of the channel
-  double fillet = 0;
-  double wall = 0;
+  double width = 0;               ///< width of the channel
+  double fillet = 0;              ///< radius of the channel's arc, to its centre line
+  double wall = 0;                ///< least thickness of walls
   std::vector<Bar> holes;         ///< channel and pocket keep `wall` clear of these
   std::vector<Bar> above_pocket;  ///< obstacles for the pocket only: features of the face that it opens at
   const Polygon* rim = nullptr;   ///< rim of the outer flange
@@ -134,18 +140,19 @@ struct FaceHole {
   Vec2 hole;               ///< centre of the slot's round end
   double hole_radius = 0;  ///< half the slot's width
   double room = 0;         ///< radius of the countersink at the face
-  double lap = 0;
-  double wrap = 0;
-  double length = 0;  ///< length from `hole` outwards to the rim
+  double lap = 0;          ///< length along the pitch curve from the end of the active arc to `start`
+  double wrap = 0;         ///< angle by which the pitch curve turns over that length
+  double length = 0;       ///< length from `hole` outwards to the rim
 
   /// Centre of the countersink. Its circle and that of the slot's end touch on the outer side, where the flange ends.
   Vec2 pocket() const { return hole - (room - hole_radius) * normal; }
   Vec2 open_end() const { return hole + length * normal; }
+  /// Ignores the channel's width, which AnchorPath::bars() requires.
   std::vector<Bar> bars(double) const { return {{hole, open_end(), hole_radius}}; }
 };
 
-/// At most this many points of a floor, evenly spread, plus those of `always`. They suffice to keep a wall to the
-/// floor. Indices, increasing.
+/// Indices of about 256 evenly spread points of a floor of `points` points, and those in `always`, in increasing order.
+/// These points suffice to keep a wall to the floor.
 std::vector<std::size_t> coarse_floor(std::size_t points, const std::vector<std::size_t>& always = {});
 
 /// near: only short channels that do not pass the axis.
@@ -155,13 +162,14 @@ enum class AnchorReach { near, anywhere };
 std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach,
                                       const LapRange& laps = {});
 
-/// The keyhole in the groove's plane: channel and pocket of `radius`, counter-clockwise, with `facets` on the pocket.
+/// A channel and its pocket in the groove's plane: corners, and counter-clockwise loops as indices of corners.
 struct Keyhole {
   std::vector<Vec2> points;            ///< all corners
   std::vector<std::uint32_t> outline;  ///< channel and pocket
   std::vector<std::uint32_t> pocket;   ///< the whole pocket
   std::vector<std::uint32_t> channel;  ///< the part of the channel outside the pocket
 };
+/// `width`: of the channel. `radius`, `facets`: of the pocket.
 Keyhole keyhole(const AnchorPath& path, double width, double radius, int facets);
 /// Number of facets of a knot pocket.
 int pocket_facets(double radius);

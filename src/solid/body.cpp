@@ -24,7 +24,7 @@ Polygon circle_like(const profile::Outline& outline, double radius) {
   return points;
 }
 
-// The hub's circle, with enough points for its sagitta.
+// The hub's circle, with enough points for its sagitta. The fraction in the angle keeps its corners off the axes.
 Polygon circle(double radius) {
   const int sides = std::max(24, static_cast<int>(std::ceil(k_pi / elementary::acos(1.0 - k_hub_sagitta / radius))));
   Polygon points;
@@ -162,17 +162,21 @@ class StackBuilder {
     for (std::size_t k = 1; k < walls.above.size(); ++k) add_point(walls.above[k], 1.0);
   }
 
+  // A horn's recess opens at the bottom face. Above it, only the screw holes continue.
   void add_bore(double low, double high) {
     const BoreLayout& bore = layout_.bore;
-    const bool recessed = low == 0.0 && bore.horn_recess > 0;
-    if (recessed) {
+    const bool has_recess = low == 0.0 && bore.horn_recess > 0;
+    if (has_recess) {
       stack_.recess = recess(high);
     } else if (bore.horn_recess <= 0) {
       stack_.through.push_back({bore.outline, low, high});
     }
-    const bool holed = recessed && stack_.recess.back().z == high;
-    for (std::size_t k = holed ? 1 : 0; k < bore.screw_holes.size(); ++k)
-      stack_.through.push_back({bore.screw_holes[k], recessed && k == 0 ? stack_.recess.back().z : low, high});
+    // The rings of a recess with a cone include the centre screw's hole, which is the first one.
+    const bool includes_centre_hole = has_recess && stack_.recess.back().z == high;
+    for (std::size_t k = includes_centre_hole ? 1 : 0; k < bore.screw_holes.size(); ++k) {
+      const double bottom = has_recess && k == 0 ? stack_.recess.back().z : low;
+      stack_.through.push_back({bore.screw_holes[k], bottom, high});
+    }
   }
 
   // A flat ceiling would be a ring about the centre screw's hole, which no printer bridges. A cone leads up into the

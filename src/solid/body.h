@@ -34,7 +34,7 @@ enum class Piece { whole, p1, p2 };
 RingStack body_stack(const profile::Outline& p1, const profile::Outline& p2, double tendon_diameter, Flange kind,
                      const BodyLayout& layout, Piece piece = Piece::whole);
 
-/// The largest circle about the axis inside a convex polygon around it.
+/// Radius of the largest circle about the axis inside a convex polygon around it.
 double inradius(const Polygon& convex);
 
 }  // namespace fusee::solid

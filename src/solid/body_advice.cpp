@@ -13,6 +13,7 @@
 namespace fusee::solid {
 namespace {
 
+// Numbers of the body that advice may change.
 constexpr std::array k_body_keys{"body.groove_depth_mm", "body.flange_thickness_mm", "body.hub_diameter_mm",
                                  "body.hub_height_mm",   "body.bore_diameter_mm",    "body.bore_flat_mm",
                                  "body.anchor_hole_mm",  "body.knot_pocket_mm",      "body.min_wall_mm",
@@ -34,11 +35,11 @@ std::vector<std::string> written_keys(const Mechanism& mechanism) {
   return keys;
 }
 
-/// Alternatives for a key that is not a number, in the order in which they are tried.
+/// Alternative values of a key that is not a number, in the order in which they are tried.
 struct Alternatives {
   const char* condition;  ///< prefix of the conditions that they may satisfy
   const char* key;
-  std::vector<std::string_view> words;
+  std::vector<std::string_view> values;
 };
 const std::vector<Alternatives>& screw_alternatives(bool with_inch_screw) {
   static const std::vector<Alternatives> metric{
@@ -70,14 +71,14 @@ class BodyAdviser {
     profile::Advice advice;
     const std::vector<profile::Condition> failed = judge_.obstacles(mechanism_);
     if (failed.empty()) {
-      for (const Alternatives& words : printing_alternatives()) add_word(advice.alone, words);
+      for (const Alternatives& alternatives : printing_alternatives()) add_alternative(advice.alone, alternatives);
       return advice;
     }
-    for (const Alternatives& words : screw_alternatives(has_inch_screw())) {
-      const auto is_about = [&words](const profile::Condition& condition) {
-        return condition.name.starts_with(words.condition);
+    for (const Alternatives& alternatives : screw_alternatives(has_inch_screw())) {
+      const auto is_about = [&alternatives](const profile::Condition& condition) {
+        return condition.name.starts_with(alternatives.condition);
       };
-      if (std::any_of(failed.begin(), failed.end(), is_about)) add_word(advice.alone, words);
+      if (std::any_of(failed.begin(), failed.end(), is_about)) add_alternative(advice.alone, alternatives);
     }
     // If the curves themselves are impossible, no number of the body helps.
     profile::FeasibilityOracle judge = judge_;
@@ -108,19 +109,24 @@ class BodyAdviser {
     return is_inch(mechanism_.body.set_screw) || is_inch(mechanism_.body.clamp_screw);
   }
 
-  // Adds the first alternative that helps, other than the present value.
-  void add_word(std::vector<profile::Change>& changes, const Alternatives& words) const {
-    const Field& field = *find_field(words.key);
+  // Adds the first alternative that helps. The list is ordered, so those before the present value are not tried.
+  void add_alternative(std::vector<profile::Change>& changes, const Alternatives& alternatives) const {
+    const std::vector<std::string_view>& values = alternatives.values;
+    const Field& field = *find_field(alternatives.key);
     DeclaredMechanism changed(mechanism_);
-    const std::string from = field.get_text(changed);
-    const auto written = std::find(words.words.begin(), words.words.end(), from);
-    for (auto word = written == words.words.end() ? words.words.begin() : written + 1; word != words.words.end();
-         ++word) {
-      field.set_text(changed, *word);
-      if (*word == from || *word == refused_ || !helps(changed)) continue;
+    const std::string present = field.get_text(changed);
+    const auto found = std::find(values.begin(), values.end(), present);
+    for (auto value = found == values.end() ? values.begin() : found + 1; value != values.end(); ++value) {
+      field.set_text(changed, *value);
+      if (*value == present || *value == refused_ || !helps(changed)) continue;
       const char* quote = field.kind == FieldKind::boolean ? "" : "\"";
-      changes.push_back(
-          {words.key, 0, 0, {}, fmt::format("{} = {}{}{}", words.key, quote, *word, quote), from, std::string(*word)});
+      changes.push_back({alternatives.key,
+                         0,
+                         0,
+                         {},
+                         fmt::format("{} = {}{}{}", alternatives.key, quote, *value, quote),
+                         present,
+                         std::string(*value)});
       return;
     }
   }
@@ -136,7 +142,7 @@ class BodyAdviser {
 
   const Mechanism& mechanism_;
   const profile::FeasibilityOracle& judge_;
-  std::string_view refused_;  ///< a word of print.parts
+  std::string_view refused_;  ///< a value of print.parts; empty: none
 };
 
 }  // namespace

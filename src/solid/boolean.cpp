@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "base/thread_pool.h"
@@ -18,8 +19,9 @@
 #include "solid/solid_angle.h"
 #include "solid/sorted_by_vertex.h"
 
-// A tool touches about a tenth of a body's facets. Only these are passed to CGAL, which cuts both surfaces along their
-// common line into patches. One point of each patch decides whether it lies inside or outside the other solid.
+// A tool touches about a tenth of a body's facets. Only these are passed to CGAL. It cuts both surfaces into patches
+// along the line in which they intersect. One point of each patch decides whether it lies inside or outside the other
+// solid.
 
 namespace fusee::solid {
 namespace {
@@ -99,14 +101,13 @@ Neighbourhood neighbourhood(const TriangleMesh& body, const std::vector<bool>& t
   return {near.mesh(), far.mesh()};
 }
 
-// Facets near a tool, cut along their intersection line. Empty if they intersect themselves or are no manifold: CGAL
-// may then fail, return garbage or not terminate, so this is tested first.
+// A body's facets near a tool, and both surfaces cut along their intersection line.
 struct Division {
   TriangleMesh near;
-  std::optional<CorefinedPair> cut;
+  std::optional<CorefinedPair> cut;  // empty if the facets intersect themselves or are no manifold
 };
 
-// Components of a tool with the facets that they touch and no other component does.
+// Components of a tool, and the body's facets that they alone touch.
 struct ContactGroup {
   TriangleMesh near, tool;
 };
@@ -117,7 +118,7 @@ std::vector<ContactGroup> contact_groups(const TriangleMesh& near, const Triangl
   if (pieces.size() < 2) return {{near, tool}};
   std::vector<Bounds> boxes;
   for (const TriangleMesh& piece : pieces) boxes.push_back(bounds(piece));
-  DisjointSets together_with(pieces.size());
+  DisjointSets joined(pieces.size());
   std::vector<std::size_t> piece_at(near.triangles.size());
   for (std::size_t f = 0; f < near.triangles.size(); ++f) {
     const Bounds facet = box_of(near, near.triangles[f]);
@@ -125,13 +126,13 @@ std::vector<ContactGroup> contact_groups(const TriangleMesh& near, const Triangl
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       if (!touches(facet, boxes[k])) continue;
       if (first == pieces.size()) first = k;
-      together_with.unite(first, k);
+      joined.unite(first, k);
     }
     piece_at[f] = first;
   }
   std::map<std::size_t, std::pair<SubMesh, std::vector<TriangleMesh>>> groups;
   const auto group_of = [&](std::size_t piece) -> auto& {
-    return groups.try_emplace(together_with.root(piece), SubMesh(near), std::vector<TriangleMesh>()).first->second;
+    return groups.try_emplace(joined.root(piece), SubMesh(near), std::vector<TriangleMesh>()).first->second;
   };
   for (std::size_t f = 0; f < near.triangles.size(); ++f) group_of(piece_at[f]).first.add(near.triangles[f]);
   for (std::size_t k = 0; k < pieces.size(); ++k) group_of(k).second.push_back(pieces[k]);
@@ -158,6 +159,7 @@ std::optional<CorefinedPair> corefined_apart(const TriangleMesh& near, const Tri
 
 Division divided(TriangleMesh near, const TriangleMesh& tool) {
   Division division{std::move(near), {}};
+  // CGAL may fail, return garbage or not terminate if the facets intersect themselves.
   if (!find_crossing(division.near).facets) division.cut = corefined_apart(division.near, tool);
   return division;
 }
@@ -166,20 +168,21 @@ bool are_same(const TriangleMesh& a, const TriangleMesh& b) {
   return a.triangles == b.triangles && a.vertices == b.vertices;
 }
 
-// The centre and the normal of a patch's largest facet.
-struct PlaceOnPatch {
+// A point of a patch and the surface's normal there.
+struct PatchSample {
   Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
 };
 
-PlaceOnPatch place_in(const TriangleMesh& patch) {
-  PlaceOnPatch place;
+// The sample at the centre of the patch's largest facet.
+PatchSample sample_of(const TriangleMesh& patch) {
+  PatchSample sample;
   for (const auto& [ia, ib, ic] : patch.triangles) {
     const Vec3 &a = patch.vertices[ia], &b = patch.vertices[ib], &c = patch.vertices[ic];
     const Vec3 normal = (b - a).cross(c - a);
-    if (normal.squaredNorm() > place.normal.squaredNorm()) place = {(a + b + c) / 3.0, normal};
+    if (normal.squaredNorm() > sample.normal.squaredNorm()) sample = {(a + b + c) / 3.0, normal};
   }
-  place.normal.stableNormalize();
-  return place;
+  sample.normal.stableNormalize();
+  return sample;
 }
 
 // Winding number of a closed surface about a point.
@@ -203,12 +206,14 @@ std::optional<bool> is_inside_seen_upwards(const TriangleMesh& solid, const Vec3
         std::min({a.y(), b.y(), c.y()}) > at.y())
       continue;
     const Vec2 to_a = a.head<2>() - at, to_b = b.head<2>() - at, to_c = c.head<2>() - at;
-    const double of_a = cross(to_b, to_c), of_b = cross(to_c, to_a), of_c = cross(to_a, to_b);
-    const auto [least, most] = std::minmax({of_a, of_b, of_c});
-    const double size = k_rounding * std::max({to_a.squaredNorm(), to_b.squaredNorm(), to_c.squaredNorm()});
-    if (least < -size && most > size) continue;
-    if (least < size && most > -size) return std::nullopt;
-    const double height = (of_a * a.z() + of_b * b.z() + of_c * c.z()) / (of_a + of_b + of_c) - point.z();
+    // Barycentric weights of the corners. Weights of both signs: the ray passes beside the facet.
+    const double weight_a = cross(to_b, to_c), weight_b = cross(to_c, to_a), weight_c = cross(to_a, to_b);
+    const auto [least, most] = std::minmax({weight_a, weight_b, weight_c});
+    const double tolerance = k_rounding * std::max({to_a.squaredNorm(), to_b.squaredNorm(), to_c.squaredNorm()});
+    if (least < -tolerance && most > tolerance) continue;
+    if (least < tolerance && most > -tolerance) return std::nullopt;
+    const double height =
+        (weight_a * a.z() + weight_b * b.z() + weight_c * c.z()) / (weight_a + weight_b + weight_c) - point.z();
     if (std::abs(height) < k_rounding * (1.0 + std::abs(point.z()))) return std::nullopt;
     if (height > 0) inside = !inside;
   }
@@ -218,14 +223,14 @@ std::optional<bool> is_inside_seen_upwards(const TriangleMesh& solid, const Vec3
 // Empty if the point is too close to the surface to decide.
 std::optional<bool> is_inside_of(const TriangleMesh& solid, const Vec3& point) {
   if (const auto inside = is_inside_seen_upwards(solid, point)) return inside;
-  constexpr double k_rounding = 1e-3;
-  const double turns = winding_number(solid, point);
-  if (!(std::abs(turns - std::round(turns)) < k_rounding)) return std::nullopt;
-  return std::lround(turns) != 0;
+  constexpr double k_largest_fraction = 1e-3;  // of a winding number that counts as an integer
+  const double winding = winding_number(solid, point);
+  if (!(std::abs(winding - std::round(winding)) < k_largest_fraction)) return std::nullopt;
+  return std::lround(winding) != 0;
 }
 
-// Material of the other solid on both sides of a patch, seen along its normal. Both are true inside the other solid,
-// one if the two surfaces coincide there.
+// True where the other solid has material: just below a patch (against its normal), and just above. Both are true
+// inside the other solid. Only one is true where the two surfaces coincide.
 struct Surroundings {
   bool below = false, above = false;
 };
@@ -233,7 +238,7 @@ struct Surroundings {
 std::optional<Surroundings> surroundings_of(const TriangleMesh& patch, const TriangleMesh& solid) {
   // Coincident surfaces differ by at most float rounding. Other walls are thicker than this.
   constexpr double k_beside = 1e-4;
-  const auto [point, normal] = place_in(patch);
+  const auto [point, normal] = sample_of(patch);
   if (const auto inside = is_inside_seen_upwards(solid, point)) return Surroundings{*inside, *inside};
   const auto below = is_inside_of(solid, point - k_beside * normal),
              above = is_inside_of(solid, point + k_beside * normal);
@@ -250,28 +255,34 @@ struct KeptPatches {
   std::vector<TriangleMesh> result, common;
 };
 
-// Keeps patches of the second solid only if they are completely inside or outside. Where the surfaces coincide, the
-// patch of the first one is used.
+// Sorts the patches of one solid into the result and the intersection. False if one lies too close to the other solid
+// to decide. Where the surfaces coincide, the patch of the first solid is used: a patch of the second one is kept only
+// if it is completely inside or outside.
 bool sort_patches(const std::vector<TriangleMesh>& patches, const TriangleMesh& solid, bool is_first,
                   Operation operation, KeptPatches& kept) {
   for (const TriangleMesh& patch : patches) {
     const std::optional<Surroundings> around = surroundings_of(patch, solid);
     if (!around) return false;
     const auto [below, above] = *around;
-    const bool is_inside = is_first ? below : below && above;
-    const bool is_outside = is_first ? !(operation == Operation::unite ? above : below) : !below && !above;
+    bool is_inside = below && above, is_outside = !below && !above;
+    if (is_first) {
+      is_inside = below;
+      is_outside = operation == Operation::unite ? !above : !below;
+    }
     if (is_inside) kept.common.push_back(patch);
-    if (is_first || operation == Operation::unite ? is_outside : is_inside)
-      kept.result.push_back(is_first || operation == Operation::unite ? patch : turned_over(patch));
+    // A subtracted tool contributes the walls of its cut: its inner patches, facing the other way.
+    const bool is_wall_of_cut = !is_first && operation == Operation::subtract;
+    if (is_wall_of_cut ? is_inside : is_outside) kept.result.push_back(is_wall_of_cut ? turned_over(patch) : patch);
   }
   return true;
 }
 
-using OpenSide = std::array<double, 6>;  // a facet's side, from corner to corner
+using OpenSide = std::array<double, 6>;  // coordinates of both ends of a facet's side, in its direction
 
 // The open sides of a mesh, sorted. Empty if one is a side of several facets.
 std::optional<std::vector<OpenSide>> border_of(const TriangleMesh& welded) {
-  std::vector<std::pair<std::uint64_t, bool>> sides;  // an edge, and true if it runs upwards
+  // An edge as the lower and the higher number of its vertices, and true if the side runs from the lower number.
+  std::vector<std::pair<std::uint64_t, bool>> sides;
   sides.reserve(3 * welded.triangles.size());
   for (const auto& triangle : welded.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -350,7 +361,10 @@ FacetSide longest_side(const TriangleMesh& mesh, const std::array<std::uint32_t,
   const auto length = [&](std::size_t k) {
     return (mesh.vertices[t[(k + 1) % 3]] - mesh.vertices[t[k]]).squaredNorm();
   };
-  const std::size_t k = length(0) >= length(1) ? (length(0) >= length(2) ? 0 : 2) : (length(1) >= length(2) ? 1 : 2);
+  std::size_t k = 0;
+  for (std::size_t other = 1; other < 3; ++other) {
+    if (length(other) > length(k)) k = other;
+  }
   return {t[k], t[(k + 1) % 3], t[(k + 2) % 3]};
 }
 
@@ -358,31 +372,34 @@ Vec3 area_vector(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t
   return (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
 }
 
-// Distance of the corner opposite the longest side.
+// Height of a facet above its longest side.
 double height(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
-  const FacetSide along = longest_side(mesh, t);
-  return area_vector(mesh, t).norm() / (mesh.vertices[along.to] - mesh.vertices[along.from]).norm();
+  const FacetSide base = longest_side(mesh, t);
+  return area_vector(mesh, t).norm() / (mesh.vertices[base.to] - mesh.vertices[base.from]).norm();
 }
 
+// A facet of less height counts as flat, mm. It is so flat that a flip changes the shape of its neighbours by less than
+// rounding does.
 constexpr double k_flat = 0.1 * k_float_grain;
 
 // Flips the diagonal between a flat facet and its neighbour across the longest side. It does not flip if one of the two
-// new facets would be hardly better (a neighbour that is as flat is flipped first), would face elsewhere, or would
+// new facets would be hardly higher (a neighbour that is as flat is flipped first), would face elsewhere, or would
 // duplicate a facet.
 bool flip_diagonal(TriangleMesh& mesh, std::array<std::uint32_t, 3>& flat) {
-  constexpr double k_better = 10.0;
+  constexpr double k_least_gain = 10.0;  // least factor by which the new facets are higher
   const auto [p, q, r] = longest_side(mesh, flat);
   const auto runs_back = [p = p, q = q](const auto& t) {
     return (t[0] == q && t[1] == p) || (t[1] == q && t[2] == p) || (t[2] == q && t[0] == p);
   };
   const auto beside = std::find_if(mesh.triangles.begin(), mesh.triangles.end(), runs_back);
   if (beside == mesh.triangles.end()) return false;
+  // The corner of the neighbour opposite the common side.
   const std::uint32_t s = (*beside)[0] + (*beside)[1] + (*beside)[2] - p - q;
   const auto spans = [r = r, s](const auto& t) { return has(t, r) && has(t, s); };
   if (std::any_of(mesh.triangles.begin(), mesh.triangles.end(), spans)) return false;
   const std::array<std::uint32_t, 3> one{p, s, r}, other{s, q, r};
   const Vec3 outward = area_vector(mesh, *beside);
-  const double needed = std::max(k_flat, k_better * height(mesh, flat));
+  const double needed = std::max(k_flat, k_least_gain * height(mesh, flat));
   for (const auto& made : {one, other})
     if (height(mesh, made) < needed || !(area_vector(mesh, made).dot(outward) > 0)) return false;
   flat = one;
@@ -390,16 +407,14 @@ bool flip_diagonal(TriangleMesh& mesh, std::array<std::uint32_t, 3>& flat) {
   return true;
 }
 
-// Rounding may make a facet's three corners collinear, or nearly so. Below this height a flip moves nothing into its
-// neighbours. Each flip enables the next one of a fan.
+// Rounding may make a facet's three corners collinear, or nearly so. In a fan of such facets each flip enables the
+// next, so the passes are repeated until one flips nothing.
 void flip_flat_facets(TriangleMesh& mesh) {
   std::vector<std::size_t> flat;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
     if (height(mesh, mesh.triangles[f]) < k_flat) flat.push_back(f);
-  const auto mend = [&mesh](std::size_t f) { return flip_diagonal(mesh, mesh.triangles[f]); };
-  for (std::size_t before = flat.size() + 1; before > flat.size();) {
-    before = flat.size();
-    std::erase_if(flat, mend);
+  const auto flip = [&mesh](std::size_t f) { return flip_diagonal(mesh, mesh.triangles[f]); };
+  while (std::erase_if(flat, flip) > 0) {
   }
 }
 
@@ -415,7 +430,7 @@ TriangleMesh in_order(TriangleMesh mesh) {
   for (std::uint32_t k = 0; k < mesh.vertices.size(); ++k) order.push_back({mesh.vertices[k], k});
   std::sort(order.begin(), order.end(), [](const NumberedVertex& a, const NumberedVertex& b) {
     const Vec3 &p = a.vertex, &q = b.vertex;
-    return p.z() != q.z() ? p.z() < q.z() : p.y() != q.y() ? p.y() < q.y() : p.x() < q.x();
+    return std::tuple(p.z(), p.y(), p.x()) < std::tuple(q.z(), q.y(), q.x());
   });
   std::vector<std::uint32_t> rank(order.size());
   for (std::uint32_t k = 0; k < order.size(); ++k) {
@@ -434,22 +449,22 @@ TriangleMesh in_order(TriangleMesh mesh) {
 // The result of a boolean, rounded to float and repaired.
 TriangleMesh settled(const TriangleMesh& exact) { return in_order(without_short_edges(rounded_to_float(exact))); }
 
-// `foreseen`: a division computed in advance, for the same facets near the tool.
+// `prepared`: a division computed in advance. It is used if the facets near the tool are still the same.
 std::optional<BooleanResult> combined(const TriangleMesh& body, const TriangleMesh& tool, Operation operation,
-                                      const Division* foreseen = nullptr) {
+                                      const Division* prepared = nullptr) {
   const Neighbourhood parts = neighbourhood(body, touched_by(tool, body));
-  Division made;
-  if (foreseen == nullptr || !are_same(foreseen->near, parts.near)) {
-    made = divided(parts.near, tool);
-    foreseen = &made;
+  Division computed;
+  if (prepared == nullptr || !are_same(prepared->near, parts.near)) {
+    computed = divided(parts.near, tool);
+    prepared = &computed;
   }
-  const std::optional<CorefinedPair>& cut = foreseen->cut;
+  const std::optional<CorefinedPair>& cut = prepared->cut;
   KeptPatches kept;
   if (!cut || !sort_patches(cut->first, tool, true, operation, kept) ||
       !sort_patches(cut->second, body, false, operation, kept))
     return std::nullopt;
   const TriangleMesh near = weld(together(kept.result));
-  // The new facets must fit into the place of the old ones.
+  // The new facets replace the old ones, so both must have the same border.
   const auto border = border_of(near);
   if (!border || border != border_of(parts.near)) return std::nullopt;
   BooleanResult outcome{settled(together({near, parts.far})), enclosed_volume(in_order(weld(together(kept.common))))};
@@ -457,9 +472,9 @@ std::optional<BooleanResult> combined(const TriangleMesh& body, const TriangleMe
   return outcome;
 }
 
-// Starts, on threads, the divisions of all tools that touch no facet touched by an earlier tool. The body is first put
-// into the order that the first cut gives it.
-std::vector<Task<Division>> foreseen_divisions(const TriangleMesh& body, const std::vector<TriangleMesh>& tools) {
+// Starts, on threads, the divisions of all tools that touch no facet touched by an earlier tool. The vertices are first
+// put into the order that they have after the first cut, so that the facets found here equal those found then.
+std::vector<Task<Division>> prepared_divisions(const TriangleMesh& body, const std::vector<TriangleMesh>& tools) {
   std::vector<Task<Division>> divisions(tools.size());
   if (tools.size() < 2) return divisions;
   const TriangleMesh ordered = settled(body);
@@ -485,10 +500,10 @@ std::optional<BooleanResult> subtract(const TriangleMesh& body, const TriangleMe
 }
 std::optional<CutBody> subtract_each(const TriangleMesh& body, const std::vector<TriangleMesh>& tools) {
   CutBody result{body, {}};
-  std::vector<Task<Division>> divisions = foreseen_divisions(body, tools);
+  std::vector<Task<Division>> divisions = prepared_divisions(body, tools);
   for (std::size_t k = 0; k < tools.size(); ++k) {
-    const std::optional<Division> foreseen = divisions[k].valid() ? std::optional(divisions[k].get()) : std::nullopt;
-    auto outcome = combined(result.mesh, tools[k], Operation::subtract, foreseen ? &*foreseen : nullptr);
+    const std::optional<Division> prepared = divisions[k].valid() ? std::optional(divisions[k].get()) : std::nullopt;
+    auto outcome = combined(result.mesh, tools[k], Operation::subtract, prepared ? &*prepared : nullptr);
     if (!outcome) return std::nullopt;
     result.mesh = std::move(outcome->mesh);
     result.common_volumes.push_back(outcome->common_volume);

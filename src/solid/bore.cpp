@@ -44,38 +44,43 @@ Polygon arc(double radius, double from, double to) {
   return points;
 }
 
-// `flat`: distance from the flat to the far side of the shaft.
+// Width over the flat of an automatic D shaft, relative to its diameter.
+constexpr double k_automatic_flat = 0.9;
+
+// `flat`: distance from the flat to the far side of the shaft. Impossible distances are reported as a condition. Here
+// they are only limited, so that there is an outline.
 Polygon d_outline(double radius, double flat) {
-  const double height = std::clamp(flat - radius, -0.95 * radius, 0.95 * radius);
-  const double half = elementary::acos(height / radius);
-  return arc(radius, 0.5 * k_pi + half, 2.5 * k_pi - half);
+  const double height = std::clamp(flat - radius, -0.95 * radius, 0.95 * radius);  // of the flat above the axis
+  const double half_angle = elementary::acos(height / radius);                     // that the flat subtends
+  return arc(radius, 0.5 * k_pi + half_angle, 2.5 * k_pi - half_angle);
 }
 
-// Keyways of DIN 6885-1 (ISO 773): largest shaft, width, depth in the hub t2.
-struct Key {
+// A keyway of DIN 6885-1 (ISO 773): largest shaft diameter, width, depth t2 in the hub. mm
+struct Keyway {
   double shaft, width, depth;
 };
-constexpr std::array<Key, 12> k_keys{{{8, 2, 1.0},
-                                      {10, 3, 1.4},
-                                      {12, 4, 1.8},
-                                      {17, 5, 2.3},
-                                      {22, 6, 2.8},
-                                      {30, 8, 3.3},
-                                      {38, 10, 3.3},
-                                      {44, 12, 3.3},
-                                      {50, 14, 3.8},
-                                      {58, 16, 4.3},
-                                      {65, 18, 4.4},
-                                      {75, 20, 4.9}}};
+constexpr std::array<Keyway, 12> k_keyways{{{8, 2, 1.0},
+                                            {10, 3, 1.4},
+                                            {12, 4, 1.8},
+                                            {17, 5, 2.3},
+                                            {22, 6, 2.8},
+                                            {30, 8, 3.3},
+                                            {38, 10, 3.3},
+                                            {44, 12, 3.3},
+                                            {50, 14, 3.8},
+                                            {58, 16, 4.3},
+                                            {65, 18, 4.4},
+                                            {75, 20, 4.9}}};
 
 Polygon keyway_outline(double diameter, double compensation) {
-  const auto key =
-      std::find_if(k_keys.begin(), k_keys.end() - 1, [diameter](const Key& row) { return diameter <= row.shaft; });
+  // A shaft thicker than all of the table gets the last keyway.
+  const auto keyway = std::find_if(k_keyways.begin(), k_keyways.end() - 1,
+                                   [diameter](const Keyway& row) { return diameter <= row.shaft; });
   const double radius = 0.5 * (diameter + compensation);
-  const double half_width = std::min(0.5 * (key->width + compensation), 0.9 * radius);
-  const double half = elementary::asin(half_width / radius);
-  Polygon points = arc(radius, 0.5 * k_pi + half, 2.5 * k_pi - half);
-  const double top = 0.5 * diameter + key->depth + 0.5 * compensation;
+  const double half_width = std::min(0.5 * (keyway->width + compensation), 0.9 * radius);
+  const double half_angle = elementary::asin(half_width / radius);
+  Polygon points = arc(radius, 0.5 * k_pi + half_angle, 2.5 * k_pi - half_angle);
+  const double top = 0.5 * diameter + keyway->depth + 0.5 * compensation;
   points.emplace_back(half_width, top);
   points.emplace_back(-half_width, top);
   return points;
@@ -89,10 +94,10 @@ void make_round(BoreLayout& bore, double diameter) {
 // The outline for a toothed shaft: straight flanks between the circles of crests and grounds, four corners a tooth.
 Polygon toothed_outline(const Horn& horn, double compensation) {
   const double pitch = k_two_pi / horn.spline_teeth, half_flat = 0.5 * k_tooth_flat * pitch;
-  const double crest = 0.5 * (horn.spline_diameter + compensation);  // crest of the shaft's teeth, which point outward
+  const double crest = 0.5 * (horn.spline_diameter + compensation);  // radius of the crests of the shaft's teeth
   Polygon points;
   for (int k = 0; k < horn.spline_teeth; ++k) {
-    const double tooth = 0.5 * k_pi + k * pitch;
+    const double tooth = 0.5 * k_pi + k * pitch;  // direction of the tooth
     // The shaft's crest touches the middle of the flat above it, as a shaft touches a polyhole's side.
     for (const double side : {-1.0, 1.0})
       points.push_back(crest / elementary::cos(half_flat) * unit(tooth + side * half_flat));
@@ -124,7 +129,8 @@ void fit_shaft(BoreLayout& bore, const Body& body, double diameter, double compe
   const double radius = 0.5 * (diameter + compensation);
   switch (body.bore) {
     case Bore::d:
-      bore.outline = d_outline(radius, (body.bore_flat > 0 ? body.bore_flat : 0.9 * diameter) + compensation);
+      bore.outline =
+          d_outline(radius, (body.bore_flat > 0 ? body.bore_flat : k_automatic_flat * diameter) + compensation);
       bore.arc_points = bore.outline.size();
       return;
     case Bore::hex:
@@ -135,7 +141,7 @@ void fit_shaft(BoreLayout& bore, const Body& body, double diameter, double compe
       return;
     case Bore::keyway:
       bore.outline = keyway_outline(diameter, compensation);
-      bore.arc_points = bore.outline.size() - 2;  // without the key's ground
+      bore.arc_points = bore.outline.size() - 2;  // without the keyway's ground
       return;
     case Bore::round:
     case Bore::horn:
@@ -170,7 +176,7 @@ Vec2 exit_of_ray(const Polygon& polygon, const Vec2& ray) {
   return ray * (cross(polygon[i], next(i)) / cross(ray, next(i) - polygon[i]));
 }
 
-Polygon seen_along(const Polygon& polygon, const Polygon& rays) {
+Polygon exits_of_rays(const Polygon& polygon, const Polygon& rays) {
   Polygon points;
   for (const Vec2& ray : rays) points.push_back(exit_of_ray(polygon, ray));
   return points;
@@ -210,7 +216,7 @@ std::optional<profile::Condition> flat_off_shaft(const Body& body, double shaft)
       fmt::format("a D shaft of {0} mm (body.bore_diameter_mm) must measure more than {1} mm and at most {0} mm from "
                   "its flat to its far side (body.bore_flat_mm, now {2} mm)",
                   rounded(shaft), rounded(0.5 * shaft), rounded(body.bore_flat)));
-  return list.taken().front();
+  return list.release().front();
 }
 
 RecessCone recess_cone(const BoreLayout& bore) {
@@ -220,7 +226,7 @@ RecessCone recess_cone(const BoreLayout& bore) {
     if (!has_corner_on_ray(bore.outline, corner)) rays.push_back(corner);
   }
   std::sort(rays.begin(), rays.end(), [](const Vec2& a, const Vec2& b) { return angle_of(a) < angle_of(b); });
-  RecessCone cone{seen_along(bore.outline, rays), seen_along(hole, rays)};
+  RecessCone cone{exits_of_rays(bore.outline, rays), exits_of_rays(hole, rays)};
   for (std::size_t i = 0; i < rays.size(); ++i)
     cone.travel = std::max(cone.travel, (cone.rim[i] - cone.hole[i]).norm());
   return cone;

@@ -5,7 +5,8 @@
 namespace fusee::solid {
 namespace {
 
-constexpr std::uint32_t k_leaf = 4;
+// Largest number of boxes in a leaf.
+constexpr std::uint32_t k_leaf_size = 4;
 
 Box3 around(const Box3& a, const Box3& b) {
   Box3 both;
@@ -33,11 +34,11 @@ BoxTree::BoxTree(const std::vector<Box3>& boxes) : boxes_(boxes) {
 }
 
 std::size_t BoxTree::widest_axis(const SortedBox* first, const SortedBox* last) {
-  std::array<double, 3> low = first->middle, high = low;
+  std::array<double, 3> low = first->twice_centre, high = low;
   for (const SortedBox* item = first + 1; item != last; ++item) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], item->middle[axis]);
-      high[axis] = std::max(high[axis], item->middle[axis]);
+      low[axis] = std::min(low[axis], item->twice_centre[axis]);
+      high[axis] = std::max(high[axis], item->twice_centre[axis]);
     }
   }
   std::size_t widest = 0;
@@ -48,25 +49,24 @@ std::size_t BoxTree::widest_axis(const SortedBox* first, const SortedBox* last) 
 }
 
 void BoxTree::add_node(std::vector<SortedBox>& sorted, std::uint32_t first, std::uint32_t last) {
-  const std::size_t place = nodes_.size();
+  const std::size_t node = nodes_.size();
   nodes_.push_back({boxes_[sorted[first].box], first, last, 0});
-  if (last - first <= k_leaf) {
-    for (std::uint32_t i = first + 1; i < last; ++i)
-      nodes_[place].box = around(nodes_[place].box, boxes_[sorted[i].box]);
+  if (last - first <= k_leaf_size) {
+    for (std::uint32_t i = first + 1; i < last; ++i) nodes_[node].box = around(nodes_[node].box, boxes_[sorted[i].box]);
     return;
   }
   const std::size_t axis = widest_axis(sorted.data() + first, sorted.data() + last);
   const std::uint32_t half = first + (last - first) / 2;
   std::nth_element(sorted.begin() + first, sorted.begin() + half, sorted.begin() + last,
                    [axis](const SortedBox& a, const SortedBox& b) {
-                     const double p = a.middle[axis], q = b.middle[axis];
+                     const double p = a.twice_centre[axis], q = b.twice_centre[axis];
                      return p < q || (p == q && a.box < b.box);
                    });
   add_node(sorted, first, half);
   const auto right = static_cast<std::uint32_t>(nodes_.size());
   add_node(sorted, half, last);
-  nodes_[place].right = right;
-  nodes_[place].box = around(nodes_[place + 1].box, nodes_[right].box);
+  nodes_[node].right = right;
+  nodes_[node].box = around(nodes_[node + 1].box, nodes_[right].box);
 }
 
 }  // namespace fusee::solid

@@ -19,6 +19,7 @@ inline bool overlap(const Box3& a, const Box3& b) {
 }
 
 /// A tree of boxes, halved at the median of the coordinate in which they spread furthest. Equal boxes give equal trees.
+/// Keeps a reference to the boxes.
 class BoxTree {
  public:
   explicit BoxTree(const std::vector<Box3>& boxes);
@@ -44,13 +45,13 @@ class BoxTree {
  private:
   struct Node {
     Box3 box;
-    std::uint32_t first = 0, last = 0;  ///< range in items_, for a leaf
+    std::uint32_t first = 0, last = 0;  ///< range of its boxes in items_
     std::uint32_t right = 0;            ///< the left child is the next node; 0: a leaf
   };
   /// A box during sorting.
   struct SortedBox {
-    std::array<double, 3> middle;  ///< twice the centre
-    std::uint32_t box;
+    std::array<double, 3> twice_centre;
+    std::uint32_t box;  ///< its index
   };
 
   static std::size_t widest_axis(const SortedBox* first, const SortedBox* last);
@@ -86,7 +87,7 @@ class BoxTree {
   }
 
   const std::vector<Box3>& boxes_;
-  std::vector<std::uint32_t> items_;
+  std::vector<std::uint32_t> items_;  ///< indices of boxes, in the order of the leaves
   std::vector<Node> nodes_;
 };
 

@@ -11,11 +11,15 @@
 #include "fusee/base.h"
 #include "solid/nearest_segment.h"
 
+// A patch is covered with parallel lines in a bridging direction. Each piece of a line from edge to edge is a chord. A
+// chord that is supported at both ends and is level carries a bridge. All other places must be close to a supported
+// edge or to a bridge.
+
 namespace fusee::solid {
 namespace {
 
-// Largest spacing of lines across a patch, finer than any relevant step. A patch of less than 8 mm gets k_lines of
-// them.
+// Limits of the spacing of lines across a patch. The largest is finer than any relevant step. Between the limits (a
+// patch of 8 mm to 40 mm) there are k_lines lines.
 constexpr double k_widest_spacing = 0.1;
 constexpr double k_narrowest_spacing = 0.02;
 constexpr double k_lines = 400;
@@ -24,26 +28,27 @@ constexpr double k_rim_spacing = 0.25;
 // Height within which a ceiling is printed in one layer and is therefore one bridge: the usual layer of a 0.4 mm
 // nozzle. A higher vault consists of steps, layer by layer.
 constexpr double k_usual_layer = 0.2;
-// Directions tried: evenly spaced ones, and along and across the longest edges.
+// Directions tried: evenly spaced ones, and along and across the longest edges. Edges of almost the same direction
+// count together.
 constexpr int k_even_directions = 12;
 constexpr std::size_t k_edge_directions = 6;
 constexpr double k_same_direction = radians(1);
 // Largest number of points sampled along a chord to decide whether it needs a bridge.
 constexpr int k_points_of_chord = 32;
 
-// The plan rotated so that the direction runs along x.
+// The plan view in coordinates along and across a bridging direction.
 struct Frame {
   Vec2 along, across;
 
   explicit Frame(double direction) : along(unit(direction)), across(turned_left(along)) {}
   Vec2 operator()(const Vec3& point) const { return {along.dot(point.head<2>()), across.dot(point.head<2>())}; }
-  Vec2 back(double at, double line) const { return at * along + line * across; }
+  Vec2 in_plan(double position, double line) const { return position * along + line * across; }
 };
 
-// The section of a line below a patch, from edge to edge.
+// A piece of a line below a patch, from edge to edge.
 struct Chord {
-  long line = 0;
-  double from = 0, to = 0;
+  long line = 0;             // number of the line
+  double from = 0, to = 0;   // positions along the line
   double low = 0, high = 0;  // heights of the ceiling above it
   bool held = false;         // supported at both ends
 
@@ -97,15 +102,15 @@ std::vector<RimPoint> free_rim(const OverhangPatch& patch, const NearestSegment&
 }
 
 std::vector<double> directions_of(const OverhangPatch& patch) {
-  // By direction: total length of edges, and their direction weighted by length
+  // For each bin of directions: total length of its edges, and sum of their directions weighted by length.
   std::map<int, std::pair<double, double>> bins;
   const auto add = [&bins](const Vec3& a, const Vec3& b) {
     const Vec2 edge = (b - a).head<2>();
     double direction = elementary::atan2(edge.y(), edge.x());
     if (direction < 0) direction += k_pi;
-    auto& [length, sum] = bins[static_cast<int>(direction / k_same_direction)];
+    auto& [length, weighted_sum] = bins[static_cast<int>(direction / k_same_direction)];
     length += edge.norm();
-    sum += edge.norm() * direction;
+    weighted_sum += edge.norm() * direction;
   };
   for_each_side(patch, EdgeSupport::held, add);
   for_each_side(patch, EdgeSupport::free, add);
@@ -124,8 +129,8 @@ std::vector<double> directions_of(const OverhangPatch& patch) {
   return directions;
 }
 
-// Follows each line through the patch, from facet to facet, because a patch may have holes and may lie above itself. A
-// corner on a line counts as above it.
+// Finds all chords. Each line is followed through the patch from facet to facet, because a patch may have holes and may
+// lie above itself. A corner on a line counts as beyond it.
 class Chords {
  public:
   Chords(const OverhangPatch& patch, const Frame& frame, double spacing) : patch_(patch), spacing_(spacing) {
@@ -153,10 +158,10 @@ class Chords {
   }
 
  private:
-  bool above(std::uint32_t f, std::size_t k, long line) const { return plan_[f][k % 3].y() >= line * spacing_; }
+  bool is_beyond(std::uint32_t f, std::size_t k, long line) const { return plan_[f][k % 3].y() >= line * spacing_; }
 
-  // Place along the line, and height, of its crossing with a side.
-  Vec2 crossing(std::uint32_t f, std::size_t k, long line) const {
+  // Position along the line, and height, of the point in which it crosses a side.
+  std::pair<double, double> position_and_height(std::uint32_t f, std::size_t k, long line) const {
     const Vec2 &a = plan_[f][k], &b = plan_[f][(k + 1) % 3];
     const double share = (line * spacing_ - a.y()) / (b.y() - a.y());
     const auto& corners = patch_.facets[f].corners;
@@ -164,15 +169,15 @@ class Chords {
   }
 
   Chord walk(std::uint32_t f, std::size_t k, long line) const {
-    const Vec2 start = crossing(f, k, line);
-    Chord chord{line, start.x(), start.x(), start.y(), start.y(), patch_.facets[f].beyond[k] == EdgeSupport::held};
+    const auto [start, start_height] = position_and_height(f, k, line);
+    Chord chord{line, start, start, start_height, start_height, patch_.facets[f].beyond[k] == EdgeSupport::held};
     while (true) {
-      std::size_t out = 0;
-      while (!(above(f, out, line) && !above(f, out + 1, line))) ++out;
-      const Vec2 at = crossing(f, out, line);
-      chord.to = at.x();
-      chord.low = std::min(chord.low, at.y());
-      chord.high = std::max(chord.high, at.y());
+      std::size_t out = 0;  // the side across which the line leaves the facet
+      while (!(is_beyond(f, out, line) && !is_beyond(f, out + 1, line))) ++out;
+      const auto [position, height] = position_and_height(f, out, line);
+      chord.to = position;
+      chord.low = std::min(chord.low, height);
+      chord.high = std::max(chord.high, height);
       const OverhangFacet& facet = patch_.facets[f];
       if (facet.beyond[out] != EdgeSupport::patch) {
         chord.held = chord.held && facet.beyond[out] == EdgeSupport::held;
@@ -201,81 +206,86 @@ class Ceiling {
     if (held_edges(patch_).empty()) return {0, Vec3::Zero(), extent_, patch_.flattest_at};
     std::optional<SupportGaps> best;
     for (const double direction : directions_of(patch_)) {
-      const SupportGaps reach = along(Frame(direction));
-      if (!best || badness(reach) < badness(*best)) best = reach;
+      const SupportGaps gaps = gaps_along(Frame(direction));
+      if (!best || badness(gaps) < badness(*best)) best = gaps;
       if (best->bridge == 0 && best->step <= limits_.step) break;
     }
     return *best;
   }
 
  private:
-  double badness(const SupportGaps& reach) const {
-    return std::max(reach.bridge / std::max(limits_.bridge, k_narrowest_spacing),
-                    reach.step / std::max(limits_.step, k_narrowest_spacing));
+  // The larger of both gaps relative to its limit.
+  double badness(const SupportGaps& gaps) const {
+    return std::max(gaps.bridge / std::max(limits_.bridge, k_narrowest_spacing),
+                    gaps.step / std::max(limits_.step, k_narrowest_spacing));
   }
 
-  SupportGaps along(const Frame& frame) const {
-    SupportGaps reach;
+  SupportGaps gaps_along(const Frame& frame) const {
+    SupportGaps gaps;
     std::vector<Chord> bridges;
     for (const Chord& chord : Chords(patch_, frame, spacing_).all()) {
       if (!chord.held) continue;
       if (chord.high - chord.low <= k_usual_layer) {
         bridges.push_back(chord);
       } else {
-        check_vault(reach, frame, chord);
+        measure_vault(gaps, frame, chord);
       }
     }
-    for (const Chord& chord : bridges) check_bridge(reach, frame, chord);
-    // A rim is supported by bridges: those within the limit, or those that were reported.
-    const double longest = std::max(reach.bridge, limits_.bridge);
+    for (const Chord& chord : bridges) measure_bridge(gaps, frame, chord);
+    // Bridges support a free rim, if they are within the limit or no longer than the one that is reported.
+    const double longest = std::max(gaps.bridge, limits_.bridge);
     bridges.erase(std::remove_if(bridges.begin(), bridges.end(),
                                  [longest](const Chord& chord) { return chord.length() > longest; }),
                   bridges.end());
-    check_rim(reach, frame, bridges);
-    return reach;
+    measure_rim(gaps, frame, bridges);
+    return gaps;
   }
 
-  Vec3 on(const Frame& frame, const Chord& chord, double share) const {
-    const Vec2 plan = frame.back(chord.from + share * chord.length(), static_cast<double>(chord.line) * spacing_);
+  // The point at a fraction of a chord's length.
+  Vec3 point_on(const Frame& frame, const Chord& chord, double share) const {
+    const Vec2 plan = frame.in_plan(chord.from + share * chord.length(), static_cast<double>(chord.line) * spacing_);
     return {plan.x(), plan.y(), chord.height()};
   }
 
-  // The point of a chord that is furthest from all supported edges.
+  // The point of a chord that is furthest from all supported edges, and its distance from them.
   std::pair<double, Vec3> furthest(const Frame& frame, const Chord& chord) const {
     const int parts = std::clamp(2 * static_cast<int>(chord.length() / k_widest_spacing), 2, k_points_of_chord);
-    std::pair<double, Vec3> found{0, on(frame, chord, 0)};
+    std::pair<double, Vec3> found{0, point_on(frame, chord, 0)};
     for (int i = 1; i < parts; ++i) {
-      const Vec3 at = on(frame, chord, static_cast<double>(i) / parts);
+      const Vec3 at = point_on(frame, chord, static_cast<double>(i) / parts);
       const double distance = held_.distance(at.head<2>());
       if (distance > found.first) found = {distance, at};
     }
     return found;
   }
 
-  void check_vault(SupportGaps& reach, const Frame& frame, const Chord& chord) const {
-    if (0.5 * chord.length() <= reach.step) return;
+  // A chord that is not level carries no bridge, so its middle must be close to an edge.
+  void measure_vault(SupportGaps& gaps, const Frame& frame, const Chord& chord) const {
+    if (0.5 * chord.length() <= gaps.step) return;
     const auto [distance, at] = furthest(frame, chord);
-    if (distance > reach.step) std::tie(reach.step, reach.step_at) = std::pair(distance, at);
+    if (distance > gaps.step) std::tie(gaps.step, gaps.step_at) = std::pair(distance, at);
   }
 
   // A chord everywhere within a step of its edges needs no bridge.
-  void check_bridge(SupportGaps& reach, const Frame& frame, const Chord& chord) const {
-    if (chord.length() <= std::max(reach.bridge, 2 * limits_.step)) return;
+  void measure_bridge(SupportGaps& gaps, const Frame& frame, const Chord& chord) const {
+    if (chord.length() <= std::max(gaps.bridge, 2 * limits_.step)) return;
     if (furthest(frame, chord).first <= limits_.step) return;
-    reach.bridge = chord.length();
-    reach.bridge_at = on(frame, chord, 0.5);
+    gaps.bridge = chord.length();
+    gaps.bridge_at = point_on(frame, chord, 0.5);
   }
 
-  void check_rim(SupportGaps& reach, const Frame& frame, const std::vector<Chord>& bridges) const {
+  void measure_rim(SupportGaps& gaps, const Frame& frame, const std::vector<Chord>& bridges) const {
     for (const RimPoint& point : rim_) {
-      if (point.from_edge <= reach.step) continue;
-      const double distance = to_bridges(bridges, frame(point.at), point.from_edge);
-      if (distance > reach.step) std::tie(reach.step, reach.step_at) = std::pair(distance, point.at);
+      if (point.from_edge <= gaps.step) continue;
+      const double distance = distance_to_support(bridges, frame(point.at), point.from_edge);
+      if (distance > gaps.step) std::tie(gaps.step, gaps.step_at) = std::pair(distance, point.at);
     }
   }
 
-  // Returns at most `least`. Between two adjacent lines that are both bridges there is a bridge too.
-  double to_bridges(const std::vector<Chord>& bridges, const Vec2& point, double least) const {
+  // Distance of a point to the nearest bridge, or `from_edge` if that is less. The space between two adjacent lines
+  // belongs to their bridges, so the distance across is less by the spacing.
+  double distance_to_support(const std::vector<Chord>& bridges, const Vec2& point, double from_edge) const {
+    double least = from_edge;
     const auto first =
         std::lower_bound(bridges.begin(), bridges.end(), (point.y() - least) / spacing_ - 1,
                          [](const Chord& chord, double line) { return static_cast<double>(chord.line) < line; });

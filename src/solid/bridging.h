@@ -7,8 +7,9 @@
 
 namespace fusee::solid {
 
+/// The longest unsupported lengths of a ceiling, and where they are.
 struct SupportGaps {
-  double bridge = 0;  ///< longest span supported at both ends; 0: none required
+  double bridge = 0;  ///< longest required span supported at both ends; 0: none required
   Vec3 bridge_at = Vec3::Zero();
   double step = 0;  ///< longest distance from a supported edge or a bridge
   Vec3 step_at = Vec3::Zero();
@@ -16,7 +17,7 @@ struct SupportGaps {
   bool within(const PrintLimits& limits) const { return bridge <= limits.bridge && step <= limits.step; }
 };
 
-/// Uses the most favourable direction of the patch, as a slicer does.
+/// The gaps with bridges in the patch's most favourable direction, which a slicer chooses too.
 SupportGaps support_gaps_of(const OverhangPatch& patch, const PrintLimits& limits);
 
 }  // namespace fusee::solid

@@ -37,7 +37,7 @@ void insert_loop(Triangulation& triangulation, const Polygon& loop, std::uint32_
     triangulation.insert_constraint(handles[i], handles[(i + 1) % handles.size()]);
 }
 
-// Flood fill from outside: crossing a constraint changes sides.
+// Flood fill from outside. Across a constraint, a loop's edge, inside becomes outside and the reverse.
 void mark_inside(Triangulation& triangulation) {
   std::vector<Triangulation::Face_handle> front{triangulation.infinite_face()};
   triangulation.infinite_face()->info().seen = true;

@@ -9,16 +9,17 @@
 namespace fusee::solid {
 namespace {
 
-// Depth of the channel's outer edge within the floor from which the edge is left unchanged.
-constexpr double k_depth = 0.1;
+// Depth inside the floor from which the channel's outer edge is left unchanged. mm
+constexpr double k_crossing_depth = 0.1;
+// Number of chords of a channel's arc, as cut and for finding where it crosses the floor.
 constexpr int k_steps = 12;
 constexpr int k_fine_steps = 48;
 
-// The place where the outer edge reaches k_depth into the floor, and the floor's outward normal there.
+// The point where the outer edge reaches k_crossing_depth inside the floor, and the floor's outward normal there.
 struct FloorCrossing {
-  double turn = 0;      ///< angle of the arc up to there
-  double straight = 0;  ///< length past the arc's end
-  Vec2 place = Vec2::Zero();
+  double turn = 0;      ///< angle of the arc up to the point
+  double straight = 0;  ///< length from the arc's end to the point; 0: it lies on the arc
+  Vec2 point = Vec2::Zero();
   Vec2 normal = Vec2::Zero();
 };
 
@@ -27,27 +28,29 @@ FloorCrossing floor_crossing(const AnchorPath& path, double width, const Polygon
   FloorCrossing crossing;
   Depth depth;
   for (int k = 0; k <= k_fine_steps; ++k) {
-    const Vec2& place = arc[static_cast<std::size_t>(k)];
-    depth = depth_and_normal(floor, place);
-    crossing = {path.turn * k / k_fine_steps, 0.0, place, depth.normal};
-    if (depth.value >= k_depth) return crossing;
+    const Vec2& point = arc[static_cast<std::size_t>(k)];
+    depth = depth_and_normal(floor, point);
+    crossing = {path.turn * k / k_fine_steps, 0.0, point, depth.normal};
+    if (depth.value >= k_crossing_depth) return crossing;
   }
-  // The place lies on the straight, not on the arc.
+  // The point lies on the straight, not on the arc.
   crossing.straight =
-      std::min((k_depth - depth.value) / std::max(0.1, -path.heading().dot(crossing.normal)), path.straight);
-  crossing.place += crossing.straight * path.heading();
+      std::min((k_crossing_depth - depth.value) / std::max(0.1, -path.heading().dot(crossing.normal)), path.straight);
+  crossing.point += crossing.straight * path.heading();
   return crossing;
 }
 
-// Distance along `direction` from `from` to the line through `on` along `along`; negative or huge if they do not meet.
-double run_to_line(const Vec2& from, const Vec2& direction, const Vec2& on, const Vec2& along) {
+// Distance along `direction` from `from` to the line through `on` along `along`. Negative if they meet behind `from` or
+// are parallel.
+double distance_to_line(const Vec2& from, const Vec2& direction, const Vec2& on, const Vec2& along) {
+  constexpr double k_parallel = 1e-9;
   const double sine = cross(direction, along);
-  return std::abs(sine) < 1e-9 ? -1.0 : cross(on - from, along) / sine;
+  return std::abs(sine) < k_parallel ? -1.0 : cross(on - from, along) / sine;
 }
 
-// A channel entry between two walls: one stands on the groove edge at the channel's start, the other where its outer
-// edge reaches the floor. Seen from the centre of the channel's arc, every ray meets the inner edge once and the outer
-// boundary once. The ceiling between them is therefore a piece of a cone.
+// A channel entry between two walls. The first stands on the groove edge at the channel's start, the second where the
+// channel's outer edge reaches the floor. The walls may meet outside. Seen from the centre of the channel's arc, every
+// ray meets the inner edge once and the outer boundary once. The ceiling between them is therefore a piece of a cone.
 class Flare {
  public:
   Flare(const AnchorPath& path, double width, const Polygon& floor, double lean, double beyond)
@@ -55,14 +58,14 @@ class Flare {
         half_(0.5 * width),
         centre_(path.start - path.fillet * path.normal),
         crossing_(floor_crossing(path, width, floor)) {
-    const Vec2 radial = (crossing_.place - centre_).normalized();
-    out_ = turned(crossing_.normal, -path.sense * lean);
+    const Vec2 radial = (crossing_.point - centre_).normalized();
+    second_wall_ = turned(crossing_.normal, -path.sense * lean);
     // A wall that leaned away from the channel's start would be hidden behind the channel's edge.
-    if (path.sense * cross(radial, out_) > 0) out_ = radial;
-    const double met = run_to_line(path.start, path.normal, crossing_.place, out_);
-    meet_ = met > 0 && met < beyond;
-    first_ = path.start + (meet_ ? met : beyond) * path.normal;
-    corner_ = meet_ ? first_ : Vec2(crossing_.place + beyond * out_);
+    if (path.sense * cross(radial, second_wall_) > 0) second_wall_ = radial;
+    const double to_second_wall = distance_to_line(path.start, path.normal, crossing_.point, second_wall_);
+    walls_meet_ = to_second_wall > 0 && to_second_wall < beyond;
+    first_wall_end_ = path.start + (walls_meet_ ? to_second_wall : beyond) * path.normal;
+    second_wall_end_ = walls_meet_ ? first_wall_end_ : Vec2(crossing_.point + beyond * second_wall_);
   }
 
   ChannelEdges edges() const {
@@ -70,7 +73,7 @@ class Flare {
     for (const double turn : turns()) add(edges, ray(turn), path_.fillet - half_, outer_radius(turn));
     if (crossing_.straight > 0) {
       edges.inner.push_back(centre_ + (path_.fillet - half_) * path_.outer() + crossing_.straight * path_.heading());
-      edges.outer.push_back(crossing_.place);
+      edges.outer.push_back(crossing_.point);
     }
     edges.inner.push_back(path_.pocket() - half_ * path_.outer());
     edges.outer.push_back(path_.pocket() + half_ * path_.outer());
@@ -84,52 +87,57 @@ class Flare {
     edges.outer.push_back(centre_ + outer * direction);
   }
 
-  double turn_of(const Vec2& place) const {
-    const Vec2 from_centre = place - centre_;
+  // The angle at which a ray from the arc's centre passes through a point.
+  double turn_of(const Vec2& point) const {
+    const Vec2 from_centre = point - centre_;
     return path_.sense * elementary::atan2(cross(path_.normal, from_centre), path_.normal.dot(from_centre));
   }
 
-  // Evenly spaced, with both ends of the second wall replacing angles that are too close to them.
+  // Angles of the rays at which the edges have points. They are evenly spaced. Both ends of the second wall replace
+  // angles that are too close to them.
   std::vector<double> turns() const {
-    std::vector<double> marks{0.0, path_.turn};
-    if (!meet_) marks.push_back(turn_of(corner_));
-    if (crossing_.straight <= 0) marks.push_back(crossing_.turn);
+    std::vector<double> required{0.0, path_.turn};
+    if (!walls_meet_) required.push_back(turn_of(second_wall_end_));
+    if (crossing_.straight <= 0) required.push_back(crossing_.turn);
     std::vector<double> turns;
     const double step = path_.turn / k_steps;
-    for (const double mark : marks) {
-      const bool taken =
-          std::any_of(turns.begin(), turns.end(), [&](double turn) { return std::abs(turn - mark) < 0.1 * step; });
-      if (mark >= 0 && mark <= path_.turn && !taken) turns.push_back(mark);
+    const auto is_close_to_one = [&turns](std::size_t count, double turn, double distance) {
+      return std::any_of(turns.begin(), turns.begin() + static_cast<std::ptrdiff_t>(count),
+                         [&](double other) { return std::abs(other - turn) < distance; });
+    };
+    for (const double turn : required) {
+      const bool is_within = turn >= 0 && turn <= path_.turn;
+      if (is_within && !is_close_to_one(turns.size(), turn, 0.1 * step)) turns.push_back(turn);
     }
-    const std::size_t fixed = turns.size();
+    const std::size_t required_count = turns.size();
     for (int k = 1; k < k_steps; ++k) {
-      const double turn = k * step;
-      const bool near = std::any_of(turns.begin(), turns.begin() + static_cast<std::ptrdiff_t>(fixed),
-                                    [&](double mark) { return std::abs(turn - mark) < 0.4 * step; });
-      if (!near) turns.push_back(turn);
+      if (!is_close_to_one(required_count, k * step, 0.4 * step)) turns.push_back(k * step);
     }
     std::sort(turns.begin(), turns.end());
     return turns;
   }
 
+  // Distance from the arc's centre to the outer boundary. The boundary is the line from the first wall's end to the
+  // second wall's (unless they meet), then the second wall, then the channel's own edge.
   double outer_radius(double turn) const {
-    const double plain = path_.fillet + half_;
-    if (crossing_.straight <= 0 && turn >= crossing_.turn) return plain;
-    const bool before_corner = !meet_ && turn < turn_of(corner_);
-    const double reach = before_corner ? run_to_line(centre_, ray(turn), first_, corner_ - first_)
-                                       : run_to_line(centre_, ray(turn), crossing_.place, out_);
+    const double of_channel = path_.fillet + half_;
+    if (crossing_.straight <= 0 && turn >= crossing_.turn) return of_channel;
+    const bool is_between_walls = !walls_meet_ && turn < turn_of(second_wall_end_);
+    const double of_entry =
+        is_between_walls ? distance_to_line(centre_, ray(turn), first_wall_end_, second_wall_end_ - first_wall_end_)
+                         : distance_to_line(centre_, ray(turn), crossing_.point, second_wall_);
     // The entry is at least as wide as the channel.
-    return std::max(reach, plain);
+    return std::max(of_entry, of_channel);
   }
 
   const AnchorPath& path_;
-  double half_;
-  Vec2 centre_;
+  double half_;  ///< half the channel's width
+  Vec2 centre_;  ///< of the channel's arc
   FloorCrossing crossing_;
-  Vec2 out_ = Vec2::Zero();
-  bool meet_ = false;
-  Vec2 first_ = Vec2::Zero();   ///< end of the first wall
-  Vec2 corner_ = Vec2::Zero();  ///< end of the second
+  Vec2 second_wall_ = Vec2::Zero();  ///< direction of the second wall, outwards
+  bool walls_meet_ = false;
+  Vec2 first_wall_end_ = Vec2::Zero();
+  Vec2 second_wall_end_ = Vec2::Zero();
 };
 
 }  // namespace
@@ -146,7 +154,8 @@ ChannelEdges flared_edges(const AnchorPath& path, double width, const Polygon& f
   return Flare(path, width, floor, lean, beyond).edges();
 }
 
-// For a straight floor: the tangent at the start, moved in by half a tendon.
+// Computed for a straight floor. The pitch curve's tangent at the start is the x axis, and the floor lies half a tendon
+// below it.
 double entry_rise(const BodyLayout& layout) {
   AnchorPath path;
   path.start = Vec2::Zero();
@@ -163,6 +172,7 @@ double entry_rise(const BodyLayout& layout) {
   double top = 0;
   for (std::size_t k = 0; k < edges.inner.size(); ++k) {
     const Vec2 across = edges.outer[k] - edges.inner[k];
+    // The fraction of the ceiling's width at which it passes the groove edge; above 1: it ends below.
     const double share = across.y() > 0 ? (groove_edge - edges.inner[k].y()) / across.y() : 2.0;
     if (share <= 1.0) top = std::max(top, rise_of(layout, share * across.norm()));
   }

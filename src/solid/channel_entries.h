@@ -17,9 +17,10 @@ struct ChannelEdges {
   std::vector<Vec2> outer;
 };
 
-/// Lean of a channel entry's wall against the groove edge; a curved edge adds up to 7°. The tip between them moves
-/// outwards by the edge's step over the sine of its angle. With a ceiling at 47.5° and layers of 0.2 mm, 0.183 mm
-/// become 0.1915 mm at 73°; PrusaSlicer widens a layer by 0.193 mm at 45°.
+/// Lean of a channel entry's wall from the normal of the groove edge. A curved edge adds up to 7°, so wall and edge
+/// enclose a tip of at least 73°. Under a ceiling at 47.5°, in layers of 0.2 mm, the edge moves outwards by
+/// 0.2 mm / tan 47.5° = 0.183 mm from layer to layer. The tip moves by 0.183 mm / sin 73° = 0.1915 mm. PrusaSlicer
+/// needs no support up to 0.193 mm, by which it widens a layer at 45°.
 inline constexpr double k_steep_lean = radians(10);
 /// Lean used where k_steep_lean does not fit. Only PrusaSlicer's squared corner supports the tip (layers.h).
 inline constexpr double k_wide_lean = radians(20);
@@ -28,8 +29,8 @@ inline constexpr double k_wide_lean = radians(20);
 ChannelEdges plain_edges(const AnchorPath& path, double width);
 
 /// Outside the floor the outer edge widens to an entry that stands steeply on the groove edge. A tangential entry would
-/// leave a wedge whose tip grows by more than a layer can overhang. `lean`: of the entry's walls against the groove
-/// edge, rad. `beyond`: distance from the floor within which the flanges end.
+/// leave a wedge whose tip grows by more than a layer can overhang. `lean`: of the entry's walls from the normal of the
+/// groove edge, rad. `beyond`: distance from the floor within which the flanges end.
 ChannelEdges flared_edges(const AnchorPath& path, double width, const Polygon& floor, double lean, double beyond);
 
 /// Largest additional depth, compared with the groove's own ceiling, to which an entry's ceiling cuts into the flange

@@ -54,13 +54,14 @@ Check not_checked(std::string name, const std::string& reason) {
   return {std::move(name), 0, 0, "1", false, "not checked: " + reason};
 }
 
-// The sides of all facets, sorted by edge.
+// A side of a facet, which lies along an edge.
 struct EdgeSide {
-  std::uint32_t low = 0, high = 0;
+  std::uint32_t low = 0, high = 0;  // the edge's vertices, the lower number first
   std::uint32_t facet = 0;
   bool upward = false;  // the facet runs from low to high
 };
 
+// The sides of all facets, sorted by edge.
 std::vector<EdgeSide> edge_sides(const TriangleMesh& mesh) {
   std::vector<EdgeSide> sides;
   sides.reserve(3 * mesh.triangles.size());
@@ -77,6 +78,7 @@ std::vector<EdgeSide> edge_sides(const TriangleMesh& mesh) {
       });
 }
 
+// Calls `visit` with the range of each edge's sides.
 template <typename Visit>
 void for_each_edge(const std::vector<EdgeSide>& sides, const Visit& visit) {
   for (std::size_t first = 0; first < sides.size();) {
@@ -88,7 +90,10 @@ void for_each_edge(const std::vector<EdgeSide>& sides, const Visit& visit) {
 }
 
 struct Topology {
-  Tally open, crowded, turned, pinched;
+  Tally open;     // edges of one facet
+  Tally crowded;  // edges of more than two facets
+  Tally turned;   // edges of two facets that face opposite ways
+  Tally pinched;  // vertices
 };
 
 std::size_t corner_of(const TriangleMesh& mesh, std::size_t facet, std::uint32_t vertex) {
@@ -96,13 +101,13 @@ std::size_t corner_of(const TriangleMesh& mesh, std::size_t facet, std::uint32_t
   return 3 * facet + static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), vertex) - triangle.begin());
 }
 
-// A vertex is pinched if the facets around it form groups without a common edge there. The corners of a hole form such
-// groups too, but the hole has its own check.
+// A vertex is pinched if the facets around it form groups without a common edge there. The vertices of a hole have such
+// groups too, but the hole has its own check. Corner k of facet f has the number 3 f + k.
 Tally pinched_vertices(const TriangleMesh& mesh, const std::vector<EdgeSide>& sides) {
   DisjointSets corners(3 * mesh.triangles.size());
-  std::vector<bool> at_hole(mesh.vertices.size(), false);
+  std::vector<bool> is_at_hole(mesh.vertices.size(), false);
   for_each_edge(sides, [&](std::size_t first, std::size_t last) {
-    if (last - first == 1) at_hole[sides[first].low] = at_hole[sides[first].high] = true;
+    if (last - first == 1) is_at_hole[sides[first].low] = is_at_hole[sides[first].high] = true;
     for (std::size_t k = first + 1; k < last; ++k) {
       for (const std::uint32_t vertex : {sides[k].low, sides[k].high}) {
         corners.unite(corner_of(mesh, sides[first].facet, vertex), corner_of(mesh, sides[k].facet, vertex));
@@ -114,10 +119,12 @@ Tally pinched_vertices(const TriangleMesh& mesh, const std::vector<EdgeSide>& si
   Tally pinched;
   for (std::size_t corner = 0; corner < 3 * mesh.triangles.size(); ++corner) {
     const std::uint32_t vertex = mesh.triangles[corner / 3][corner % 3];
-    std::size_t& known = group[vertex];
-    const std::size_t here = corners.root(corner);
-    if (known != none && known != here && here == corner && !at_hole[vertex]) pinched.add(corner / 3);
-    known = known == none ? here : known;
+    std::size_t& first_group = group[vertex];
+    const std::size_t own_group = corners.root(corner);
+    if (first_group == none) first_group = own_group;
+    // Each further group is counted once, at its root.
+    const bool begins_further_group = own_group != first_group && own_group == corner;
+    if (begins_further_group && !is_at_hole[vertex]) pinched.add(corner / 3);
   }
   return pinched;
 }
@@ -133,9 +140,10 @@ Topology topology_of(const TriangleMesh& mesh, const std::vector<EdgeSide>& side
   return topology;
 }
 
-// ---- outward --------------------------------------------------------------------------------------------------------
+// ---- orientation ----------------------------------------------------------------------------------------------------
 
-struct Part {
+// A connected component of the surface.
+struct Component {
   std::vector<std::size_t> facets;
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 high = -low;
@@ -143,67 +151,69 @@ struct Part {
   double volume = 0;
 };
 
-std::vector<Part> parts_of(const TriangleMesh& mesh, const std::vector<EdgeSide>& sides) {
+std::vector<Component> components_of(const TriangleMesh& mesh, const std::vector<EdgeSide>& sides) {
   DisjointSets facets(mesh.triangles.size());
   for_each_edge(sides, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first + 1; k < last; ++k) facets.unite(sides[first].facet, sides[k].facet);
   });
   std::vector<std::size_t> number(mesh.triangles.size());
-  std::vector<Part> parts;
+  std::vector<Component> components;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const std::size_t root = facets.root(f);
     if (root == f) {
-      number[f] = parts.size();
-      parts.emplace_back();
+      number[f] = components.size();
+      components.emplace_back();
     }
-    Part& part = parts[number[root]];
-    part.facets.push_back(f);
+    Component& component = components[number[root]];
+    component.facets.push_back(f);
     for (const std::uint32_t index : mesh.triangles[f]) {
       const Vec3& vertex = mesh.vertices[index];
-      if (!(vertex.x() <= part.high.x())) part.extreme = vertex;
-      part.low = part.low.cwiseMin(vertex);
-      part.high = part.high.cwiseMax(vertex);
+      if (!(vertex.x() <= component.high.x())) component.extreme = vertex;
+      component.low = component.low.cwiseMin(vertex);
+      component.high = component.high.cwiseMax(vertex);
     }
   }
-  for (Part& part : parts) {
-    for (const std::size_t f : part.facets) {
+  for (Component& component : components) {
+    const Vec3& origin = component.low;
+    for (const std::size_t f : component.facets) {
       const auto& [a, b, c] = mesh.triangles[f];
-      const Vec3 u = mesh.vertices[a] - part.low, v = mesh.vertices[b] - part.low, w = mesh.vertices[c] - part.low;
-      part.volume += u.dot(v.cross(w)) / 6.0;
+      const Vec3 u = mesh.vertices[a] - origin, v = mesh.vertices[b] - origin, w = mesh.vertices[c] - origin;
+      component.volume += u.dot(v.cross(w)) / 6.0;
     }
   }
-  return parts;
+  return components;
 }
 
-// Winding number of a part's surface about `point`: the sum of its facets' solid angles over 4π.
-double winding_number(const TriangleMesh& mesh, const Part& part, const Vec3& point) {
+// Winding number of a component about `point`: the sum of its facets' solid angles over 4π.
+double winding_number(const TriangleMesh& mesh, const Component& component, const Vec3& point) {
   double angle = 0;
-  for (const std::size_t f : part.facets) {
+  for (const std::size_t f : component.facets) {
     const auto& [a, b, c] = mesh.triangles[f];
     angle += solid_angle(mesh.vertices[a] - point, mesh.vertices[b] - point, mesh.vertices[c] - point);
   }
   return angle / (2.0 * k_two_pi);
 }
 
-// A part outside the others must enclose positive volume, a part inside another must be a cavity.
+// A component outside the others must enclose positive volume. One inside another must be a cavity, of negative volume.
 Check outward_check(const ExaminedSurface& surface, const std::vector<EdgeSide>& sides) {
   const TriangleMesh& mesh = surface.mesh;
-  const std::vector<Part> parts = parts_of(mesh, sides);
-  // Bound for files with thousands of nested parts.
+  const std::vector<Component> components = components_of(mesh, sides);
+  // Limits the time for files with thousands of nested components.
   std::size_t facets_left = 200'000'000;
   Tally inverted;
-  for (const Part& part : parts) {
-    double around = 0;
-    for (const Part& other : parts) {
-      const bool may_contain = &other != &part && (part.extreme.array() > other.low.array()).all() &&
-                               (part.extreme.array() < other.high.array()).all();
+  for (const Component& component : components) {
+    const Vec3& extreme = component.extreme;
+    double winding = 0;
+    for (const Component& other : components) {
+      const bool may_contain = &other != &component && (extreme.array() > other.low.array()).all() &&
+                               (extreme.array() < other.high.array()).all();
       if (!may_contain) continue;
       if (other.facets.size() > facets_left) return not_checked("inverted_parts", "too many nested parts");
       facets_left -= other.facets.size();
-      around += winding_number(mesh, other, part.extreme);
+      winding += winding_number(mesh, other, extreme);
     }
-    const bool inside = std::lround(around) != 0;
-    if (!(inside ? part.volume < 0 : part.volume > 0)) inverted.add(part.facets.front());
+    const bool is_inside = std::lround(winding) != 0;
+    if (!(is_inside ? component.volume < 0 : component.volume > 0)) inverted.add(component.facets.front());
   }
   return none_of(surface, "inverted_parts", inverted);
 }

@@ -71,6 +71,7 @@ std::vector<Check> checks_within(const PrintLimits& limits, const TriangleMesh& 
             {"island", 0, 0, "1", false, why}};
   }
   const Overhangs overhangs = find_overhangs(mesh, limits.overhang, limits.first_layer);
+  // Slopes are negated, because the worst is the least.
   WorstPlace flatness{-overhangs.flattest_other, overhangs.flattest_other_at}, step, bridge;
   for (const OverhangPatch& patch : overhangs.patches) {
     const SupportGaps gaps = support_gaps_of(patch, limits);

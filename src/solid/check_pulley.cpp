@@ -168,20 +168,26 @@ class GrooveGauge {
     return least;
   }
 
-  // Width along a vertical line half-way between two samples on the pitch curve: from the facet below the groove's
-  // plane to the one above.
+  // Width along a vertical line through the middle of one chord of the pitch curve: from the facet below the groove's
+  // plane to the one above. The line's height on a facet follows from the barycentric weights of its point in plan.
   double width() const {
     const std::size_t n = outline_.points.size(), i = (outline_.active_first + 1) % n;
-    const Vec2 at = layout_.scale * 0.5 * (outline_.points[i].position + outline_.points[(i + 1) % n].position);
+    const Vec2 point = layout_.scale * 0.5 * (outline_.points[i].position + outline_.points[(i + 1) % n].position);
     double below = -std::numeric_limits<double>::infinity(), above = -below;
     for (const auto& triangle : mesh_.triangles) {
       const Vec3 &a = mesh_.vertices[triangle[0]], &b = mesh_.vertices[triangle[1]], &c = mesh_.vertices[triangle[2]];
-      const double wa = cross(b.head<2>() - at, c.head<2>() - at), wb = cross(c.head<2>() - at, a.head<2>() - at),
-                   wc = cross(a.head<2>() - at, b.head<2>() - at);
-      const bool covers = (wa > 0 && wb > 0 && wc > 0) || (wa < 0 && wb < 0 && wc < 0);
+      const Vec2 to_a = a.head<2>() - point, to_b = b.head<2>() - point, to_c = c.head<2>() - point;
+      const double weight_a = cross(to_b, to_c), weight_b = cross(to_c, to_a), weight_c = cross(to_a, to_b);
+      const bool covers =
+          (weight_a > 0 && weight_b > 0 && weight_c > 0) || (weight_a < 0 && weight_b < 0 && weight_c < 0);
       if (!covers) continue;
-      const double height = (wa * a.z() + wb * b.z() + wc * c.z()) / (wa + wb + wc) / layout_.scale;
-      (height < z() ? below : above) = height < z() ? std::max(below, height) : std::min(above, height);
+      const double height =
+          (weight_a * a.z() + weight_b * b.z() + weight_c * c.z()) / (weight_a + weight_b + weight_c) / layout_.scale;
+      if (height < z()) {
+        below = std::max(below, height);
+      } else {
+        above = std::min(above, height);
+      }
     }
     return std::isfinite(above - below) ? above - below : 0.0;
   }
@@ -197,7 +203,8 @@ class GrooveGauge {
   std::vector<Polygon> holes_;
 };
 
-// True if indices, coordinates and edges allow further measurements.
+// True if the first three checks of check_mesh() hold: there are facets, their indices exist, their vertices are
+// finite.
 bool is_measurable(const std::vector<Check>& checks) { return checks[0].ok && checks[1].ok && checks[2].ok; }
 
 // True if all facets are at the same places, for any vertex numbering.

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: a list of conditions with their limits. mm
+/// Internal: a list of conditions with their limits.
 #pragma once
 
 #include <string>
@@ -10,6 +10,7 @@
 
 namespace fusee::solid {
 
+/// Collects conditions. Values and limits are in mm.
 class ConditionList {
  public:
   void add(std::string name, double value, double limit, bool ok, std::string message) {
@@ -20,7 +21,7 @@ class ConditionList {
     condition.limit = limit;
     condition.unit = "mm";
     condition.message = std::move(message);
-    take(std::move(condition));
+    add(std::move(condition));
   }
   void add_least(std::string name, double value, double least, std::string message) {
     add(std::move(name), value, least, value >= least - k_grain, std::move(message));
@@ -28,9 +29,10 @@ class ConditionList {
   void add_most(std::string name, double value, double most, std::string message) {
     add(std::move(name), value, most, value <= most + k_grain, std::move(message));
   }
-  void take(profile::Condition condition) { conditions_.push_back(std::move(condition)); }
+  void add(profile::Condition condition) { conditions_.push_back(std::move(condition)); }
 
-  std::vector<profile::Condition> taken() { return std::move(conditions_); }
+  /// All conditions. The list is empty afterwards.
+  std::vector<profile::Condition> release() { return std::move(conditions_); }
 
  private:
   // Tolerance for numbers that a person rounded.

@@ -20,6 +20,9 @@ namespace {
 // Clearance between a flange and a pin: print tolerance and run-out of the pulley.
 constexpr double k_pin_gap = 0.5;
 
+// Least thickness of a flange below a channel: two layers of 0.2 mm.
+constexpr double k_least_channel_floor = 0.4;
+
 // Least web between the holes of a horn: half a line of a 0.4 mm nozzle. With less, the holes merge.
 constexpr double k_least_web = 0.2;
 
@@ -36,27 +39,27 @@ class Conditions {
 
   std::vector<profile::Condition> all(const std::vector<AnchorRoom>& rooms) {
     add_rims();
-    if (auto tall = too_tall(layout_)) list_.take(std::move(*tall));
+    if (auto tall = too_tall(layout_)) list_.add(std::move(*tall));
     add_groove();
     add_bore_wall(synthesis_.p1);
     add_bore_wall(synthesis_.p2);
-    if (auto flat = flat_off_shaft(body_, layout_.bore.shaft)) list_.take(std::move(*flat));
+    if (auto flat = flat_off_shaft(body_, layout_.bore.shaft)) list_.add(std::move(*flat));
     add_horn();
     for (profile::Condition& condition : hub_conditions(mechanism_, layout_, inradius(rims_.upper)))
-      list_.take(std::move(condition));
+      list_.add(std::move(condition));
     for (const AnchorRoom& room : rooms) add_anchor(room);
     add_channel();
     if (mechanism_.sheath.is_there()) {
       // The pulley is at the motor, and only the sheath exits are near it.
       add_sheath_exit(transmission::Side::left);
       add_sheath_exit(transmission::Side::right);
-      return list_.taken();
+      return list_.release();
     }
     add_pin("pin_clear_B", "B", {-mechanism_.guides.EB, mechanism_.pulley.EF}, "guides.EB_mm");
     add_pin("pin_clear_D", "D", {mechanism_.guides.ED, mechanism_.pulley.EF - mechanism_.guides.D_below_B},
             "guides.ED_mm");
     add_drum();
-    return list_.taken();
+    return list_.release();
   }
 
  private:
@@ -75,23 +78,25 @@ class Conditions {
                     rounded(layout_.groove_depth), rounded(d_)));
   }
 
-  Polygon floor(const profile::Outline& outline) const { return profile::parallel(outline, -0.5 * d_); }
+  Polygon floor_of(const profile::Outline& outline) const { return profile::parallel(outline, -0.5 * d_); }
 
-  Wall wall_to(const Polygon& floor_polygon, const BoreLayout& bore) const {
-    Wall least = wall_between(floor_polygon, bore.outline);
+  // The thinnest wall between a floor and the bore with its screw holes.
+  Wall wall_to(const Polygon& floor, const BoreLayout& bore) const {
+    Wall least = wall_between(floor, bore.outline);
     for (const Polygon& hole : bore.screw_holes) {
-      const Wall other = wall_between(floor_polygon, hole);
+      const Wall other = wall_between(floor, hole);
       if (other.thickness < least.thickness) least = other;
     }
     return least;
   }
 
-  // Checks the wall for the larger of two bores: of the part, with compensation for printed holes, and of the shaft,
-  // which profile.dxf has.
+  // Checks the wall for the larger of two bores: the part's, which is compensated for shrinking holes, and the shaft's,
+  // which is drawn in profile.dxf.
   void add_bore_wall(const profile::Outline& outline) {
-    const Polygon ground = floor(outline);
-    const Wall made = wall_to(ground, layout_.bore), printed = wall_to(ground, bore_of_shaft(mechanism_, layout_.bore));
-    const Wall& wall = made.thickness <= printed.thickness ? made : printed;
+    const Polygon floor = floor_of(outline);
+    const Wall in_part = wall_to(floor, layout_.bore),
+               in_drawing = wall_to(floor, bore_of_shaft(mechanism_, layout_.bore));
+    const Wall& wall = in_part.thickness <= in_drawing.thickness ? in_part : in_drawing;
     list_.add_least(
         fmt::format("bore_wall_{}", transmission::pulley_name(outline.side)), wall.thickness, layout_.min_wall,
         fmt::format("the bore leaves {} to {}'s floor at {:.0f}°; at least {} mm is required (body.min_wall_mm)",
@@ -127,7 +132,7 @@ class Conditions {
     const char* change = "";
   };
 
-  // Holes as circles: around the boss or the centre hole, around each screw.
+  // Each hole counts as the circle around it.
   Web thinnest_web() const {
     struct Circle {
       Vec2 centre;
@@ -142,23 +147,23 @@ class Conditions {
     const BoreLayout& bore = layout_.bore;
     const bool sunk = bore.horn_recess > 0;
     Web least;
-    const auto take = [&least](const Web& web) {
+    const auto consider = [&least](const Web& web) {
       if (web.thickness < least.thickness) least = web;
     };
     if (sunk) {
-      take({distance_to_edges(bore.outline, Vec2::Zero()) - around(bore.screw_holes[0]).radius,
-            "the recess and the centre hole", "a smaller horn.centre_hole_mm, which leaves a shoulder"});
+      consider({distance_to_edges(bore.outline, Vec2::Zero()) - around(bore.screw_holes[0]).radius,
+                "the recess and the centre hole", "a smaller horn.centre_hole_mm, which leaves a shoulder"});
     }
     std::vector<Circle> bolts;
     for (std::size_t k = sunk ? 1 : 0; k < bore.screw_holes.size(); ++k) bolts.push_back(around(bore.screw_holes[k]));
     for (std::size_t a = 0; a < bolts.size(); ++a) {
-      take({bolts[a].centre.norm() - bolts[a].radius - bore.radius,
-            sunk ? "the screws and the boss" : "the screws and the centre hole",
-            sunk ? "a larger horn.bolt_circle_mm, or a smaller horn.bolt_hole_mm or horn.boss_diameter_mm"
-                 : "a larger horn.bolt_circle_mm, or a smaller horn.bolt_hole_mm or horn.centre_hole_mm"});
+      consider({bolts[a].centre.norm() - bolts[a].radius - bore.radius,
+                sunk ? "the screws and the boss" : "the screws and the centre hole",
+                sunk ? "a larger horn.bolt_circle_mm, or a smaller horn.bolt_hole_mm or horn.boss_diameter_mm"
+                     : "a larger horn.bolt_circle_mm, or a smaller horn.bolt_hole_mm or horn.centre_hole_mm"});
       for (std::size_t b = a + 1; b < bolts.size(); ++b) {
-        take({(bolts[a].centre - bolts[b].centre).norm() - bolts[a].radius - bolts[b].radius, "two screws",
-              "a larger horn.bolt_circle_mm, fewer in horn.bolt_count, or a smaller horn.bolt_hole_mm"});
+        consider({(bolts[a].centre - bolts[b].centre).norm() - bolts[a].radius - bolts[b].radius, "two screws",
+                  "a larger horn.bolt_circle_mm, fewer in horn.bolt_count, or a smaller horn.bolt_hole_mm"});
       }
     }
     return least;
@@ -187,7 +192,7 @@ class Conditions {
     const double thickness = (apart ? std::min(layout_.z_mate - layout_.z_p1, layout_.z_p2 - layout_.z_mate)
                                     : std::min(layout_.z_p1, layout_.z_p2 - layout_.z_middle)) -
                              0.5 * width;
-    list_.add_least("channel_floor", thickness, 0.4,
+    list_.add_least("channel_floor", thickness, k_least_channel_floor,
                     thickness > 0
                         ? fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), leave {} mm of a flange",
                                       rounded(width), rounded(thickness, 3))
@@ -197,13 +202,15 @@ class Conditions {
 
   /// Reach of the flanges within the angle that a disc subtends at the axis.
   double reach_within(const Vec2& centre, double radius) const {
-    const double half = elementary::asin(std::min(1.0, radius / centre.norm()));
+    const double half_angle = elementary::asin(std::min(1.0, radius / centre.norm()));
     double reach = 0;
-    for (int i = -4; i <= 4; ++i) reach = std::max(reach, reach_towards(turned(centre, half * i / 4.0)));
+    // Nine directions across the disc.
+    for (int i = -4; i <= 4; ++i) reach = std::max(reach, reach_towards(turned(centre, half_angle * i / 4.0)));
     return reach;
   }
 
-  // The pulley turns clockwise by α under the pin. In the pulley's frame the pin moves counter-clockwise.
+  // Reach of the flanges under a pin over the stroke. The pulley turns clockwise by α under the pin, so in the pulley's
+  // frame the pin moves counter-clockwise.
   double reach_towards(const Vec2& pin) const {
     if (synthesis_.stroke.empty()) return 0;
     const double home = elementary::atan2(pin.y(), pin.x());
@@ -212,9 +219,9 @@ class Conditions {
     double reach = 0;
     for (const Polygon* rim : {&rims_.lower, &rims_.middle, &rims_.upper}) {
       for (const Vec2& point : *rim) {
-        double turned = std::fmod(elementary::atan2(point.y(), point.x()) - first, k_two_pi);
-        if (turned < 0) turned += k_two_pi;
-        if (turned <= span) reach = std::max(reach, point.norm());
+        double past_first = std::fmod(elementary::atan2(point.y(), point.x()) - first, k_two_pi);
+        if (past_first < 0) past_first += k_two_pi;
+        if (past_first <= span) reach = std::max(reach, point.norm());
       }
     }
     return reach;
@@ -266,7 +273,7 @@ class Conditions {
 
 }  // namespace
 
-// A hole inside a convex outline is closest to it at one of its own corners.
+// A convex outline is closest to a hole inside it at one of the hole's corners.
 Wall wall_between(const Polygon& floor, const Polygon& hole) {
   Wall wall{std::numeric_limits<double>::infinity(), 0};
   for (const Vec2& corner : hole) {

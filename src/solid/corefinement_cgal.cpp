@@ -15,7 +15,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using IsCut = SurfaceMesh::Property_map<SurfaceMesh::Edge_index, bool>;
 
-// Empty where a vertex or an edge belongs to several sheets.
+// Empty if a vertex or an edge belongs to several sheets.
 std::optional<SurfaceMesh> surface_of(const TriangleMesh& mesh) {
   SurfaceMesh surface;
   surface.reserve(mesh.vertices.size(), 3 * mesh.triangles.size() / 2, mesh.triangles.size());

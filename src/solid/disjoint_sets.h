@@ -14,6 +14,7 @@ class DisjointSets {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
   std::size_t root(std::size_t item) {
+    // Path halving: each visited item is linked to its grandparent.
     while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
     return item;
   }

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<double, 4> k_pins{3.0, 2.5, 2.0, 1.5};
 // Least length over which a pin must be held to locate a part.
 constexpr double k_least_hold = 1.5;
-// Material between a hole and the face above it.
+// Least material between a hole and the face above it.
 constexpr double k_least_cover = 0.6;
 
 class DowelChooser {
@@ -44,7 +44,7 @@ class DowelChooser {
   DowelLayout choose() const {
     for (const double pin : k_pins) {
       const double ceiling = layout_.ceiling_slope > 0 ? rise_of(layout_, 0.5 * (pin + compensation_)) : 0.0;
-      // Clear of P2's tie-offs as well, or ending below them.
+      // A deep hole must clear P2's tie-offs as well. A shallow one ends below them.
       const double deep = std::min(layout_.z_p2 + layout_.p2.above_width(), layout_.z_top - k_least_cover - ceiling);
       const double shallow = layout_.z_p2 - 0.5 * layout_.channel_width - layout_.min_wall - ceiling;
       for (const auto& [z_end, obstacles] : {std::pair{deep, &in_both_}, std::pair{shallow, &in_p1_}}) {
@@ -82,6 +82,8 @@ std::optional<std::pair<Vec2, Vec2>> pin_places(double reach, double diameter, d
                                                 const std::function<bool(const Vec2&)>& is_free) {
   constexpr int k_directions = 48;
   constexpr int k_radii = 24;
+  // Least angle between two places, seen from the axis. It also excludes opposite places.
+  constexpr double k_least_angle = radians(20);
   std::vector<Vec2> free;
   for (int r = 1; r < k_radii; ++r) {
     for (int a = 0; a < k_directions; ++a) {
@@ -91,11 +93,12 @@ std::optional<std::pair<Vec2, Vec2>> pin_places(double reach, double diameter, d
   }
   std::vector<double> from_axis;
   for (const Vec2& place : free) from_axis.push_back(place.norm());
-  const double least_sine = elementary::sin(radians(20));
+  const double least_sine = elementary::sin(k_least_angle);
   std::optional<std::pair<Vec2, Vec2>> best;
   double widest = diameter + wall;
   for (std::size_t i = 0; i < free.size(); ++i) {
     for (std::size_t j = 0; j < free.size(); ++j) {
+      // The first of the pair is the outer one.
       if (from_axis[i] < from_axis[j] + 0.5 * diameter) continue;
       const Vec2 &a = free[i], &b = free[j];
       const double distance = (a - b).norm();
@@ -113,7 +116,7 @@ DowelLayout choose_dowels(const Mechanism& mechanism, const BodyPlan& plan) {
 
 // A blind hole ends in a cone. Slicers do not always treat such a small flat ceiling as a bridge.
 TriangleMesh dowel_tool(const DowelLayout& dowels, const Vec2& place) {
-  constexpr double k_tip = 0.05;
+  constexpr double k_tip = 0.05;  // size of the cone's tip relative to the hole
   const Polygon hole = polyhole(dowels.hole_diameter, Vec2::Zero());
   const auto ring = [&](double share, double z) {
     Polygon outline;

@@ -8,30 +8,35 @@
 namespace fusee::solid {
 namespace {
 
-// Much larger than the rounding of sections and normals, much smaller than any feature.
-constexpr double k_grain_of_plan = 1e-6;
+// Margin for the rounding of sections and normals, in mm and relative. Much larger than that rounding, much smaller
+// than any feature.
+constexpr double k_rounding_margin = 1e-6;
 // Relative margin on the steepness. Slivers have no slope of their own, so a path down across them may be longer by
 // this fraction. A sliver is at most a quarter of this fraction of the reach wide.
-constexpr double k_spare = 1e-2;
-constexpr double k_narrow_sliver = 0.25 * k_spare;
+constexpr double k_steepness_margin = 1e-2;
+constexpr double k_narrow_sliver = 0.25 * k_steepness_margin;
 
-bool looks_down(const Vec3& normal) { return normal.z() < k_grain_of_plan * normal.norm(); }
+// Vertical facets count too.
+bool looks_down(const Vec3& normal) { return normal.z() < k_rounding_margin * normal.norm(); }
 
+// The tangent of a plane's slope is |horizontal part of its normal| / |vertical part|.
 bool is_flat(const Vec3& normal, double steepness) {
-  return normal.head<2>().norm() <= steepness * (1 + k_spare) * std::abs(normal.z());
+  return normal.head<2>().norm() <= steepness * (1 + k_steepness_margin) * std::abs(normal.z());
 }
 
 bool is_flat_line(const Vec3& along, double steepness) {
-  return std::abs(along.z()) <= steepness * (1 + k_spare) * along.head<2>().norm();
+  return std::abs(along.z()) <= steepness * (1 + k_steepness_margin) * along.head<2>().norm();
 }
 
-// True if the facet rises from the line towards its corner.
+// True if a facet rises from its side `along` towards its third corner: the corner is higher than its foot on the
+// side's line.
 bool rises_from(const Vec3& along, const Vec3& to_corner) {
-  const double slope = to_corner.z() * along.squaredNorm() - to_corner.dot(along) * along.z();
-  return slope >= -k_grain_of_plan * to_corner.norm() * along.squaredNorm();
+  // Height above the foot, times |along|².
+  const double scaled_height = to_corner.z() * along.squaredNorm() - to_corner.dot(along) * along.z();
+  return scaled_height >= -k_rounding_margin * to_corner.norm() * along.squaredNorm();
 }
 
-// A facet that rises from one of its sides, which is flat.
+// A flat side of a facet that rises from it. Where two such facets meet, the side is a ridge that points down.
 struct RisingSide {
   std::uint32_t low, high;  // vertices
   bool looks_down;
@@ -45,10 +50,10 @@ class DownwardFaceFinder {
       : mesh_(mesh), heights_(heights), steepness_(steepness) {
     const double reach = heights.size() < 2 ? 0.0 : (heights[1] - heights[0]) / steepness;
     narrow_ = k_narrow_sliver * reach;
-    places_.assign(heights.size(), PlacesInPlan(bounds(mesh), reach + k_grain_of_plan));
+    places_.assign(heights.size(), PlacesInPlan(bounds(mesh), reach + k_rounding_margin));
   }
 
-  std::vector<PlacesInPlan> found() && {
+  std::vector<PlacesInPlan> places() && {
     add_faces();
     add_slivers();
     add_ridges();
@@ -62,7 +67,7 @@ class DownwardFaceFinder {
   }
 
   void add_faces() {
-    is_lower_beside_.assign(mesh_.vertices.size(), false);
+    has_lower_neighbour_.assign(mesh_.vertices.size(), false);
     is_under_.assign(mesh_.vertices.size(), false);
     for (const auto& triangle : mesh_.triangles) {
       const Vec3 &a = corner(triangle, 0), &b = corner(triangle, 1), &c = corner(triangle, 2);
@@ -75,7 +80,7 @@ class DownwardFaceFinder {
         else
           slivers_.push_back(triangle);
       }
-      see_sides(triangle, down);
+      record_sides(triangle, down);
     }
   }
 
@@ -101,12 +106,12 @@ class DownwardFaceFinder {
     add(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
   }
 
-  void see_sides(const std::array<std::uint32_t, 3>& triangle, bool down) {
+  void record_sides(const std::array<std::uint32_t, 3>& triangle, bool down) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t from = triangle[k], to = triangle[(k + 1) % 3];
       const Vec3 along = corner(triangle, k + 1) - corner(triangle, k);
-      if (along.z() < 0) is_lower_beside_[from] = true;
-      if (along.z() > 0) is_lower_beside_[to] = true;
+      if (along.z() < 0) has_lower_neighbour_[from] = true;
+      if (along.z() > 0) has_lower_neighbour_[to] = true;
       if (down) is_under_[from] = true;
       if (is_flat_line(along, steepness_) && rises_from(along, corner(triangle, k + 2) - corner(triangle, k)))
         sides_.push_back({std::min(from, to), std::max(from, to), down});
@@ -126,32 +131,35 @@ class DownwardFaceFinder {
 
   void add_lowest_points() {
     for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
-      if (is_under_[v] && !is_lower_beside_[v]) add(mesh_.vertices[v], mesh_.vertices[v]);
+      if (is_under_[v] && !has_lower_neighbour_[v]) add(mesh_.vertices[v], mesh_.vertices[v]);
     }
   }
 
   // Adds a feature to each layer whose height range it reaches.
   void add(const Vec3& low, const Vec3& high) {
-    const auto first = std::lower_bound(heights_.begin(), heights_.end(), low.z() - k_grain_of_plan) - heights_.begin();
+    const auto first =
+        std::lower_bound(heights_.begin(), heights_.end(), low.z() - k_rounding_margin) - heights_.begin();
     for (auto k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(first, 1));
-         k < heights_.size() && heights_[k - 1] <= high.z() + k_grain_of_plan; ++k)
+         k < heights_.size() && heights_[k - 1] <= high.z() + k_rounding_margin; ++k)
       places_[k].add(low.head<2>(), high.head<2>());
   }
 
   const TriangleMesh& mesh_;
   const std::vector<double>& heights_;
-  double steepness_, narrow_ = 0;
+  double steepness_;
+  double narrow_ = 0;  ///< height of a facet above its longest side, up to which it is a sliver
   std::vector<PlacesInPlan> places_;
   std::vector<std::array<std::uint32_t, 3>> slivers_;  ///< slivers that face down and are flat
   std::vector<RisingSide> sides_;
-  std::vector<bool> is_lower_beside_, is_under_;  // for each vertex
+  // For each vertex: whether a neighbour lies lower, and whether a facet at it looks down.
+  std::vector<bool> has_lower_neighbour_, is_under_;
 };
 
 }  // namespace
 
 PlacesInPlan::PlacesInPlan(const Bounds& part, double reach) : low_(part.low.head<2>()), reach_(reach) {
   const Vec2 size = (part.high - part.low).head<2>();
-  per_cell_ = k_cells * size.cwiseMax(k_grain_of_plan).cwiseInverse();
+  per_cell_ = k_cells * size.cwiseMax(k_rounding_margin).cwiseInverse();
 }
 
 int PlacesInPlan::cell(double at, int axis) const {
@@ -181,7 +189,7 @@ bool PlacesInPlan::may_meet(const Vec2& from, const Vec2& to) const {
 
 std::vector<PlacesInPlan> flat_downward_faces(const TriangleMesh& welded, const std::vector<double>& heights,
                                               double steepness) {
-  return DownwardFaceFinder(welded, heights, steepness).found();
+  return DownwardFaceFinder(welded, heights, steepness).places();
 }
 
 }  // namespace fusee::solid

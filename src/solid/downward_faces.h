@@ -11,13 +11,14 @@
 
 namespace fusee::solid {
 
-/// Places in plan on a grid of cells over the part. A negative answer is certain, a positive one is not.
+/// A set of places in plan, on a grid of cells over the part. "May meet" can be wrong, "does not meet" cannot.
 class PlacesInPlan {
  public:
   PlacesInPlan(const Bounds& part, double reach);
   /// Adds all places within `reach` of the box.
   void add(const Vec2& low, const Vec2& high);
   bool none() const { return none_; }
+  /// False if the line certainly meets no place.
   bool may_meet(const Vec2& from, const Vec2& to) const;
 
  private:

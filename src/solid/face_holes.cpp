@@ -11,8 +11,8 @@ constexpr double k_lap_ratio = 1.6;
 constexpr double k_least_ground = 0.5;
 // Clearance of the slot's round end from the floor, so that no face of it coincides with the groove's.
 constexpr double k_off_floor = 0.03;
-// The slot ends this far outside the rim, and outside its round end if that is wider than the flange is deep. Otherwise
-// it would be inverted.
+// The slot ends this far outside the rim. If its round end lies beyond the rim already, it ends this far outside the
+// centre of that end, because a slot of negative length would be inverted.
 constexpr double k_beyond_rim = 0.5;
 
 class FaceHoleSearch {
@@ -34,16 +34,16 @@ class FaceHoleSearch {
   std::optional<FaceHole> at(double lap) const {
     const Station station = site_.ground.arc(wound_end_).at(lap);
     const double above_pitch = k_off_floor + radius_ - 0.5 * site_.tendon_diameter;
-    FaceHole hole{station.position,
-                  station.normal,
-                  station.position + above_pitch * station.normal,
-                  radius_,
-                  radius_,
-                  station.lap,
-                  station.wrap,
-                  0};
+    FaceHole hole{.start = station.position,
+                  .normal = station.normal,
+                  .hole = station.position + above_pitch * station.normal,
+                  .hole_radius = radius_,
+                  .room = radius_,
+                  .lap = station.lap,
+                  .wrap = station.wrap};
     hole.length = k_beyond_rim + std::max(0.0, support_of(*site_.rim, hole.normal) - hole.hole.dot(hole.normal));
     if (!is_free(hole.bars(layout_.channel_width).front())) return std::nullopt;
+    // The largest countersink that fits; without one, the slot alone.
     for (const double share : {1.0, 0.75, 0.5, 0.25}) {
       FaceHole sunk = hole;
       sunk.room = radius_ + share * std::max(0.0, wanted_ - radius_);

@@ -35,7 +35,8 @@ std::vector<Slice> slices(const TriangleMesh& mesh, double low, double high, int
   return all;
 }
 
-/// The narrowest slice of each valley, by index. In a valley the radius falls and rises by at least this fraction.
+/// Index of the narrowest slice of each valley. In a valley the radius falls and rises by at least the fraction
+/// `least_depth`.
 std::vector<std::size_t> valleys_of(const std::vector<Slice>& all, double least_depth) {
   std::vector<std::size_t> found;
   bool is_down = false;
@@ -58,7 +59,8 @@ std::vector<std::size_t> valleys_of(const std::vector<Slice>& all, double least_
   return found;
 }
 
-/// Bisects the end of a floor between a place on it and `outside`, where the part is thicker.
+/// The height at which a floor ends, by bisection between `inside`, a height on it, and `outside`, where the radius
+/// exceeds `most`.
 double floor_end(const TriangleMesh& mesh, double inside, double outside, double most) {
   for (int i = 0; i < k_bisections; ++i) {
     const double middle = 0.5 * (inside + outside);

@@ -14,16 +14,16 @@
 namespace fusee::solid {
 namespace {
 
-// Remainder of the groove edge after the chamfer at the bed, outwards and upwards.
-constexpr double k_groove_edge_left = 0.2;
+// Size of the groove edge that the chamfer at the bed must leave, outwards and upwards.
+constexpr double k_least_groove_edge = 0.2;
 
 // Flange thickness above a channel's ceiling.
 constexpr double k_over_channel = 0.3;
 
 // The chamfer is a printing aid, limited by the size of the flange's edge.
 void choose_elephant_foot(BodyLayout& layout, double wanted) {
-  const double outward = layout.groove_depth - k_groove_edge_left;
-  const double upward = (layout.flange_thickness - k_groove_edge_left) / rise_of(layout, 1.0);
+  const double outward = layout.groove_depth - k_least_groove_edge;
+  const double upward = (layout.flange_thickness - k_least_groove_edge) / rise_of(layout, 1.0);
   layout.elephant_foot = std::clamp(std::min(outward, upward), 0.0, wanted);
   if (layout.elephant_foot < wanted) {
     layout.notes.push_back(
@@ -32,15 +32,15 @@ void choose_elephant_foot(BodyLayout& layout, double wanted) {
   }
 }
 
-// If P1 is printed separately, it is turned over.
+// The half of a groove that is above during printing needs the slope of a ceiling. P1 alone is printed upside down.
 void choose_walls(BodyLayout& layout, const Mechanism& mechanism) {
   const double lean = 0.5 * mechanism.body.groove_angle;
   const auto half = [&](double angle) {
     return groove_half(mechanism.body, angle, mechanism.tendon.diameter, layout.groove_depth);
   };
-  const std::vector<GroovePoint> ground = half(lean), ceiling = half(std::max(lean, layout.ceiling_slope));
-  layout.p2 = {ground, ceiling};
-  layout.p1 = layout.parts == Parts::two ? GrooveWalls{ceiling, ground} : GrooveWalls{ground, ceiling};
+  const std::vector<GroovePoint> lower = half(lean), ceiling = half(std::max(lean, layout.ceiling_slope));
+  layout.p2 = {lower, ceiling};
+  layout.p1 = layout.parts == Parts::two ? GrooveWalls{ceiling, lower} : GrooveWalls{lower, ceiling};
 }
 
 void choose_cones(BodyLayout& layout, const FlangeRims& rims) {
@@ -70,10 +70,10 @@ void stack_up(BodyLayout& layout) {
   layout.z_hub = layout.z_top;
 }
 
-// Engraving leaves two layers of a flange, or half of a thin one. Deeper marks would open the groove and not print.
+// Engraving leaves at least two layers of a flange, or half of a thin one. Deeper marks would open into the groove.
 void choose_mark_depth(BodyLayout& layout, const Body& body) {
-  constexpr double k_ground = 0.4;  // mm
-  const double most = std::max(0.5 * layout.flange_thickness, layout.flange_thickness - k_ground);
+  constexpr double k_least_rest = 0.4;  // mm
+  const double most = std::max(0.5 * layout.flange_thickness, layout.flange_thickness - k_least_rest);
   layout.mark_depth = std::min(body.mark_depth, most);
   if (layout.mark_depth == body.mark_depth || body.marks == Marks::none) return;
   layout.notes.push_back(
@@ -109,14 +109,14 @@ BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Part
   return layout;
 }
 
-void ceiling_pockets(BodyLayout& layout) {
+void add_pocket_ceiling(BodyLayout& layout) {
   if (layout.parts == Parts::two || layout.ceiling_slope <= 0) return;
   layout.pocket_ceiling = rise_of(layout, 2.0 * layout.pocket_radius);
   thicken_middle(layout,
                  layout.z_p1 + 0.5 * layout.channel_width + layout.pocket_ceiling + layout.min_wall - layout.z_mate);
 }
 
-void ceiling_recess(BodyLayout& layout) {
+void add_recess_ceiling(BodyLayout& layout) {
   BoreLayout& bore = layout.bore;
   if (layout.ceiling_slope <= 0 || bore.horn_recess <= 0) return;
   bore.horn_ceiling = rise_of(layout, recess_cone(bore).travel);

@@ -17,8 +17,8 @@ BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Part
 
 /// Adds the ceiling over P1's knot pockets, which open on the bed of a part in one piece. Thickens the middle flange
 /// for it.
-void ceiling_pockets(BodyLayout& layout);
+void add_pocket_ceiling(BodyLayout& layout);
 /// Adds the cone over a horn's recess.
-void ceiling_recess(BodyLayout& layout);
+void add_recess_ceiling(BodyLayout& layout);
 
 }  // namespace fusee::solid

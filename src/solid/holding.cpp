@@ -33,7 +33,8 @@ std::vector<double> turns_to_end(const std::vector<transmission::TransmissionPoi
   return turns;
 }
 
-void raise(StrokeLoads& loads, std::size_t i, const joint::EquilibriumPoint& point) {
+// Raises the tensions at place i of the stroke to those of an equilibrium, if they are larger.
+void raise_tensions(StrokeLoads& loads, std::size_t i, const joint::EquilibriumPoint& point) {
   if (point.status == joint::EquilibriumStatus::no_equilibrium) return;
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     double& tension = loads[index_of(side)][i].tension;
@@ -52,7 +53,7 @@ bool all_hold(const Holding& holding) {
                      [&holding](const KnotHold& knot) { return holding.share(knot).value_or(0) <= k_safe_knot_share; });
 }
 
-// Empty if no such body can be made.
+// The knots' loads on the planned tie-offs of a mechanism. Empty if its body cannot be made.
 std::optional<Holding> with_planned_tie_offs(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
                                              const StrokeLoads& loads) {
   const BodyPlan plan = plan_body(mechanism, synthesis);
@@ -69,34 +70,36 @@ std::optional<Holding> with_planned_tie_offs(const Mechanism& mechanism, const p
 // Single changes, each tried, with which every knot is safe.
 std::vector<std::string> helpful_changes(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
                                          const StrokeLoads& loads, const Holding& holding) {
-  std::vector<std::string> helps;
-  for (double wrap = 30; wrap <= 330; wrap += 15) {
+  std::vector<std::string> changes;
+  for (double wrap = 30; wrap <= 330; wrap += 15) {  // deg
     Mechanism changed = mechanism;
     changed.body.wrap = radians(wrap);
     const auto better = with_planned_tie_offs(changed, synthesis, loads);
     if (!better || !all_hold(*better)) continue;
-    helps.push_back(fmt::format("body.wrap_deg = {}", rounded(wrap)));
+    changes.push_back(fmt::format("body.wrap_deg = {}", rounded(wrap)));
     break;
   }
   // A larger radius turns less over the stroke and leaves more of the pulley for wrap.
   for (const double factor : {1.1, 1.2, 1.35, 1.5}) {
     if (mechanism.pulley.law != Law::compensate) break;
     Mechanism changed = mechanism;
+    // Rounded up to a tenth of a mm.
     changed.pulley.r1 = std::ceil(10.0 * factor * mechanism.pulley.r1) / 10.0;
     const profile::SynthesisResult other = profile::synthesise(changed, {.advice = false});
     if (!other.made()) continue;
     const std::vector<analysis::StrokePoint> loaded = analysis::settled_stroke(changed, alphas_of(other.stroke));
     const auto better = with_planned_tie_offs(changed, other, stroke_loads(changed, other.stroke, loaded));
     if (!better || !all_hold(*better)) continue;
-    helps.push_back(fmt::format("pulley.r1_mm = {}", rounded(changed.pulley.r1)));
+    changes.push_back(fmt::format("pulley.r1_mm = {}", rounded(changed.pulley.r1)));
     break;
   }
   // The forces do not depend on the tendon's strength, so the required strength follows directly.
   double needed = 0;
   for (const KnotHold& knot : holding.knots)
     needed = std::max(needed, knot.at_knot / (k_safe_knot_share * mechanism.tendon.knot_efficiency));
-  helps.push_back(fmt::format("a tendon with a strength of {} N (tendon.strength_N)", std::ceil(0.1 * needed) * 10.0));
-  return helps;
+  const double rounded_up = std::ceil(0.1 * needed) * 10.0;
+  changes.push_back(fmt::format("a tendon with a strength of {} N (tendon.strength_N)", rounded_up));
+  return changes;
 }
 
 std::string joined_by_or(const std::vector<std::string>& parts) {
@@ -106,14 +109,14 @@ std::string joined_by_or(const std::vector<std::string>& parts) {
   return text;
 }
 
-std::string warning_of(const KnotHold& knot, const Holding& holding, const std::vector<std::string>& helps) {
+std::string warning_of(const KnotHold& knot, const Holding& holding, const std::vector<std::string>& changes) {
   const analysis::Strength& strength = *holding.strength;
   return fmt::format(
       "the knot of tendon {} on {} carries up to {} N, at alpha = {} deg: {:.0f} % of the {} N at which it breaks "
       "there ({} x tendon.knot_efficiency). At most half is safe. Try {}",
       knot.side == transmission::Side::left ? 1 : 2, transmission::pulley_name(knot.side), rounded(knot.at_knot, 3),
       fixed(degrees(knot.alpha), 1), 100.0 * *holding.share(knot), rounded(strength.at_knot), strength.source,
-      joined_by_or(helps));
+      joined_by_or(changes));
 }
 
 }  // namespace
@@ -133,8 +136,8 @@ StrokeLoads stroke_loads(const Mechanism& mechanism, const std::vector<transmiss
   const std::vector<analysis::StrokePoint> free = analysis::settled_stroke(unloaded, alphas);
   for (const std::vector<analysis::StrokePoint>* points : {&loaded, &free}) {
     for (std::size_t i = 0; i < alphas.size(); ++i) {
-      raise(loads, i, (*points)[i].rising);
-      raise(loads, i, (*points)[i].falling);
+      raise_tensions(loads, i, (*points)[i].rising);
+      raise_tensions(loads, i, (*points)[i].falling);
     }
   }
   return loads;
@@ -142,14 +145,14 @@ StrokeLoads stroke_loads(const Mechanism& mechanism, const std::vector<transmiss
 
 // A wrapped tendon sustains any tension between T e^(−μφ) and T e^(μφ) and slides beyond these bounds. The knot's
 // tension increases only when T e^(−μφ) exceeds all previous values, so it ends at the stroke's largest T e^(−μφ).
-KnotHold worst_knot(transmission::Side side, const StrokeLoads& loads, double mu, double lap) {
-  KnotHold most{side, 0, 0, 0, -1};
+KnotHold worst_knot(transmission::Side side, const StrokeLoads& loads, double mu, double wrap_past_arc) {
+  KnotHold worst{side, 0, 0, 0, -1};
   for (const TakeOffLoad& load : loads[index_of(side)]) {
-    const double wrap = lap + load.turn;
+    const double wrap = wrap_past_arc + load.turn;
     const double at_knot = load.tension * elementary::exp(-mu * wrap);
-    if (at_knot > most.at_knot) most = {side, load.alpha, wrap, load.tension, at_knot};
+    if (at_knot > worst.at_knot) worst = {side, load.alpha, wrap, load.tension, at_knot};
   }
-  return most;
+  return worst;
 }
 
 KnotLoads::KnotLoads(const Mechanism& mechanism, const profile::SynthesisResult& synthesis) : mu_(mechanism.pulley.mu) {
@@ -158,7 +161,7 @@ KnotLoads::KnotLoads(const Mechanism& mechanism, const profile::SynthesisResult&
   loads_ = stroke_loads(mechanism, synthesis.stroke, analysis::settled_stroke(mechanism, alphas_of(synthesis.stroke)));
 }
 
-int KnotLoads::unsafe(const std::vector<PlannedAnchor>& anchors) const {
+int KnotLoads::count_unsafe(const std::vector<PlannedAnchor>& anchors) const {
   if (!holding_.strength) return 0;
   return static_cast<int>(std::count_if(anchors.begin(), anchors.end(), [this](const PlannedAnchor& anchor) {
     return anchor.wound_end &&
@@ -179,13 +182,13 @@ Holding tendon_holding(const Mechanism& mechanism, const profile::SynthesisResul
   for (const Anchor& anchor : pulley.anchors) {
     if (!anchor.wound_end) continue;
     const profile::Outline& outline = anchor.side == transmission::Side::left ? synthesis.p1 : synthesis.p2;
-    const double lap = wound_arc(outline, outline.anchor_end(), index_at_place(outline, anchor.exit)).turn;
-    holding.knots.push_back(worst_knot(anchor.side, loads, mechanism.pulley.mu, lap));
+    const double wrap = wound_arc(outline, outline.anchor_end(), index_at_place(outline, anchor.exit)).turn;
+    holding.knots.push_back(worst_knot(anchor.side, loads, mechanism.pulley.mu, wrap));
   }
   if (all_hold(holding)) return holding;
-  const std::vector<std::string> helps = helpful_changes(mechanism, synthesis, loads, holding);
+  const std::vector<std::string> changes = helpful_changes(mechanism, synthesis, loads, holding);
   for (const KnotHold& knot : holding.knots) {
-    if (*holding.share(knot) > k_safe_knot_share) holding.warnings.push_back(warning_of(knot, holding, helps));
+    if (*holding.share(knot) > k_safe_knot_share) holding.warnings.push_back(warning_of(knot, holding, changes));
   }
   return holding;
 }

@@ -23,9 +23,10 @@ constexpr std::array k_automatic_screws{"M3", "M2.5", "M2"};
 // Wall that carries the torque of a shaft in a hub without a set screw.
 constexpr double k_torque_wall = 2.0;
 
-class HubSizes {
+// All hubs that fit, for a layout whose height includes the hub's.
+class HubSearch {
  public:
-  HubSizes(const BodyLayout& layout, const Mechanism& mechanism, double rim_radius)
+  HubSearch(const BodyLayout& layout, const Mechanism& mechanism, double rim_radius)
       : with_height_(layout), mechanism_(mechanism), body_(mechanism.body), limit_(rim_radius - k_hub_margin) {
     with_height_.z_hub = layout.z_top + body_.hub_height;
   }
@@ -34,15 +35,16 @@ class HubSizes {
     std::vector<HubChoice> choices;
     if (body_.hub_height > 0) {
       if (wants_set_screw(body_)) add_with_screws(choices);
-      add_plain(choices);
+      add_without_screw(choices);
     }
-    if (choices.empty() || may_be_left_out()) choices.emplace_back();
+    if (choices.empty() || may_be_omitted()) choices.emplace_back();
     return choices;
   }
 
  private:
   bool is_automatic_screw() const { return body_.set_screw == "auto"; }
-  bool may_be_left_out() const { return body_.hub_diameter <= 0 && (is_automatic_screw() || !wants_set_screw(body_)); }
+  // A hub may be omitted if the file requests neither its diameter nor its screw.
+  bool may_be_omitted() const { return body_.hub_diameter <= 0 && (is_automatic_screw() || !wants_set_screw(body_)); }
 
   // A screw wider than the shaft would bear on its edges. The smallest one is always tried.
   bool suits_shaft(const Screw& screw) const {
@@ -80,7 +82,7 @@ class HubSizes {
     if ((fits || is_kept) && !is_covered) choices.push_back({radius, candidate});
   }
 
-  void add_plain(std::vector<HubChoice>& choices) const {
+  void add_without_screw(std::vector<HubChoice>& choices) const {
     if (body_.hub_diameter > 0) {
       choices.push_back({0.5 * body_.hub_diameter, {}});
     } else if (const double radius = least_hub_radius(with_height_); radius <= limit_ && body_.bore != Bore::horn) {
@@ -91,9 +93,10 @@ class HubSizes {
   BodyLayout with_height_;
   const Mechanism& mechanism_;
   const Body& body_;
-  double limit_;
+  double limit_;  ///< largest radius of a hub on the upper flange
 };
 
+// To tenths, as messages print it.
 double rounded_up(double value) { return 0.1 * std::ceil(value / 0.1 - 1e-9); }
 
 void check_hub(ConditionList& list, const BodyLayout& layout, double rim_radius) {
@@ -159,7 +162,7 @@ double least_hub_radius(const BodyLayout& layout) {
 }
 
 std::vector<HubChoice> hub_choices(const BodyLayout& layout, const Mechanism& mechanism, double rim_radius) {
-  return HubSizes(layout, mechanism, rim_radius).all();
+  return HubSearch(layout, mechanism, rim_radius).all();
 }
 
 void set_hub(BodyLayout& layout, const Mechanism& mechanism, const HubChoice& choice) {
@@ -198,7 +201,7 @@ std::vector<profile::Condition> hub_conditions(const Mechanism& mechanism, const
   ConditionList list;
   check_hub(list, layout, rim_radius);
   check_set_screw(list, mechanism, layout);
-  return list.taken();
+  return list.release();
 }
 
 }  // namespace fusee::solid

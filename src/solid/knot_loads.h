@@ -26,16 +26,16 @@ using StrokeLoads = std::array<std::vector<TakeOffLoad>, 2>;  ///< for P1 and P2
 StrokeLoads stroke_loads(const Mechanism& mechanism, const std::vector<transmission::TransmissionPoint>& stroke,
                          const std::vector<analysis::StrokePoint>& loaded);
 
-/// The knot at its largest load, with `lap` rad of wrap past the active arc.
-KnotHold worst_knot(transmission::Side side, const StrokeLoads& loads, double mu, double lap);
+/// The knot at its largest load. `wrap_past_arc`: wrap between the end of the active arc and the tie-off, rad.
+KnotHold worst_knot(transmission::Side side, const StrokeLoads& loads, double mu, double wrap_past_arc);
 
-/// Compares planned tie-offs. Computes the loads only if the tendon's strength is known.
+/// Loads of the knots on planned tie-offs. Computed only if the tendon's strength is known.
 class KnotLoads {
  public:
   KnotLoads(const Mechanism& mechanism, const profile::SynthesisResult& synthesis);
 
   /// Number of knots that carry more than the safe fraction of their strength; 0 if it is unknown.
-  int unsafe(const std::vector<PlannedAnchor>& anchors) const;
+  int count_unsafe(const std::vector<PlannedAnchor>& anchors) const;
 
  private:
   double mu_;

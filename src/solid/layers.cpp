@@ -17,16 +17,17 @@
 namespace fusee::solid {
 namespace {
 
+// Height of a layer, mm.
 constexpr double k_layer = 0.2;
 // PrusaSlicer 2.5 treats "below 45°" as "below 46°" (measured on cones and wedges). The margin is slightly larger, so
 // that rounding has no effect.
-constexpr double k_threshold = radians(1.3);
+constexpr double k_threshold_margin = radians(1.3);
 // Sampling step along outlines.
 constexpr double k_stride = 0.02;
 // Much larger than the rounding of distances, much smaller than any feature.
 constexpr double k_grain = 1e-9;
-// Number of lines of the layer below, starting at the last match, that are searched for a neighbour.
-constexpr std::size_t k_followed = 5;
+// Number of segments of the layer below, starting at the last match, that are searched for the one beside a line.
+constexpr std::size_t k_searched_segments = 5;
 
 bool is_inside_of(const std::vector<Polygon>& loops, const Vec2& point) {
   return std::count_if(loops.begin(), loops.end(), [&point](const Polygon& loop) { return is_inside(loop, point); }) %
@@ -63,7 +64,8 @@ class WidenedLayer {
   bool stays_within(const Vec2& from, const Vec2& to) const { return nearest_.is_clear(from, to); }
 
  private:
-  // The solid lies on the left of its outlines.
+  // True if the point lies within the squared corner of a convex corner of the outline. The solid lies on the left of
+  // its outlines.
   bool at_squared_corner(const Vec2& point) const {
     for (const Polygon& loop : loops_) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -87,14 +89,17 @@ class WidenedLayer {
   Corners corners_;
 };
 
-// Walks a loop in steps of k_stride over the layer below. It skips lines that are certainly supported: lines without a
-// flat downward feature between the two layers, lines within the layer below, and lines beside its outline (in a wall
-// the lines of two layers follow each other). It also skips the neighbourhood of a point that is supported all round.
+// Walks along the lines of a loop, in steps of k_stride, over the layer below. Skips what is certainly supported:
+//   - a line without a flat downward feature between the two layers
+//   - a line within the layer below
+//   - a line beside the outline of the layer below (in a wall the lines of two layers follow each other)
+//   - the neighbourhood of a point that is supported all round
 class LayerWalk {
  public:
   LayerWalk(const WidenedLayer& below, const PlacesInPlan& downward_faces)
       : below_(below), downward_faces_(downward_faces) {}
 
+  // The unsupported point that is furthest from the layer below. Empty if the whole loop is supported.
   std::optional<Vec2> furthest_out(const Polygon& loop) {
     for (std::size_t i = 0; i < loop.size(); ++i) pass_along(loop[i], loop[(i + 1) % loop.size()]);
     return furthest_;
@@ -114,38 +119,38 @@ class LayerWalk {
 
   void step_along(const Vec2& from, const Vec2& to, double length) {
     const int steps = static_cast<int>(std::ceil(length / k_stride));
-    double at = 0;
+    double tested = 0;  // position of the last point that was tested
     for (int k = 0; k < steps; ++k) {
-      const double next = length * k / steps;
-      if (next - at < supported_ahead_) continue;
+      const double position = length * k / steps;
+      if (position - tested < supported_ahead_) continue;
       const Vec2 point = from + (to - from) * k / steps;
-      at = next;
+      tested = position;
       supported_ahead_ = supported_ahead(point);
       within_ = within_ && below_.stays_within(point, to);
       if (within_) break;
     }
-    supported_ahead_ = std::max(0.0, supported_ahead_ - (length - at));
+    supported_ahead_ = std::max(0.0, supported_ahead_ - (length - tested));
   }
 
-  // Distance ahead within which everything is supported.
+  // Tests a point. Returns the distance ahead within which everything is supported.
   double supported_ahead(const Vec2& point) {
-    const WidenedLayer::Support hold = below_.support_of(point);
-    beside_ = hold.segment;
-    within_ = hold.inside;
-    if (!hold.holds && hold.distance > most_) {
-      most_ = hold.distance;
+    const WidenedLayer::Support support = below_.support_of(point);
+    beside_ = support.segment;
+    within_ = support.inside;
+    if (!support.holds && support.distance > furthest_distance_) {
+      furthest_distance_ = support.distance;
       furthest_ = point;
     }
-    return hold.holds ? std::max(0.0, hold.round - k_grain) : 0.0;
+    return support.holds ? std::max(0.0, support.round - k_grain) : 0.0;
   }
 
-  // Distance to a segment is convex: if both ends of a piece of the line are close to it, the whole piece is. Beyond
-  // the segment's end the next segment is used.
+  // True if the line runs close beside the outline of the layer below. The distance to a segment is convex: if both
+  // ends of a piece of the line are close to it, the whole piece is. Beyond the segment's end the next segment is used.
   bool follows(const Vec2& from, const Vec2& to) {
     Vec2 here = from;
     std::size_t s = beside_;
     const auto& segments = below_.segments();
-    for (const std::size_t last = s + k_followed; s < std::min(last, segments.size()); ++s) {
+    for (const std::size_t last = s + k_searched_segments; s < std::min(last, segments.size()); ++s) {
       if (!below_.is_near(here, s)) continue;
       if (below_.is_near(to, s)) {
         beside_ = s;
@@ -165,10 +170,10 @@ class LayerWalk {
   double supported_ahead_ = 0;  ///< distance ahead within which everything is supported
   bool within_ = false;         ///< the current place is certainly inside the layer below
   std::optional<Vec2> furthest_;
-  double most_ = 0;
+  double furthest_distance_ = 0;
 };
 
-// Layers that may overhang the one below, and those below them.
+// Marks layers that may overhang the one below, and those below them.
 std::vector<bool> relevant_layers(const std::vector<PlacesInPlan>& downward_faces) {
   std::vector<bool> wanted(downward_faces.size(), false);
   for (std::size_t k = 1; k < downward_faces.size(); ++k) {
@@ -195,9 +200,10 @@ std::vector<Triangles> triangles_by_layer(const TriangleMesh& mesh, const std::v
 }  // namespace
 
 std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang, Corners corners) {
-  const double steepness = elementary::tan(overhang + k_threshold), reach = k_layer / steepness;
+  const double steepness = elementary::tan(overhang + k_threshold_margin), reach = k_layer / steepness;
   const Bounds box = bounds(lying);
-  // Overhangs over the first layer sink onto the bed. PrusaSlicer puts no support that low.
+  // The middles of the layers from the second on. Overhangs over the first sink onto the bed, and PrusaSlicer puts no
+  // support that low.
   std::vector<double> heights{box.low.z() + 1.5 * k_layer};
   for (double z = box.low.z() + 2.5 * k_layer; z < box.high.z(); z += k_layer) heights.push_back(z);
   const TriangleMesh welded = weld(lying);

@@ -11,9 +11,10 @@ namespace {
 
 // Clearance to every edge of the face.
 constexpr double k_margin = 0.5;
-// Stroke widths of letters are those that a nozzle prints well.
+// Heights of letters. A stroke is a fifth as wide, 0.5 mm to 0.8 mm, which a nozzle prints well.
 constexpr double k_letter_height = 4.0;
 constexpr double k_smallest_letter = 2.5;
+// Size of the home mark.
 constexpr double k_home_half_width = 0.8;
 constexpr double k_home_length = 2.0;
 
@@ -29,7 +30,8 @@ std::vector<std::vector<Polygon>> glyph(char letter) {
   }
 }
 
-// "P1" or "P2" about `centre`, as read when looking at the face.
+// "P1" or "P2" about `centre`, as read when looking at the face. Both letters and the gap between them are 7 grid units
+// wide.
 std::vector<Mark> label(char digit, const Vec2& centre, double height, bool on_top) {
   const double unit_length = height / 5.0;
   std::vector<Mark> marks;
@@ -82,7 +84,7 @@ class Face {
     return std::all_of(bars_.begin(), bars_.end(), [&bar](const Bar& other) { return gap(bar, other) >= k_margin; });
   }
 
-  // Distance of the rim from the axis towards +y.
+  // Distance from the axis towards +y at which the face ends, by bisection.
   double reach_up() const {
     double low = 0, high = 1e4;
     for (int k = 0; k < 50; ++k) {
@@ -97,7 +99,7 @@ class Face {
  private:
   ConvexSides rim_;
   bool on_top_;
-  double edge_ = 0;
+  double edge_ = 0;  ///< width of the chamfer at the rim
   std::vector<Bar> bars_;
 };
 

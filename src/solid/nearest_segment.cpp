@@ -13,8 +13,9 @@ bool on_one_side(const Vec2& from, const Vec2& to, const Vec2& a, const Vec2& b)
   constexpr double k_relative_margin = 1e-12;
   const Vec2 along = to - from, to_a = a - from, to_b = b - from;
   const double size = along.cwiseAbs().maxCoeff() * std::max(to_a.cwiseAbs().maxCoeff(), to_b.cwiseAbs().maxCoeff());
-  const double of_a = cross(along, to_a), of_b = cross(along, to_b);
-  return std::min(of_a, of_b) > k_relative_margin * size || std::max(of_a, of_b) < -k_relative_margin * size;
+  const double side_of_a = cross(along, to_a), side_of_b = cross(along, to_b);
+  return std::min(side_of_a, side_of_b) > k_relative_margin * size ||
+         std::max(side_of_a, side_of_b) < -k_relative_margin * size;
 }
 
 }  // namespace
@@ -24,7 +25,7 @@ void NearestSegment::for_cells_of(const std::pair<Vec2, Vec2>& segment, const Vi
   const auto& [a, b] = segment;
   const Cell from = cell_of(a.cwiseMin(b)), to = cell_of(a.cwiseMax(b));
   for (long row = from.row; row <= to.row; ++row) {
-    for (long column = from.column; column <= to.column; ++column) visit(place_of(column, row));
+    for (long column = from.column; column <= to.column; ++column) visit(index_of(column, row));
   }
 }
 
@@ -62,7 +63,7 @@ NearestSegment::Cell NearestSegment::cell_of(const Vec2& point) const {
 
 void NearestSegment::search_cell(Nearest& nearest, long column, long row, const Vec2& point) const {
   if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return;
-  const std::size_t cell = place_of(column, row);
+  const std::size_t cell = index_of(column, row);
   for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k) {
     const std::uint32_t s = cells_[k];
     const double distance = distance_to_segment(point, segments_[s].first, segments_[s].second);
@@ -96,7 +97,7 @@ bool NearestSegment::is_clear(const Vec2& from, const Vec2& to) const {
   const Cell low = cell_of(from.cwiseMin(to) - margin), high = cell_of(from.cwiseMax(to) + margin);
   for (long row = low.row; row <= high.row; ++row) {
     for (long column = low.column; column <= high.column; ++column) {
-      const std::size_t cell = place_of(column, row);
+      const std::size_t cell = index_of(column, row);
       for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k) {
         const auto& [a, b] = segments_[cells_[k]];
         if (!on_one_side(from, to, a, b) && !on_one_side(a, b, from, to)) return false;

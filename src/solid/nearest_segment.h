@@ -14,7 +14,7 @@ class NearestSegment {
  public:
   struct Nearest {
     double distance;
-    std::size_t segment;  ///< its place in segments(); 0 without any
+    std::size_t segment;  ///< its index in segments(); 0 without any
   };
 
   explicit NearestSegment(const std::vector<Polygon>& loops);
@@ -31,16 +31,16 @@ class NearestSegment {
     long column, row;
   };
   Cell cell_of(const Vec2& point) const;
-  std::size_t place_of(long column, long row) const { return static_cast<std::size_t>(row * columns_ + column); }
+  std::size_t index_of(long column, long row) const { return static_cast<std::size_t>(row * columns_ + column); }
   template <typename Visit>
   void for_cells_of(const std::pair<Vec2, Vec2>& segment, const Visit& visit) const;
   void search_cell(Nearest& nearest, long column, long row, const Vec2& point) const;
 
   std::vector<std::pair<Vec2, Vec2>> segments_;
   Vec2 low_ = Vec2::Zero();
-  double side_ = 1;
+  double side_ = 1;  // of a cell
   long columns_ = 1, rows_ = 1;
-  // Contents of cell k: cells_[first_[k]] up to cells_[first_[k + 1]].
+  // Segments in cell k: cells_[first_[k]] up to, not including, cells_[first_[k + 1]].
   std::vector<std::uint32_t> first_, cells_;
 };
 

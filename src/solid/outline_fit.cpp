@@ -12,18 +12,21 @@
 namespace fusee::solid {
 namespace {
 
-// Every half degree. A facet of our outlines turns by one to three degrees.
+// Number of directions in which outlines are compared: every half degree. A facet of a pulley's outline turns by one to
+// three degrees.
 constexpr int k_directions = 720;
 constexpr int k_coarse_directions = 180;
-// A descent from within 2° of the correct turn finds it: outlines of pulleys have no finer features.
+// Number of turns tried. A descent from within 2° of the correct turn finds it, because outlines of pulleys have no
+// finer features.
 constexpr int k_coarse_turns = 180;
 constexpr std::size_t k_descents = 6;
 constexpr int k_most_steps = 40;
-// Three times the sagitta of our facets. Outlines that no turn changes by more are round.
-constexpr double k_facets = 0.03;
+// Outlines are round if every turn fits with a smaller rms distance, mm. Three times the sagitta of a pulley's facets.
+constexpr double k_round_rms = 0.03;
 // Fraction of the directions that count as undisturbed.
 constexpr double k_kept_share = 0.75;
-// Cut-off of Tukey's weights in medians of the distances; at least the resolution of floats, 0.1 µm.
+// Distance at which Tukey's weights become 0, in medians of the distances, and its least value: the resolution of
+// floats, 0.1 µm.
 constexpr double k_medians_kept = 6.0;
 constexpr double k_least_kept = 1e-4;
 
@@ -96,6 +99,7 @@ std::vector<double> sorted_sizes(const Eigen::VectorXd& gaps) {
   return sizes;
 }
 
+// The rms distance without the worst directions.
 double kept_rms(const Eigen::VectorXd& gaps) {
   std::vector<double> sizes = sorted_sizes(gaps);
   sizes.resize(static_cast<std::size_t>(k_kept_share * static_cast<double>(sizes.size())));
@@ -103,6 +107,7 @@ double kept_rms(const Eigen::VectorXd& gaps) {
   return std::sqrt(squares / static_cast<double>(sizes.size()));
 }
 
+// Tukey's biweight, which is 0 from the distance `end` on.
 double tukey_weight(double gap, double end) {
   const double share = gap / end;
   return std::abs(share) < 1 ? (1 - share * share) * (1 - share * share) : 0.0;
@@ -124,13 +129,14 @@ Eigen::Vector3d shift_step_of(const Gaps& gaps, const Eigen::VectorXd& weights) 
   return {0.0, step.x(), step.y()};
 }
 
-PlaneMotion descended(const std::vector<SupportPair>& pairs, PlaneMotion motion, bool turns) {
+/// The best motion near `motion`, by Gauss-Newton steps with Tukey's weights. Without `may_turn` it keeps its turn.
+PlaneMotion descended(const std::vector<SupportPair>& pairs, PlaneMotion motion, bool may_turn) {
   for (int i = 0; i < k_most_steps; ++i) {
     const Gaps here = gaps(pairs, motion, k_directions);
     const std::vector<double> sizes = sorted_sizes(here.size);
     const double end = std::max(k_least_kept, k_medians_kept * sizes[sizes.size() / 2]);
     const Eigen::VectorXd weights = here.size.unaryExpr([end](double gap) { return tukey_weight(gap, end); });
-    const Eigen::Vector3d step = turns ? step_of(here, weights) : shift_step_of(here, weights);
+    const Eigen::Vector3d step = may_turn ? step_of(here, weights) : shift_step_of(here, weights);
     motion.turn += step[0];
     motion.shift += step.tail<2>();
     if (step.norm() < 1e-10) break;
@@ -143,7 +149,8 @@ struct RatedMotion {
   double rms = 0;
 };
 
-/// All coarse turns, each with its best shift by least squares, which for evenly spread directions is their mean.
+/// All coarse turns, each with its best shift by least squares. For N evenly spread directions with unit normals n this
+/// is −2/N Σ gap · n.
 std::vector<RatedMotion> coarse_motions(const std::vector<SupportPair>& pairs) {
   std::vector<RatedMotion> all;
   for (int k = 0; k < k_coarse_turns; ++k) {
@@ -169,7 +176,7 @@ std::vector<RatedMotion> valleys_of(const std::vector<RatedMotion>& all) {
 }
 
 bool are_round(const std::vector<RatedMotion>& turns) {
-  return std::all_of(turns.begin(), turns.end(), [](const RatedMotion& turn) { return turn.rms < k_facets; });
+  return std::all_of(turns.begin(), turns.end(), [](const RatedMotion& turn) { return turn.rms < k_round_rms; });
 }
 
 }  // namespace
@@ -178,7 +185,7 @@ double deviation(const std::vector<OutlinePair>& pairs, const PlaneMotion& motio
   return kept_rms(gaps(supports_of(pairs), motion, k_directions).size);
 }
 
-OutlineFit lay_on(const std::vector<OutlinePair>& pairs) {
+OutlineFit fit_outlines(const std::vector<OutlinePair>& pairs) {
   const std::vector<SupportPair> supports = supports_of(pairs);
   const std::vector<RatedMotion> turns = coarse_motions(supports);
   if (are_round(turns)) return {descended(supports, turns.front().motion, false), false};

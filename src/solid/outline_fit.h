@@ -31,6 +31,6 @@ struct OutlineFit {
   bool tells_turn = true;  ///< false for round outlines, whose turn is left at 0
 };
 /// The motion that best maps all `found` outlines onto their `expected` ones.
-OutlineFit lay_on(const std::vector<OutlinePair>& pairs);
+OutlineFit fit_outlines(const std::vector<OutlinePair>& pairs);
 
 }  // namespace fusee::solid

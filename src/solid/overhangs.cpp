@@ -20,11 +20,12 @@ constexpr double k_narrow = 5e-3;
 // Largest number of narrow neighbours to cross in search of a wide facet of the same plane.
 constexpr int k_narrow_neighbours = 8;
 
+/// A part's surface, prepared for walks from facet to facet.
 struct Surface {
   TriangleMesh mesh;                                 // welded
   std::vector<std::array<std::uint32_t, 3>> across;  // facet across side k
-  std::vector<Vec3> normals;
-  double bed = 0;
+  std::vector<Vec3> normals;                         // reliable normals, see normal_of()
+  double bed = 0;                                    // height of the lowest point
 
   const Vec3& corner(std::uint32_t facet, std::size_t k) const { return mesh.vertices[mesh.triangles[facet][k % 3]]; }
   Vec3 along(std::uint32_t facet, std::size_t k) const { return corner(facet, k + 1) - corner(facet, k); }
@@ -177,7 +178,7 @@ class PatchFinder {
 struct Terrace {
   bool has_lower = false;                                 // a neighbour lies lower
   double top = -std::numeric_limits<double>::infinity();  // highest of its own vertices
-  double next = std::numeric_limits<double>::infinity();  // lowest neighbour above
+  double next = std::numeric_limits<double>::infinity();  // height of the lowest neighbour above
   double twice_area = 0;  // twice the area of the section half-way up to `next`: positive around a solid
 
   bool is_lowest() const { return !has_lower && std::isfinite(next); }
@@ -191,11 +192,11 @@ class Terraces {
     for (std::uint32_t v = 0; v < root_.size(); ++v) {
       terraces_[root_[v]].top = std::max(terraces_[root_[v]].top, mesh_.vertices[v].z());
     }
-    for (const auto& triangle : mesh_.triangles) look_at_neighbours(triangle);
+    for (const auto& triangle : mesh_.triangles) record_neighbours(triangle);
     for (const auto& triangle : mesh_.triangles) add_sections(triangle);
   }
 
-  // One vertex of each terrace at which a solid begins.
+  // One vertex of each lowest terrace at which a solid begins, not a pit.
   std::vector<Vec3> beginnings() const {
     std::vector<Vec3> found;
     for (std::uint32_t v = 0; v < terraces_.size(); ++v) {
@@ -223,7 +224,7 @@ class Terraces {
 
   double height(std::uint32_t v) const { return mesh_.vertices[v].z(); }
 
-  void look_at_neighbours(const std::array<std::uint32_t, 3>& triangle) {
+  void record_neighbours(const std::array<std::uint32_t, 3>& triangle) {
     for (const std::uint32_t v : triangle) {
       Terrace& terrace = terraces_[root_[v]];
       for (const std::uint32_t neighbour : triangle) {
@@ -237,10 +238,12 @@ class Terraces {
   void add_sections(const std::array<std::uint32_t, 3>& triangle) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t own = root_[triangle[k]];
-      const auto same = [&](std::uint32_t v) { return root_[v] == own; };
-      const bool counted = std::any_of(triangle.begin(), triangle.begin() + static_cast<std::ptrdiff_t>(k), same);
+      // A facet with two corners on one terrace is added to it once.
+      const auto is_on_terrace = [&](std::uint32_t v) { return root_[v] == own; };
+      const bool is_added =
+          std::any_of(triangle.begin(), triangle.begin() + static_cast<std::ptrdiff_t>(k), is_on_terrace);
       Terrace& terrace = terraces_[own];
-      if (!counted && terrace.is_lowest()) {
+      if (!is_added && terrace.is_lowest()) {
         terrace.twice_area += section_share(triangle, terrace.half_way(), mesh_.vertices[own].head<2>());
       }
     }

@@ -34,8 +34,8 @@ struct OverhangPatch {
 
 struct Overhangs {
   std::vector<OverhangPatch> patches;
-  double flattest_other =
-      0;  ///< slope of the flattest face that looks down, lies above the first layer and is steep enough; π/2: none
+  /// Slope of the flattest of the other faces, which look down above the first layer and are steep enough; π/2: none
+  double flattest_other = 0;
   Vec3 flattest_other_at = Vec3::Zero();
 };
 

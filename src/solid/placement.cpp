@@ -95,12 +95,12 @@ struct FittedAssignment {
   double deviation = std::numeric_limits<double>::infinity();  ///< in units of the expected part
 };
 
-/// A part of another size is fitted after scaling to the right size.
+/// A part of another size is scaled to the expected size before it is fitted.
 FittedAssignment fit_assignment(const Assignment& assignment, const GrooveFloors& expected) {
   const double scale = scale_of(assignment, expected);
   FittedAssignment result{assignment, {}, std::abs(scale - 1) > k_most_rescaled ? scale : 1.0};
   const std::vector<OutlinePair> pairs = pairs_of(assignment, expected, result.scale);
-  result.fit = lay_on(pairs);
+  result.fit = fit_outlines(pairs);
   result.deviation = deviation(pairs, result.fit.motion);
   return result;
 }
@@ -116,10 +116,10 @@ std::vector<Assignment> assignments_of_both(const std::vector<GrooveInMesh>& gro
                                        {transmission::Side::right, &grooves[high]}};
       const std::vector<Match> upside_down{{transmission::Side::left, &grooves[high]},
                                            {transmission::Side::right, &grooves[low]}};
-      assignments.push_back({upright, false, false});
-      assignments.push_back({upside_down, true, false});
-      assignments.push_back({upright, true, true});
-      assignments.push_back({upside_down, false, true});
+      assignments.push_back({.matches = upright, .flipped = false, .mirrored = false});
+      assignments.push_back({.matches = upside_down, .flipped = true, .mirrored = false});
+      assignments.push_back({.matches = upright, .flipped = true, .mirrored = true});
+      assignments.push_back({.matches = upside_down, .flipped = false, .mirrored = true});
     }
   }
   return assignments;
@@ -144,8 +144,8 @@ bool fits(const FittedAssignment& fitted, double radius) {
   return fitted.deviation < (is_copy ? k_most_deviation_of_copy : k_most_deviation) * radius;
 }
 
-/// Complexity of a placement: scaling, then mirroring, then turning over.
-int effort(const FittedAssignment& fitted) {
+/// Rank of a placement by complexity: turned over, then mirrored, then scaled. The simplest has 0.
+int complexity(const FittedAssignment& fitted) {
   return 4 * static_cast<int>(fitted.scale != 1.0) + 2 * static_cast<int>(fitted.assignment.mirrored) +
          static_cast<int>(fitted.assignment.flipped && !fitted.assignment.mirrored);
 }
@@ -158,33 +158,34 @@ std::optional<FittedAssignment> best_of(const std::vector<Assignment>& assignmen
     if (fits(one, mean_radius(expected))) all.push_back(std::move(one));
   }
   std::stable_sort(all.begin(), all.end(),
-                   [](const FittedAssignment& a, const FittedAssignment& b) { return effort(a) < effort(b); });
+                   [](const FittedAssignment& a, const FittedAssignment& b) { return complexity(a) < complexity(b); });
   std::optional<FittedAssignment> best;
   for (const FittedAssignment& one : all) {
-    const double better = best && effort(one) != effort(*best) ? k_clearly_better : 1.0;
-    if (!best || one.deviation < better * best->deviation) best = one;
+    // Assignments are in the order of complexity.
+    const double required_factor = best && complexity(one) != complexity(*best) ? k_clearly_better : 1.0;
+    if (!best || one.deviation < required_factor * best->deviation) best = one;
   }
   return best;
 }
 
 // ---- the bore -------------------------------------------------------------------------------------------------------
 
-/// The circle through the corners by least squares; empty if they are on no circle. A flat is a chord, whose ends are
-/// on the circle too.
+/// Centre of the circle through the corners; empty if they are on no circle. A flat is a chord, whose ends are on the
+/// circle too. Least squares for |p|² = 2 p · c + r² − |c|², with points relative to one corner.
 std::optional<Vec2> centre_of_round(const Polygon& hole) {
   const Polygon corners = corners_of(hole);
   if (corners.size() < 4) return std::nullopt;
   const auto rows = static_cast<Eigen::Index>(corners.size());
   Eigen::MatrixXd lines(rows, 3);
   Eigen::VectorXd squares(rows);
-  const Vec2& near = corners.front();
+  const Vec2& origin = corners.front();
   for (Eigen::Index i = 0; i < rows; ++i) {
-    const Vec2 point = corners[static_cast<std::size_t>(i)] - near;
+    const Vec2 point = corners[static_cast<std::size_t>(i)] - origin;
     lines.row(i) << 2 * point.x(), 2 * point.y(), 1;
     squares[i] = point.squaredNorm();
   }
   const Eigen::Vector3d solution = LeastSquares(lines).nearest(squares);
-  const Vec2 centre = near + solution.head<2>();
+  const Vec2 centre = origin + solution.head<2>();
   const double radius = std::sqrt(std::max(0.0, solution[2] + solution.head<2>().squaredNorm()));
   const bool is_round = std::all_of(corners.begin(), corners.end(), [&](const Vec2& corner) {
     return std::abs((corner - centre).norm() - radius) < k_bore_roundness * radius;
@@ -192,7 +193,7 @@ std::optional<Vec2> centre_of_round(const Polygon& hole) {
   return is_round ? std::optional(centre) : std::nullopt;
 }
 
-/// The round hole about an approximately known axis, smaller than the outline.
+/// Centre of the round hole nearest to an approximately known axis, if one is close to it. The outline is no hole.
 std::optional<Vec2> bore_near(const TriangleMesh& mesh, double z, const Vec2& axis) {
   std::optional<Vec2> nearest;
   const std::vector<Polygon> loops = section(mesh, z);

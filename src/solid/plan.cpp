@@ -25,15 +25,17 @@ namespace {
 
 // Diameters to try for an automatic bore.
 constexpr std::array<double, 6> k_bores{5.0, 4.0, 3.0, 2.5, 2.0, 1.5};
-// Automatic wall: for parts of ordinary size, per radius for small ones, and the least for a nozzle of 0.4 mm.
+// Automatic wall of a part of ordinary size.
 constexpr double k_wall = 1.2;
+// Automatic wall of a small part, per mm of its radius.
 constexpr double k_wall_per_radius = 0.12;
+// Least automatic wall, for a nozzle of 0.4 mm.
 constexpr double k_least_wall = 0.4;
 
 // Highest cone under the middle flange for one print. Two prints require pins and glue.
 constexpr double k_highest_cone = 3.0;
 
-// Some points of a convex floor, whose polygon lies within it.
+// Some points of a convex floor. Their polygon lies within the floor.
 Polygon floor_within(const profile::Outline& outline, double tendon_diameter) {
   const Polygon all = profile::parallel(outline, -0.5 * tendon_diameter);
   Polygon floor;
@@ -46,6 +48,7 @@ FlangeRims rims_of(const Mechanism& mechanism, const profile::SynthesisResult& s
                      mechanism.body.flange);
 }
 
+// Plans a body with given heights.
 class Planner {
  public:
   Planner(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const FlangeRims& rims,
@@ -58,22 +61,23 @@ class Planner {
         wishes_(wishes),
         tie_offs_(mechanism, synthesis, rims, wishes) {}
 
-  // The largest hub with the fewest costs is taken. Whether a plan exists does not depend on an automatic hub.
+  // Takes the hub of lowest cost, and the largest of these. Whether a plan exists does not depend on an automatic hub.
   BodyPlan plan() {
     const BodyLayout body = preferred_layout();
     const std::vector<HubChoice> hubs = hub_choices(body, mechanism_, inradius(rims_.upper));
     std::optional<BodyPlan> best;
-    int least = 0;
+    int least_cost = 0;
     for (const HubChoice& hub : hubs) {
       BodyPlan plan = plan_with(with_hub(body, hub));
-      const bool is_needless = mechanism_.body.hub_diameter <= 0 && hub.set_screw.present &&
-                               !plan.layout.set_screw.present;  // as large as for the screw that it lacks
+      // The hub is needlessly large if it has the size for a screw that has no place in it.
+      const bool is_needless =
+          mechanism_.body.hub_diameter <= 0 && hub.set_screw.present && !plan.layout.set_screw.present;
       if (best && is_needless) continue;
       const int cost = wishes_.conditions_alone ? 0 : cost_of(plan) + (is_needless ? 1 : 0);
-      const bool is_better = !best || (plan.is_possible() && (!best->is_possible() || cost < least));
+      const bool is_better = !best || (plan.is_possible() && (!best->is_possible() || cost < least_cost));
       if (!is_better) continue;
       best = std::move(plan);
-      least = cost;
+      least_cost = cost;
       if (best->is_possible() && cost == 0) break;
       if (wishes_.conditions_alone) break;
     }
@@ -91,7 +95,7 @@ class Planner {
     tie_offs_.settle_pockets(plan.layout, wound);
     plan.anchors = tie_offs_.all(plan.layout, wound);
     turn_set_screw(plan);
-    ceiling_pockets(plan.layout);
+    add_pocket_ceiling(plan.layout);
     plan.conditions = conditions_of(mechanism_, synthesis_, plan.layout, rims_, tie_offs_.rooms(plan.layout, wound));
     if (wishes_.conditions_alone && !plan.is_possible()) return plan;
     if (plan.layout.parts == Parts::two) plan.layout.dowels = choose_dowels(mechanism_, plan);
@@ -102,8 +106,8 @@ class Planner {
     return plan;
   }
 
-  // Features that the hub leaves no space for, pockets that weaken it, and knots that too little wrap relieves. A
-  // thread in the hub does the work of a nut.
+  // Number of drawbacks of a plan: omitted features, pockets that weaken the hub, and knots that carry too much after
+  // their wrap. An omitted nut does not count, because a thread in the hub replaces it.
   int cost_of(const BodyPlan& plan) {
     const std::vector<Omission>& omissions = plan.layout.omissions;
     auto cost = std::count_if(omissions.begin(), omissions.end(),
@@ -112,20 +116,22 @@ class Planner {
       return plan.layout.hub_radius > 0 && anchor.cuts_into_hub(plan.layout);
     });
     if (!knots_) knots_.emplace(mechanism_, synthesis_);
-    return static_cast<int>(cost) + knots_->unsafe(plan.anchors);
+    return static_cast<int>(cost) + knots_->count_unsafe(plan.anchors);
   }
 
-  Polygon floor(const profile::Outline& outline) const { return profile::parallel(outline, -0.5 * d_); }
+  Polygon floor_of(const profile::Outline& outline) const { return profile::parallel(outline, -0.5 * d_); }
 
-  // In order of preference.
+  // Wall thicknesses to try, in order of preference.
   std::vector<double> walls() const {
     if (mechanism_.body.min_wall > 0) return {mechanism_.body.min_wall};
-    const double radius = std::min(inradius(floor(synthesis_.p1)), inradius(floor(synthesis_.p2)));
+    const double radius = std::min(inradius(floor_of(synthesis_.p1)), inradius(floor_of(synthesis_.p2)));
     const double wall = std::clamp(k_wall_per_radius * radius, k_least_wall, k_wall);
     std::vector<double> tried;
     for (const double thickness : {wall, 0.75 * wall, 0.55 * wall}) tried.push_back(std::max(thickness, k_least_wall));
     return tried;
   }
+
+  // Shaft diameters to try, the largest first.
   std::vector<double> bores() const {
     if (mechanism_.body.bore_diameter > 0) return {mechanism_.body.bore_diameter};
     if (mechanism_.body.bore == Bore::horn) return {k_bores.front()};
@@ -135,8 +141,8 @@ class Planner {
     return bores.empty() ? std::vector<double>{k_bores.front()} : bores;
   }
 
-  // Prefers thick walls to large bores, both as large as both tie-offs allow. If the smallest of both has no space for
-  // them, no other choice has.
+  // The layout with the thickest wall, and then the largest bore, with which both tie-offs fit. If they do not fit with
+  // the thinnest wall and the smallest bore, they fit with no other.
   BodyLayout preferred_layout() {
     const std::vector<double> walls = this->walls(), bores = this->bores();
     const BodyLayout least = layout_with(bores.back(), walls.back());
@@ -151,19 +157,19 @@ class Planner {
     return least;
   }
 
-  // P2's channels use the space beside the hub only if they keep their pockets. No hub therefore decides whether they
-  // fit.
+  // True if bore and tie-offs fit. The hub does not matter: P2's channels avoid it only if their pockets keep their
+  // size beside it.
   bool fits(const BodyLayout& layout) const {
     return bore_fits(layout) && tie_offs_.has_room(layout, tie_offs_.wound(layout));
   }
   bool bore_fits(const BodyLayout& layout) const {
-    const BoreLayout printed = bore_of_shaft(mechanism_, layout.bore);
-    const auto thick = [&](const profile::Outline& outline) {
-      const Polygon ground = floor(outline);
-      return std::min(wall_between(ground, layout.bore.outline).thickness,
-                      wall_between(ground, printed.outline).thickness) >= layout.min_wall;
+    const BoreLayout uncompensated = bore_of_shaft(mechanism_, layout.bore);
+    const auto has_wall = [&](const profile::Outline& outline) {
+      const Polygon floor = floor_of(outline);
+      return std::min(wall_between(floor, layout.bore.outline).thickness,
+                      wall_between(floor, uncompensated.outline).thickness) >= layout.min_wall;
     };
-    return thick(synthesis_.p1) && thick(synthesis_.p2);
+    return has_wall(synthesis_.p1) && has_wall(synthesis_.p2);
   }
 
   BodyLayout layout_with(double bore, double wall) const {
@@ -173,7 +179,7 @@ class Planner {
     if (mechanism_.body.bore_diameter <= 0 && bore < k_bores.front()) {
       layout.omit("bore", fmt::format("no space for a bore of {} mm: reduced to {} mm", k_bores.front(), bore));
     }
-    ceiling_recess(layout);
+    add_recess_ceiling(layout);
     return layout;
   }
 
@@ -188,7 +194,7 @@ class Planner {
     if (!screw.present) return;
     const auto clear_at = [&plan](double angle) {
       return std::all_of(plan.anchors.begin(), plan.anchors.end(), [&](const PlannedAnchor& anchor) {
-        return anchor.side == transmission::Side::left || clears_set_screw(plan.layout, angle, anchor.way);
+        return anchor.side == transmission::Side::left || clears_set_screw(plan.layout, angle, anchor.tie_off);
       });
     };
     const int choices = mechanism_.body.bore == Bore::round ? 24 : 1;
@@ -213,7 +219,7 @@ class Planner {
   std::optional<KnotLoads> knots_;
 };
 
-// A part that is too large is not planned.
+// The failed conditions on the size of both curves. A part that is too large is not planned.
 std::vector<profile::Condition> too_far_out(const profile::SynthesisResult& synthesis) {
   std::vector<profile::Condition> far;
   for (const profile::Outline* outline : {&synthesis.p1, &synthesis.p2}) {
@@ -262,7 +268,7 @@ BodyPlan plan_body(const Mechanism& mechanism, const profile::SynthesisResult& s
   const BodyLayout whole = base_in(Parts::one);
   if (whole.middle_cone <= k_highest_cone) return plan_on(whole);
   if (wishes.conditions_alone) {
-    // A pulley that can be one print needs no pins.
+    // A plan in one print suffices to show that a plan exists, even if two prints would be preferred.
     BodyPlan one = plan_on(whole);
     if (one.is_possible()) return one;
     BodyPlan two = plan_on(base_in(Parts::two));

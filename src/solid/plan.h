@@ -21,9 +21,9 @@ struct BodyPlan {
   bool is_possible() const;
 };
 
-/// Chooses the largest hub that leaves space for every other feature, or for most of them.
-/// Puts the tie-offs as far round the closing arc as there is space. If another feature then has no place, puts them
-/// near the active arc.
+/// Chooses sizes and places of all features. The hub is the largest one that leaves space for every other feature, or
+/// for most of them. The tie-offs lie as far round the closing arc as there is space. If another feature then has no
+/// place, they lie near the active arc.
 BodyPlan plan_body(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
                    const TieOffWishes& wishes = {});
 

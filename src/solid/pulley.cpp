@@ -42,12 +42,13 @@ struct Effort {
 };
 constexpr Effort k_brief{k_brief_cut_variants, k_brief_rounds};
 
-// Gap between two parts on the printer.
+// Gap between two parts on the printer, mm.
 constexpr double k_between_parts = 5.0;
 
-// Formats and slicers keep fewer digits than floats near the axis, so faces closer than this would intersect there.
-// Draco's finest grid is about a tenth of it.
-bool stands_rounding(TriangleMesh mesh) {
+// True if no facets cross after coordinates are rounded as other programs do. Formats and slicers keep fewer digits
+// than floats near the axis, so faces closer than k_coarsest_grain would intersect there. Draco's finest grid is about
+// a tenth of it.
+bool survives_rounding(TriangleMesh mesh) {
   constexpr double k_coarsest_grain = 0x1p-15;  // mm
   for (Vec3& vertex : mesh.vertices) vertex = k_coarsest_grain * (vertex / k_coarsest_grain).array().round().matrix();
   return !find_crossing(mesh).facets;
@@ -64,10 +65,14 @@ bool has_needles(const TriangleMesh& mesh) {
   });
 }
 
-// Robustness of a mesh against processing by other programs, in increasing order.
+// Soundness: robustness of a mesh against processing by other programs, in increasing order.
 constexpr int k_any = 0;
-constexpr int k_sound = 2;
-int soundness_of(const TriangleMesh& mesh) { return !stands_rounding(mesh) ? 0 : has_needles(mesh) ? 1 : k_sound; }
+constexpr int k_survives_rounding = 1;
+constexpr int k_sound = 2;  // and has no needles
+int soundness_of(const TriangleMesh& mesh) {
+  if (!survives_rounding(mesh)) return k_any;
+  return has_needles(mesh) ? k_survives_rounding : k_sound;
+}
 
 // A body with its features, and the expected values of its measurements.
 struct CutPiece {
@@ -75,7 +80,7 @@ struct CutPiece {
   double volume = 0;
   std::vector<Check> checks = {};
   int soundness = k_any;
-  std::vector<Vec3> unprintable = {};  // places in the whole, of a piece that is printed in this form
+  std::vector<Vec3> unprintable = {};  // places in the whole; empty for a piece that is not printed itself
 };
 
 // Moves a piece from its position in the whole to its print orientation: P1 is turned over about the x axis.
@@ -108,7 +113,7 @@ class FeatureCutter {
     for (const PlannedAnchor& anchor : plan_.anchors) {
       if (has(anchor)) passes.push_back({tie_off_tool(plan_, anchor, variant)});
     }
-    for (auto& pass : {cuts(variant), tail_slots(), clamp_pilots()}) passes.push_back(pass);
+    for (auto& pass : {dowels_screw_and_marks(variant), tail_slots(), clamp_pilots()}) passes.push_back(pass);
     std::vector<TriangleMesh> tools;
     for (const std::vector<TriangleMesh>& pass : passes) {
       TriangleMesh tool = placed(pass);
@@ -130,7 +135,8 @@ class FeatureCutter {
     }
     result.mesh = laid_on_bed(std::move(result.mesh), piece_, layout_.scale * layout_.z_mate);
     auto soundness = run_async([&result] { return soundness_of(result.mesh); }, piece_ == Piece::whole);
-    // For a large part this takes long, and is wasted if its mesh has a fault, so it then runs after the checks.
+    // For a large part this takes long, and is wasted if its mesh has a fault. It then runs when get() is called, after
+    // the checks.
     const bool is_worth_a_thread = is_printed() && result.mesh.triangles.size() < k_large_body;
     auto unprintable = run_async([&] { return unprintable_places_of(result.mesh); }, is_worth_a_thread);
     result.checks = check_mesh(result.mesh);
@@ -157,7 +163,8 @@ class FeatureCutter {
     return rounded_to_float(std::move(all));
   }
 
-  std::vector<TriangleMesh> cuts(int variant) const {
+  // Tools for features that overlap none of the others.
+  std::vector<TriangleMesh> dowels_screw_and_marks(int variant) const {
     std::vector<TriangleMesh> tools;
     for (const Vec2& place : layout_.dowels.places) tools.push_back(dowel_tool(layout_.dowels, place));
     if (has_p2_ && layout_.set_screw.present)
@@ -210,14 +217,17 @@ class FeatureCutter {
   bool has_p1_, has_p2_;
 };
 
-// Every passage through the body is a handle: the bore's holes, a tunnel for each channel, for the set screw a branch
-// from the bore to the hub's side and, with a nut trap, another to its top. P1's pins are passages too; they end in P2.
+// Number of handles of a piece's surface, which has the Euler number 2 − 2 · handles. Every passage is a handle:
+//   - each hole of the bore
+//   - a tunnel for each channel
+//   - for the set screw, a branch from the bore to the hub's side; with a nut trap another to the hub's top
+//   - in P1, the holes for pins, which end in P2
 int handles(const RingStack& stack, const BodyPlan& plan, Piece piece) {
   const SetScrewLayout& screw = plan.layout.set_screw;
   std::size_t count = stack.through.size() + (recess_goes_through(stack) ? 1 : 0);
   for (const PlannedAnchor& anchor : plan.anchors) {
     const bool has = piece == Piece::whole || (anchor.side == transmission::Side::left) == (piece == Piece::p1);
-    if (has && std::holds_alternative<AnchorPath>(anchor.way)) ++count;
+    if (has && std::holds_alternative<AnchorPath>(anchor.tie_off)) ++count;
   }
   if (piece == Piece::p1) count += plan.layout.dowels.places.size();
   if (piece != Piece::p1 && screw.present) count += screw.nut_trap ? 2 : 1;
@@ -239,23 +249,25 @@ bool is_welded(const TriangleMesh& mesh) {
   return std::adjacent_find(places.begin(), places.end()) == places.end();
 }
 
-// The Euler number of a welded closed mesh follows from its counts alone.
+// Tests the Euler number. That of a welded closed mesh follows from its counts alone, which is faster.
 bool has_euler(const TriangleMesh& mesh, int expected) {
-  const auto at_a_glance =
+  // V − E + F with E = 3 F / 2
+  const auto of_counts =
       static_cast<std::ptrdiff_t>(mesh.vertices.size()) - static_cast<std::ptrdiff_t>(mesh.triangles.size() / 2);
-  return (at_a_glance == expected && is_welded(mesh)) || euler_number(mesh) == expected;
+  return (of_counts == expected && is_welded(mesh)) || euler_number(mesh) == expected;
 }
 
+// A piece whose Euler number is the expected one.
 struct BuiltPiece {
   TriangleMesh mesh;
   double volume = 0;
   int euler = 0;
   std::vector<Check> checks = {};
-  int soundness = k_any;  // of the whole
+  int soundness = k_any;  // measured for the whole only
   std::vector<Vec3> unprintable = {};
 };
 
-// A variant shifts channels slightly, within the walls to the axial cuts.
+// A variant shifts the channels slightly. True if they still keep their walls to the axial holes.
 bool keeps_walls(const BodyPlan& plan, int variant) {
   const BodyLayout& layout = plan.layout;
   std::vector<Bar> holes{{Vec2::Zero(), Vec2::Zero(), layout.bore.radius}};
@@ -264,7 +276,7 @@ bool keeps_walls(const BodyPlan& plan, int variant) {
     holes.push_back({circle.centre, circle.centre, (hole.front() - circle.centre).norm()});
   }
   return std::all_of(plan.anchors.begin(), plan.anchors.end(), [&](const PlannedAnchor& anchor) {
-    const auto* channel = std::get_if<AnchorPath>(&anchor.way);
+    const auto* channel = std::get_if<AnchorPath>(&anchor.tie_off);
     if (channel == nullptr) return true;
     const AnchorPath path = varied(*channel, variant);
     std::vector<Bar> bars = path.bars(layout.channel_width);
@@ -297,8 +309,8 @@ class PieceMaker {
     for (const Blank& blank : blanks_) demand_solid(blank.mesh, "body");
   }
 
-  // Number of cut variants, at most `wanted`.
-  int ways(int wanted) const {
+  // Number of cut variants that take a bounded time, at most `wanted`.
+  int variant_count(int wanted) const {
     std::size_t facets = 0;
     for (const Blank& blank : blanks_) facets += blank.mesh.triangles.size();
     return cut_variants(facets, wanted);
@@ -336,8 +348,9 @@ class PieceMaker {
   std::vector<Blank> blanks_;
 };
 
-// No variant left a valid solid: walls between features, each wide enough in plan, intersect in space.
-profile::Condition uncut_features(int ways) {
+// The condition that fails if no variant leaves a valid solid. Features that keep their walls in plan may still
+// intersect in space.
+profile::Condition uncut_features(int variants) {
   profile::Condition condition;
   condition.name = "features";
   condition.ok = false;
@@ -345,14 +358,14 @@ profile::Condition uncut_features(int ways) {
   condition.limit = 1;
   condition.unit = "1";
   condition.message = fmt::format(
-      "tie-offs, screws and marks intersect one another: none of {} cut variants leaves a valid solid", ways);
+      "tie-offs, screws and marks intersect one another: none of {} cut variants leaves a valid solid", variants);
   return condition;
 }
 
 Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant) {
   const BodyLayout& layout = plan.layout;
   Anchor anchor{planned.side, planned.wound_end, planned.start(), {}, {}, planned.pocket(), {}, {}, planned.tail};
-  if (const auto* channel = std::get_if<AnchorPath>(&planned.way)) {
+  if (const auto* channel = std::get_if<AnchorPath>(&planned.tie_off)) {
     const AnchorPath path = varied(*channel, variant);
     anchor.channel =
         outline_of(keyhole(path, layout.channel_width, layout.pocket_radius, pocket_facets(layout.pocket_radius)));
@@ -362,7 +375,7 @@ Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant
     anchor.bend = ChannelBend{path.start - path.fillet * path.normal, path.fillet, path.heading(), path.straight,
                               channel_half_height(layout, variant)};
   } else {
-    const auto& hole = std::get<FaceHole>(planned.way);
+    const auto& hole = std::get<FaceHole>(planned.tie_off);
     anchor.channel = hole_outline(hole, variant);
     anchor.seat = FaceSeat{hole.room, countersink_depth(layout, hole),
                            planned.side == transmission::Side::left ? 0.0 : layout.z_top, hole.hole, hole.length};
@@ -370,7 +383,8 @@ Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant
   return anchor;
 }
 
-// If a closing arc is hardly longer than a channel entry, the entry may reach into the active arc.
+// The failed condition, if an entry reaches into the active arc. That may happen if the closing arc is hardly longer
+// than the entry.
 std::optional<profile::Condition> entry_in_active_arc(const Anchor& anchor, const std::vector<Vec2>& active_floor) {
   for (const Vec2& point : active_floor) {
     if (!is_inside(anchor.entry, point) && !is_inside(anchor.channel, point)) continue;
@@ -390,7 +404,7 @@ std::optional<profile::Condition> entry_in_active_arc(const Anchor& anchor, cons
 // The anchors as one variant cuts them.
 struct VariedAnchors {
   std::vector<Anchor> anchors;
-  std::optional<profile::Condition> cut_into;  // condition that the variant fails
+  std::optional<profile::Condition> failed;  // condition that the variant fails
 };
 
 class AnchorVariants {
@@ -410,17 +424,17 @@ class AnchorVariants {
     VariedAnchors varied;
     for (const PlannedAnchor& planned : plan_.anchors) {
       varied.anchors.push_back(anchor_of(planned, plan_, variant));
-      varied.cut_into =
+      varied.failed =
           entry_in_active_arc(varied.anchors.back(), planned.side == transmission::Side::left ? floor1_ : floor2_);
-      if (varied.cut_into) break;
+      if (varied.failed) break;
     }
     return varied;
   }
-  bool may_be(int variant) const { return !at(variant).cut_into; }
+  bool is_possible(int variant) const { return !at(variant).failed; }
 
  private:
   const BodyPlan& plan_;
-  std::vector<Vec2> floor1_, floor2_;  // that the tendons wind on
+  std::vector<Vec2> floor1_, floor2_;  // the parts that the tendons wind on
 };
 
 struct BestCut {
@@ -434,7 +448,7 @@ BestCut best_cut(const PieceMaker& maker, bool marked, const AnchorVariants& anc
   BestCut taken;
   int best = k_any;
   for (int variant = first; variant < variants; ++variant) {
-    if (variant > first && !anchors.may_be(variant)) continue;
+    if (variant > first && !anchors.is_possible(variant)) continue;
     std::vector<BuiltPiece> made = maker.cut(variant, marked);
     if (made.empty()) continue;
     if (enough == k_any) {
@@ -456,7 +470,7 @@ struct RatedPulley {
   std::vector<Vec3> unprintable = {};  // places where a layer projects too far or begins in mid-air
 };
 
-// Printability is checked separately.
+// Cuts the pulley of a plan, with at least `enough` soundness if a variant has it. The result may be unprintable.
 RatedPulley pulley_of(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, BodyPlan plan,
                       Corners corners, const Effort& effort, int enough) {
   RatedPulley rated;
@@ -466,16 +480,16 @@ RatedPulley pulley_of(const Mechanism& mechanism, const profile::SynthesisResult
   if (!plan.is_possible()) return rated;
   const AnchorVariants anchors(mechanism, synthesis, plan);
   int first = 0;
-  while (first < effort.variants && !anchors.may_be(first)) ++first;
+  while (first < effort.variants && !anchors.is_possible(first)) ++first;
   if (first == effort.variants) {
-    pulley.conditions.push_back(*anchors.at(0).cut_into);
+    pulley.conditions.push_back(*anchors.at(0).failed);
     return rated;
   }
   const std::vector<Mark>& marks = plan.marks;
   const PieceMaker maker(mechanism, synthesis, plan, marks, corners);
   // A blank that is no valid solid is a bug, not a rejection.
-  auto gate = run_async([&maker] { maker.demand_solids(); });
-  const int variants = std::min(effort.variants, first + maker.ways(effort.variants));
+  auto solids_demanded = run_async([&maker] { maker.demand_solids(); });
+  const int variants = std::min(effort.variants, first + maker.variant_count(effort.variants));
   bool is_marked = true;
   BestCut cut = best_cut(maker, true, anchors, first, variants, enough);
   if (cut.pieces.empty() && !marks.empty()) {
@@ -483,7 +497,7 @@ RatedPulley pulley_of(const Mechanism& mechanism, const profile::SynthesisResult
     is_marked = cut.pieces.empty();
     if (!is_marked) plan.layout.omit("marks", "the marks would cut into a tie-off: omitted");
   }
-  gate.get();
+  solids_demanded.get();
   auto& [pieces, taken] = cut;
   pulley.layout = plan.layout;
   if (pieces.empty()) {

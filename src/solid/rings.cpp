@@ -12,17 +12,17 @@ namespace {
 
 Vec3 lifted(const Vec2& point, double z) { return {point.x(), point.y(), z}; }
 
-// True if the diagonal of the quad between sides a and b of a strip runs from a[i] to b[j]: the shorter diagonal, and
-// this one if both are equal.
+// The diagonal of a strip's quad is the shorter one. True if it runs from a[i] to b[j], also if both are equally long.
 bool rises_forward(const Ring& a, const Ring& b, std::size_t i, std::size_t j) {
   return (a.points[i] - b.points[j]).squaredNorm() <= (a.points[j] - b.points[i]).squaredNorm();
 }
 
-// A finely sampled rim and a coarse hole would be joined by thousands of adjacent needles, which slow down every search
-// through the mesh. Loops of half as many points each, further and further inside the rim, lead from one to the other.
-// A rim of ordinary fineness needs none.
+// A rim of more points is finely sampled.
 constexpr std::size_t k_fine_rim = 256;
 
+// Additional points on a flat face with a finely sampled rim. Without them, rim and coarse holes would be joined by
+// thousands of adjacent needles, which slow down every search through the mesh. The points form loops further and
+// further inside the rim, each with half as many points as the one before.
 std::vector<Vec2> points_within(const std::vector<Polygon>& loops) {
   const Polygon& rim = loops.front();
   std::vector<Vec2> points;
@@ -128,7 +128,7 @@ class StackMesher {
   FlatFace add_hub(const Shaft& hub, std::uint32_t top_ring) {
     const std::uint32_t low = add_loop(hub.outline, hub.low);
     const std::uint32_t high = add_loop(hub.outline, hub.high);
-    join_shaft(high, low, hub.outline.size());
+    join_shaft(high, low, hub.outline.size());  // exchanged ends turn the wall outwards
     FlatFace ledge{{&stack_.rings.back().points}, {top_ring}};
     ledge.add(hub.outline, low);
     close(ledge, true);
@@ -148,13 +148,13 @@ class StackMesher {
     return {{&stack_.recess.back().points}, {below}};
   }
 
-  // Adds every flat face with a hole in it: the top, the bottom, and the recess' ceiling.
+  // Adds hub, recess and through holes, and the flat faces that they pierce: the top, the bottom, the recess' ceiling.
   void add_holes(std::uint32_t top_ring) {
     FlatFace top = stack_.hub ? add_hub(*stack_.hub, top_ring) : FlatFace{{&stack_.rings.back().points}, {top_ring}};
     FlatFace bottom{{&stack_.rings.front().points}, {0}};
     FlatFace ceiling;
     if (!stack_.recess.empty()) ceiling = add_recess(bottom);
-    const bool ceiled = !stack_.recess.empty() && !recess_goes_through(stack_);
+    const bool has_ceiling = !stack_.recess.empty() && !recess_goes_through(stack_);
     if (recess_goes_through(stack_)) top.add(stack_.recess.back().points, ceiling.firsts.front());
     for (const Shaft& shaft : stack_.through) {
       const std::uint32_t low = add_loop(shaft.outline, shaft.low);
@@ -165,11 +165,12 @@ class StackMesher {
     }
     close(top, true);
     close(bottom, false);
-    if (ceiled) close(ceiling, false);
+    if (has_ceiling) close(ceiling, false);
   }
 
   double bottom_height() const { return stack_.rings.front().z; }
 
+  // Triangulates a flat face. Coinciding neighbours among its loops' points are left out.
   void close(const FlatFace& face, bool facing_up) {
     std::vector<Polygon> loops;
     std::vector<std::uint32_t> index;
@@ -199,7 +200,7 @@ class StackMesher {
 
   const RingStack& stack_;
   TriangleMesh mesh_;
-  bool has_short_edges_ = false;  ///< along a flat face
+  bool has_short_edges_ = false;  ///< a loop of a flat face has edges of length 0
 };
 
 // Half-way between two rings, the strip's section is the polygon through the midpoints of its verticals and diagonals.

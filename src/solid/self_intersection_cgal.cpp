@@ -57,14 +57,14 @@ class FacetPlanes {
   FacetPlanes(const std::array<Vec3, 3>& corners, double extent) : corners_(corners), extent_(extent) {
     const Vec3 along = corners_[1] - corners_[0], across = corners_[2] - corners_[0];
     normal_ = along.cross(across);
-    reach_ = along.cwiseAbs().maxCoeff() * across.cwiseAbs().maxCoeff();
-    margin_ = k_margin * reach_ * extent;
+    normal_scale_ = along.cwiseAbs().maxCoeff() * across.cwiseAbs().maxCoeff();
+    margin_ = k_margin * normal_scale_ * extent;
   }
 
   const Vec3& corner(std::size_t k) const { return corners_[k]; }
 
   // True if the three corners are certainly not collinear.
-  bool has_area() const { return normal_.cwiseAbs().maxCoeff() > k_margin * reach_; }
+  bool has_area() const { return normal_.cwiseAbs().maxCoeff() > k_margin * normal_scale_; }
 
   // +1 or −1: certainly on that side of the plane; 0: undecided.
   int side_of(const Vec3& point) const {
@@ -83,12 +83,14 @@ class FacetPlanes {
   }
 
  private:
-  // Rounding of the products is less than a hundredth of these.
+  // Relative margins. The rounding of the products is less than a hundredth of these.
   static constexpr double k_margin = 1e-13, k_edge_margin = 1e-9;
 
   std::array<Vec3, 3> corners_;
   Vec3 normal_;
-  double extent_ = 0, reach_ = 0, margin_ = 0;
+  double extent_ = 0;
+  double normal_scale_ = 0;  ///< size of the products that the normal is computed from
+  double margin_ = 0;        ///< of a point's distance from the plane, times the normal's length
 };
 
 // Exact test, used when plain arithmetic has not separated two facets.
@@ -128,9 +130,14 @@ class CrossingTest {
   }
   // The facet's corners, with the one unshared corner last and the shared ones in the order of their vertices.
   std::array<Point, 3> with_last(const Triangle& facet, const std::array<bool, 3>& shared) const {
-    const std::size_t apart = !shared[0] ? 0 : !shared[1] ? 1 : 2;
-    const auto [low, high] = std::minmax(facet[after(apart)], facet[after(after(apart))]);
-    return {point(mesh_, low), point(mesh_, high), point(mesh_, facet[apart])};
+    const std::size_t last = unshared(shared);
+    const auto [low, high] = std::minmax(facet[after(last)], facet[after(after(last))]);
+    return {point(mesh_, low), point(mesh_, high), point(mesh_, facet[last])};
+  }
+  // The one corner that is not shared.
+  static std::size_t unshared(const std::array<bool, 3>& shared) {
+    if (!shared[0]) return 0;
+    return !shared[1] ? 1 : 2;
   }
 
   // Facets that share an edge overlap only if both lie on one side of it in one plane.
@@ -138,19 +145,20 @@ class CrossingTest {
     return CGAL::coplanar(p[0], p[1], p[2], q[2]) &&
            CGAL::coplanar_orientation(p[0], p[1], p[2], q[2]) == CGAL::POSITIVE;
   }
+  // True if facets that share an edge certainly do not overlap.
   static bool clearly_unfolded(const FacetPlanes& a, const std::array<bool, 3>& of_a, const FacetPlanes& b,
                                const std::array<bool, 3>& of_b) {
-    const std::size_t beside = !of_b[0] ? 0 : !of_b[1] ? 1 : 2, apart = !of_a[0] ? 0 : !of_a[1] ? 1 : 2;
-    return a.side_of(b.corner(beside)) != 0 || a.are_beyond(after(apart), b, of_b);
+    const std::size_t unshared_a = unshared(of_a), unshared_b = unshared(of_b);
+    return a.side_of(b.corner(unshared_b)) != 0 || a.are_beyond(after(unshared_a), b, of_b);
   }
 
   // True if b's unshared corners are certainly beyond one of a's edges; with a shared corner, beyond an edge at that
   // corner. Long thin adjacent facets have overlapping boxes, thousands of them in a fine part.
   static bool beyond_an_edge(const FacetPlanes& a, const std::array<bool, 3>& of_a, const FacetPlanes& b,
                              const std::array<bool, 3>& of_b) {
-    const bool any = !of_a[0] && !of_a[1] && !of_a[2];
+    const bool shares_none = !of_a[0] && !of_a[1] && !of_a[2];
     for (std::size_t k = 0; k < 3; ++k) {
-      if ((any || of_a[k] || of_a[after(k)]) && a.are_beyond(k, b, of_b)) return true;
+      if ((shares_none || of_a[k] || of_a[after(k)]) && a.are_beyond(k, b, of_b)) return true;
     }
     return false;
   }
@@ -180,11 +188,12 @@ Box3 cartesian_box(const std::array<Vec3, 3>& corners) {
   return {{low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}};
 }
 
+// Distance of the segment a b from the z axis.
 double distance_from_axis(const Vec3& a, const Vec3& b) {
   const Vec2 from = a.head<2>(), along = b.head<2>() - from;
-  const double length = along.squaredNorm();
-  const double place = length > 0 ? std::clamp(-from.dot(along) / length, 0.0, 1.0) : 0.0;
-  return (from + place * along).norm();
+  const double length_squared = along.squaredNorm();
+  const double share = length_squared > 0 ? std::clamp(-from.dot(along) / length_squared, 0.0, 1.0) : 0.0;
+  return (from + share * along).norm();
 }
 
 /// A box in angle about the z axis, distance from it, and height. The strips of a fine turned part consist of needles
@@ -193,23 +202,25 @@ Box3 polar_box(const std::array<Vec3, 3>& corners, const std::array<double, 3>& 
   constexpr double margin = 1e-9;
   Box3 box = cartesian_box(corners);
   const double start = angles[0];
-  double before = 0, after_it = 0, farthest = 0;
+  double before_start = 0, after_start = 0, farthest_squared = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
-    double turn = angles[k] - start;  // as std::remainder() by a turn
+    double turn = angles[k] - start;  // reduced to a half turn to either side
     if (turn > k_pi) turn -= k_two_pi;
     if (turn < -k_pi) turn += k_two_pi;
-    before = std::min(before, turn);
-    after_it = std::max(after_it, turn);
+    before_start = std::min(before_start, turn);
+    after_start = std::max(after_start, turn);
     nearest = std::min(nearest, distance_from_axis(corners[k], corners[after(k)]));
-    farthest = std::max(farthest, corners[k].head<2>().squaredNorm());
+    farthest_squared = std::max(farthest_squared, corners[k].head<2>().squaredNorm());
   }
-  const bool round_axis = after_it - before > k_pi - margin;
-  const bool over_cut = start + before < -k_pi || start + after_it > k_pi;
-  box.low[0] = round_axis || over_cut ? -4.0 : start + before - margin;
-  box.high[0] = round_axis || over_cut ? 4.0 : start + after_it + margin;
-  box.low[1] = round_axis ? 0.0 : nearest * (1.0 - margin);
-  box.high[1] = std::sqrt(farthest) * (1.0 + margin);
+  const bool surrounds_axis = after_start - before_start > k_pi - margin;
+  const bool passes_half_turn = start + before_start < -k_pi || start + after_start > k_pi;
+  constexpr double k_beyond_all_angles = 4.0;  // > π
+  const bool spans_all_angles = surrounds_axis || passes_half_turn;
+  box.low[0] = spans_all_angles ? -k_beyond_all_angles : start + before_start - margin;
+  box.high[0] = spans_all_angles ? k_beyond_all_angles : start + after_start + margin;
+  box.low[1] = surrounds_axis ? 0.0 : nearest * (1.0 - margin);
+  box.high[1] = std::sqrt(farthest_squared) * (1.0 + margin);
   return box;
 }
 
@@ -223,18 +234,18 @@ struct FacetBoxes {
   std::vector<Box3> boxes;
 };
 
-/// Uses the coordinates in which the boxes overlap less.
+/// Uses those coordinates, Cartesian or polar, in which the boxes overlap less.
 FacetBoxes boxes_of(const TriangleMesh& mesh) {
   std::vector<double> angles;
   angles.reserve(mesh.vertices.size());
   for (const Vec3& vertex : mesh.vertices) angles.push_back(elementary::atan2(vertex.y(), vertex.x()));
-  FacetBoxes of;
+  FacetBoxes result;
   std::vector<Box3> polar;
-  of.facets.reserve(mesh.triangles.size());
-  of.planes.reserve(mesh.triangles.size());
-  of.boxes.reserve(mesh.triangles.size());
+  result.facets.reserve(mesh.triangles.size());
+  result.planes.reserve(mesh.triangles.size());
+  result.boxes.reserve(mesh.triangles.size());
   polar.reserve(mesh.triangles.size());
-  double cartesian_crowd = 0, polar_crowd = 0, reach = 0;
+  double cartesian_area = 0, polar_area = 0, reach = 0;
   const Bounds box = bounds(mesh);
   const double extent = (box.high - box.low).maxCoeff();
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
@@ -242,17 +253,19 @@ FacetBoxes boxes_of(const TriangleMesh& mesh) {
     const std::array<Vec3, 3> corners{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
     const FacetPlanes planes(corners, extent);
     if (!planes.has_area() && is_degenerate(mesh, f)) continue;
-    of.facets.push_back(f);
-    of.planes.push_back(planes);
-    of.boxes.push_back(cartesian_box(corners));
+    result.facets.push_back(f);
+    result.planes.push_back(planes);
+    result.boxes.push_back(cartesian_box(corners));
     polar.push_back(polar_box(corners, {angles[a], angles[b], angles[c]}));
-    cartesian_crowd += area_of(of.boxes.back());
-    polar_crowd += area_of(polar.back());
+    cartesian_area += area_of(result.boxes.back());
+    polar_area += area_of(polar.back());
     reach = std::max(reach, polar.back().high[1]);
   }
-  // Sum of the boxes' areas per area of the unrolled disc, and per area of the square around it.
-  if (polar_crowd / (k_two_pi * reach) < cartesian_crowd / (4.0 * reach * reach)) of.boxes = std::move(polar);
-  return of;
+  // Density of the boxes: their total area per area of the unrolled disc, and per area of the square around it.
+  const double polar_density = polar_area / (k_two_pi * reach),
+               cartesian_density = cartesian_area / (4.0 * reach * reach);
+  if (polar_density < cartesian_density) result.boxes = std::move(polar);
+  return result;
 }
 
 }  // namespace
@@ -268,7 +281,7 @@ CrossingSearch find_crossing(const TriangleMesh& welded) {
   const BoxTree tree(facets.boxes);
   std::atomic<bool> is_over = false;
   const auto search_in = [&](const auto& any_pair) {
-    // Bound for parts with all facets in one place, which would take hours. Pulleys have up to 25 pairs per facet.
+    // Limit for parts with all facets in one place, which would take hours. Pulleys have up to 25 pairs per facet.
     std::size_t pairs_left = 50'000'000 + 50 * facets.boxes.size();
     CrossingSearch search;
     any_pair([&](std::size_t i, std::size_t j) {

@@ -29,7 +29,9 @@ constexpr std::array<Screw, 12> k_screws{{{"M2", 2, 2.4, 1.6, 4.0, 1.6, 4.0},
 double nut_wall(double wall) { return std::max(wall, 1.5); }
 
 // Least height of the screw's axis above the hub's lower end.
-double below(const SetScrewLayout& screw) { return screw.nut_trap ? nut_corner(screw) : 0.5 * screw.hole_diameter; }
+double least_axis_height(const SetScrewLayout& screw) {
+  return screw.nut_trap ? nut_corner(screw) : 0.5 * screw.hole_diameter;
+}
 
 }  // namespace
 
@@ -60,7 +62,7 @@ SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compen
   }
   // The screw is in the middle of the hub. The wall above its ceiling may move it down, the nut's clearance up.
   const double middle = 0.5 * (layout.z_top + layout.z_hub), highest = layout.z_hub - teardrop_top(result) - wall;
-  result.z = std::max(std::min(middle, highest), layout.z_top + below(result));
+  result.z = std::max(std::min(middle, highest), layout.z_top + least_axis_height(result));
   return result;
 }
 
@@ -73,7 +75,7 @@ double height_to_spare(const SetScrewLayout& screw, const BodyLayout& layout, do
   // The screw's height uses up all clearance on one side, where rounding must not decide.
   constexpr double k_rounding = 1e-9;
   const double above = layout.z_hub - screw.z - teardrop_top(screw) - wall;
-  const double least = std::min(above, screw.z - layout.z_top - below(screw));
+  const double least = std::min(above, screw.z - layout.z_top - least_axis_height(screw));
   return std::abs(least) < k_rounding ? 0.0 : least;
 }
 

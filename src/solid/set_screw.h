@@ -27,7 +27,8 @@ const Screw* find_screw(const std::string& name);
 SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compensation, double wall,
                                 const BodyLayout& layout);
 
-/// The hub radius that leaves `wall` outside the nut, or outside three turns of thread.
+/// The hub radius that leaves `wall` outside the nut. Without a nut, the thread is 1.5 hole diameters long, and at
+/// least `wall`.
 double hub_radius_for(const SetScrewLayout& screw, double bore_radius, double wall);
 
 /// Clearance of the set screw's features within the hub's height, negative when they do not fit, mm.

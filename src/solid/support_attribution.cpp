@@ -17,15 +17,19 @@ namespace {
 // A channel entry extends beyond its bars by about this many groove depths and channel widths.
 constexpr double k_entry_depths = 2.0;
 constexpr double k_entry_widths = 2.0;
+// Pocket radii by which a tail's slot counts as nearer. At the pocket, which also belongs to the tie-off, a place is
+// then attributed to the slot.
+constexpr double k_slot_preference = 0.1;
 
+// The nearest feature to a place.
 struct Attribution {
   double gap = std::numeric_limits<double>::infinity();
   std::optional<Rejection> rejection;
 
-  void consider(double candidate, const Rejection& of) {
-    if (candidate >= gap) return;
-    gap = candidate;
-    rejection = of;
+  void consider(double candidate_gap, const Rejection& candidate) {
+    if (candidate_gap >= gap) return;
+    gap = candidate_gap;
+    rejection = candidate;
   }
 };
 
@@ -40,9 +44,9 @@ Attribution attribution_of(const Vec3& place, const BodyPlan& plan) {
     const Rejection itself{side, anchor.wound_end, anchor.wrap(), false};
     for (const Bar& bar : anchor.bars(layout)) nearest.consider(gap(at, bar), itself);
     if (anchor.tail) {
-      nearest.consider(
-          gap(at, {anchor.tail->from, anchor.tail->to, 0.5 * anchor.tail->width}) - anchor.pocket_radius(layout) * 0.1,
-          {side, anchor.wound_end, anchor.wrap(), true});
+      nearest.consider(gap(at, {anchor.tail->from, anchor.tail->to, 0.5 * anchor.tail->width}) -
+                           anchor.pocket_radius(layout) * k_slot_preference,
+                       {side, anchor.wound_end, anchor.wrap(), true});
     }
   }
   return nearest;

@@ -15,11 +15,12 @@
 namespace fusee::solid {
 namespace {
 
-// Depth of a slot in tendon diameters, so that the tail lies below the face, without and with a peaked ceiling.
+// Depth of a slot in tendon diameters, so that the tail lies below the face.
 constexpr double k_depth_ratio = 1.2;
+// Least depth of the walls below a peaked ceiling, in tendon diameters.
 constexpr double k_peaked_ratio = 0.8;
-// Length of a slot beyond the pocket's edge in tendon diameters: as long as space permits, up to a thumb's width, and
-// at least what glue requires.
+// Length of a slot beyond the pocket's edge in tendon diameters. The slot is as long as space permits, up to a thumb's
+// width. The shortest is what glue requires.
 constexpr double k_longest_ratio = 10.0;
 constexpr double k_shortest_ratio = 3.0;
 // Material below a slot's floor and above a channel's ceiling: two layers.
@@ -47,8 +48,9 @@ class TailPlacer {
     slot.ceiling = peaked ? 0.5 * slot.width * elementary::tan(ridge_slope(layout_)) : 0.0;
     slot.depth = std::max(k_peaked_ratio * d_, k_depth_ratio * d_ - slot.ceiling);
     const double deep = slot.depth + slot.ceiling;
-    // Obstacles at the groove's plane are only its floor and tie-offs.
+    // Clearances are computed above the groove's plane. A slot as deep as that plane is not planned.
     if (to_plane(anchor.side) - deep < k_ground_of_slot) return std::nullopt;
+    // A slot that is deep enough to meet channels must keep clear of them in plan.
     const bool over_channels = to_channels(anchor.side) - deep >= k_ground_of_slot;
     if (screw_ != nullptr && !add_screw(slot, anchor.side)) return std::nullopt;
     slot.from = anchor.pocket();
@@ -62,9 +64,10 @@ class TailPlacer {
     for (int k = 0; k < k_slot_directions; ++k) {
       const double turn = (k % 2 == 0 ? 1.0 : -1.0) * k_two_pi / k_slot_directions * ((k + 1) / 2);
       const Vec2 direction = turned(ahead, turn);
-      // The tie-off's own channel comes from behind.
-      const bool beside = direction.dot(ahead) >= 0 || edge * std::abs(cross(direction, ahead)) >= slot.width;
-      if (!over_channels && !beside) continue;
+      // The tie-off's own channel comes from behind, where a deep slot would meet it.
+      const bool clears_own_channel =
+          direction.dot(ahead) >= 0 || edge * std::abs(cross(direction, ahead)) >= slot.width;
+      if (!over_channels && !clears_own_channel) continue;
       for (double length = edge + k_longest_ratio * d_; length > longest; length -= 0.5 * d_) {
         slot.to = slot.from + length * direction;
         if (!is_free(slot, anchor.side, at_face)) continue;
@@ -90,17 +93,17 @@ class TailPlacer {
   void add_channels_beside(const PlannedAnchor& own, std::vector<Bar>& bars) const {
     for (const PlannedAnchor& anchor : plan_.anchors) {
       if (&anchor == &own || anchor.side != own.side) continue;
-      const std::vector<Bar> cut = anchor.bars(layout_);
-      bars.insert(bars.end(), cut.begin(), cut.end());
+      const std::vector<Bar> tie_off = anchor.bars(layout_);
+      bars.insert(bars.end(), tie_off.begin(), tie_off.end());
     }
   }
 
   // Makes the screw as long as the material under the slot permits; false if that is too short.
   bool add_screw(TailSlot& slot, transmission::Side side) const {
-    const double ground = layout_.parts == Parts::one        ? layout_.z_top
-                          : side == transmission::Side::left ? layout_.z_mate
-                                                             : layout_.z_top - layout_.z_mate;
-    const double below = slot.depth + slot.ceiling, room = ground - k_ground_of_slot - below;
+    const double material = layout_.parts == Parts::one        ? layout_.z_top
+                            : side == transmission::Side::left ? layout_.z_mate
+                                                               : layout_.z_top - layout_.z_mate;
+    const double below = slot.depth + slot.ceiling, room = material - k_ground_of_slot - below;
     slot.pilot_diameter = screw_->tapping + compensation_;
     slot.pilot_depth = below + std::min(k_thread_ratio * screw_->nominal, room);
     slot.head_diameter = screw_->head;
@@ -108,8 +111,8 @@ class TailPlacer {
   }
 
   static Vec2 heading(const PlannedAnchor& anchor) {
-    if (const auto* path = std::get_if<AnchorPath>(&anchor.way)) return path->heading();
-    return -std::get<FaceHole>(anchor.way).normal;
+    if (const auto* path = std::get_if<AnchorPath>(&anchor.tie_off)) return path->heading();
+    return -std::get<FaceHole>(anchor.tie_off).normal;
   }
 
   std::vector<Bar> obstacles_at_face(const PlannedAnchor& own) const {
@@ -140,18 +143,19 @@ class TailPlacer {
       return std::all_of(at_face.begin(), at_face.end(), [&](const Bar& other) { return gap(bar, other) >= wall; });
     };
     if (!clear({slot.from, slot.to, half})) return false;
-    return slot.pilot_diameter <= 0 || (clear({slot.to, slot.to, 0.5 * slot.head_diameter}) && takes_pilot(slot));
+    return slot.pilot_diameter <= 0 ||
+           (clear({slot.to, slot.to, 0.5 * slot.head_diameter}) && has_space_for_pilot(slot));
   }
 
   // The pilot hole is deep: it must clear all features of both pulleys.
-  bool takes_pilot(const TailSlot& slot) const {
+  bool has_space_for_pilot(const TailSlot& slot) const {
     const double radius = circumradius(polyhole(slot.pilot_diameter, Vec2::Zero())), wall = layout_.min_wall;
     if (std::min(floor1_.depth_of(slot.to), floor2_.depth_of(slot.to)) < radius + wall) return false;
     std::vector<Bar> bars{{Vec2::Zero(), Vec2::Zero(), layout_.bore.radius}};
     add_holes(bars);
     for (const PlannedAnchor& anchor : plan_.anchors) {
-      const std::vector<Bar> cut = anchor.bars(layout_);
-      bars.insert(bars.end(), cut.begin(), cut.end());
+      const std::vector<Bar> tie_off = anchor.bars(layout_);
+      bars.insert(bars.end(), tie_off.begin(), tie_off.end());
     }
     return std::all_of(bars.begin(), bars.end(), [&](const Bar& bar) {
       return gap({slot.to, slot.to, radius}, bar) >= wall;

@@ -28,13 +28,13 @@ struct Heights {
 
 Heights heights_of(const BodyLayout& layout, transmission::Side side, int variant) {
   Heights heights;
-  const bool left = side == transmission::Side::left, turned = left && layout.parts == Parts::two;
+  const bool left = side == transmission::Side::left, upside_down = left && layout.parts == Parts::two;
   heights.plane = left ? layout.z_p1 : layout.z_p2;
-  heights.up = turned ? -1.0 : 1.0;
+  heights.up = upside_down ? -1.0 : 1.0;
   heights.half = channel_half_height(layout, variant);
   heights.channel_ceiling = layout.channel_ceiling;
   heights.open = left ? layout.z_p1 + k_overshoot : layout.z_hub - layout.z_p2 + k_overshoot;
-  if (left && !turned) {
+  if (left && !upside_down) {
     heights.open = -heights.open;
     heights.pocket_ceiling = layout.pocket_ceiling;
   }
@@ -47,49 +47,51 @@ Heights heights_of(const BodyLayout& layout, transmission::Side side, int varian
 TriangleMesh channel(const ChannelEdges& edges, double width, const Heights& heights) {
   std::vector<std::vector<Vec3>> sections;
   for (std::size_t k = 0; k < edges.outer.size(); ++k) {
-    const Vec2 &o = edges.outer[k], &i = edges.inner[k];
-    const double ridge = heights.half + heights.channel_ceiling * (o - i).norm() / width;
-    sections.push_back({{i.x(), i.y(), -heights.half},
-                        {o.x(), o.y(), -heights.half},
-                        {o.x(), o.y(), ridge},
-                        {i.x(), i.y(), heights.half}});
+    const Vec2 &outer = edges.outer[k], &inner = edges.inner[k];
+    const double outer_ceiling = heights.half + heights.channel_ceiling * (outer - inner).norm() / width;
+    sections.push_back({{inner.x(), inner.y(), -heights.half},
+                        {outer.x(), outer.y(), -heights.half},
+                        {outer.x(), outer.y(), outer_ceiling},
+                        {inner.x(), inner.y(), heights.half}});
   }
   return strip(sections);
 }
 
 // Seen from its centre, x ahead and y to the channel's outer side: a circle, and a tab in which the channel ends at a
 // wall across it. The circle alone would meet the channel's slope at too sharp an angle.
-std::vector<Vec2> pocket_outline(double radius, double width, bool tab, int facets) {
+std::vector<Vec2> pocket_outline(double radius, double width, bool has_tab, int facets) {
   // Slightly wider than the channel, so that no two of their faces coincide.
   const double half = half_tab(width, radius), behind = elementary::asin(half / radius);
   const double step = k_two_pi / facets;
   std::vector<Vec2> points;
-  if (!tab) {
+  if (!has_tab) {
     for (int k = 0; k < facets; ++k) points.push_back(radius * unit(k * step));
     return points;
   }
   for (double angle = 0; angle < k_pi - behind - 0.3 * step; angle += step) points.push_back(radius * unit(angle));
   points.push_back(radius * unit(k_pi - behind));
-  points.emplace_back(-radius - k_deeper, half);
-  points.emplace_back(-radius - k_deeper, -half);
+  points.emplace_back(-radius - k_pocket_excess, half);
+  points.emplace_back(-radius - k_pocket_excess, -half);
   points.push_back(radius * unit(k_pi + behind));
-  const std::size_t upper = points.size() - 4;
-  for (std::size_t k = upper; k-- > 1;) points.emplace_back(points[k].x(), -points[k].y());
+  // The circle's other half is the mirror image of the first. The last four points are the tab's.
+  const std::size_t half_circle = points.size() - 4;
+  for (std::size_t k = half_circle; k-- > 1;) points.emplace_back(points[k].x(), -points[k].y());
   return points;
 }
 
 // The ceiling over a pocket that opens on the bed rises across it as the channel's does. The channel's ceiling lies
 // entirely below it, so that no ridge hangs down between the two.
 TriangleMesh pocket(const AnchorPath& path, double radius, double width, int facets, const Heights& heights) {
-  const bool tab = heights.channel_ceiling > 0 && path.straight > radius + k_deeper;
-  std::vector<Vec3> entry, end;
-  for (const Vec2& local : pocket_outline(radius, width, tab, facets)) {
+  const bool has_tab = heights.channel_ceiling > 0 && path.straight > radius + k_pocket_excess;
+  std::vector<Vec3> open_end, closed_end;
+  for (const Vec2& local : pocket_outline(radius, width, has_tab, facets)) {
     const Vec2 point = path.pocket() + local.x() * path.heading() + local.y() * path.outer();
     const double ceiling = heights.pocket_ceiling * 0.5 * (1.0 + local.y() / radius);
-    entry.emplace_back(point.x(), point.y(), heights.open);
-    end.emplace_back(point.x(), point.y(), std::copysign(heights.half + k_deeper, -heights.open) + ceiling);
+    open_end.emplace_back(point.x(), point.y(), heights.open);
+    closed_end.emplace_back(point.x(), point.y(),
+                            std::copysign(heights.half + k_pocket_excess, -heights.open) + ceiling);
   }
-  return strip({entry, end});
+  return strip({open_end, closed_end});
 }
 
 TriangleMesh channel_tool(const BodyPlan& plan, transmission::Side side, const AnchorPath& planned, int variant) {
@@ -116,13 +118,13 @@ TriangleMesh countersink(const FaceHole& hole, double depth, double outside, int
     for (int k = 0; k < facets; ++k) points.push_back(centre + radius * unit(k_two_pi * (k + 0.31) / facets));
     return points;
   };
-  // Continues along the same slope.
+  // The depth at which the cone has narrowed to that smaller circle, on the same slope.
   const double deeper = depth * (1.0 + 0.5 * (1.0 - k_share) * hole.hole_radius / (hole.room - hole.hole_radius));
   const Polygon outer = circle(hole.pocket(), hole.room), inner = circle(hole.hole, k_share * hole.hole_radius);
   return strip({at_height(outer, -0.5 * k_overshoot - outside), at_height(outer, 0.0), at_height(inner, deeper)});
 }
 
-// Seen from the face, which lies at 0. The whole tool is cut into material above the bed, or is open at the top.
+// The tool is first made as seen from the face, which lies at height 0, and then moved to its side.
 TriangleMesh face_hole_tool(const BodyLayout& layout, transmission::Side side, const FaceHole& hole, int variant) {
   const bool left = side == transmission::Side::left;
   const double outside = k_overshoot + (left ? 0.0 : layout.z_hub - layout.z_top);
@@ -142,7 +144,7 @@ TriangleMesh face_hole_tool(const BodyLayout& layout, transmission::Side side, c
 
 }  // namespace
 
-// The channel's floor must not lie in the plane of a ring.
+// The height is increased until the channel's floor does not lie in the plane of a ring.
 double channel_half_height(const BodyLayout& layout, int variant) {
   double half = 0.5 * layout.channel_width * (1.0 + 0.002 * variant);
   const auto on_ring = [&half](const std::vector<GroovePoint>& wall) {
@@ -185,8 +187,9 @@ Polygon hole_outline(const FaceHole& hole, int variant) {
 }
 
 TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int variant) {
-  if (const auto* path = std::get_if<AnchorPath>(&anchor.way)) return channel_tool(plan, anchor.side, *path, variant);
-  return face_hole_tool(plan.layout, anchor.side, std::get<FaceHole>(anchor.way), variant);
+  if (const auto* path = std::get_if<AnchorPath>(&anchor.tie_off))
+    return channel_tool(plan, anchor.side, *path, variant);
+  return face_hole_tool(plan.layout, anchor.side, std::get<FaceHole>(anchor.tie_off), variant);
 }
 
 // A section across the slot is a rectangle. If the face lies on the bed, a peaked ceiling is added. Each of its slopes

@@ -11,6 +11,7 @@ namespace fusee::solid {
 /// Channel and knot pocket, with the pocket open to the nearest face, or the slot to the face. Each `variant` has
 /// different facets.
 TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int variant);
+/// Plan view of the slot to the face.
 Polygon hole_outline(const FaceHole& hole, int variant);
 
 /// The tail's slot, open to the face. To be subtracted from a body that has its tie-off.

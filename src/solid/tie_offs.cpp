@@ -21,78 +21,85 @@ constexpr double k_thin_pocket = 0.85;
 // Gap between a pocket and the hub, which avoids a sliver.
 constexpr double k_hub_gap = 0.4;
 
-// Step at which a wound tie-off is tried, from the far end of the closing arc.
+// Step of wrap at which a load-carrying tie-off is tried, from the far end of the closing arc.
 constexpr double k_wrap_step = radians(5);
-// Angle around a rejected tie-off that is excluded.
+// Angle on both sides of a rejected tie-off within which none is planned again.
 constexpr double k_rejected_around = radians(9);
 
-// Prefers a place near its end of the arc. A wound tie-off may be anywhere else.
+// Prefers a channel near its end of the arc. The channel of a load-carrying tie-off may also pass the axis.
 std::optional<AnchorPath> anchor_at(const AnchorSite& site, bool wound_end, double wanted, const LapRange& laps) {
   auto path = find_anchor(site, wound_end, wanted, AnchorReach::near, laps);
   if (!wound_end || (path && path->room >= wanted)) return path;
   return find_anchor(site, wound_end, wanted, AnchorReach::anywhere, laps);
 }
 
-template <typename Member>
-auto of(const TieOff& way, const Member& member) {
-  return std::visit(member, way);
+// A property that both kinds of tie-off have.
+template <typename Property>
+auto property_of(const TieOff& tie_off, const Property& property) {
+  return std::visit(property, tie_off);
 }
-double room_of(const TieOff& way) {
-  return of(way, [](const auto& found) { return found.room; });
+double room_of(const TieOff& tie_off) {
+  return property_of(tie_off, [](const auto& found) { return found.room; });
 }
-double lap_of(const TieOff& way) {
-  return of(way, [](const auto& found) { return found.lap; });
+double lap_of(const TieOff& tie_off) {
+  return property_of(tie_off, [](const auto& found) { return found.lap; });
 }
-double wrap_of(const TieOff& way) {
-  return of(way, [](const auto& found) { return found.wrap; });
+double wrap_of(const TieOff& tie_off) {
+  return property_of(tie_off, [](const auto& found) { return found.wrap; });
 }
-Vec2 pocket_of(const TieOff& way) {
-  return of(way, [](const auto& found) { return found.pocket(); });
+Vec2 pocket_of(const TieOff& tie_off) {
+  return property_of(tie_off, [](const auto& found) { return found.pocket(); });
 }
-bool is_channel(const TieOff& way) { return std::holds_alternative<AnchorPath>(way); }
+bool is_channel(const TieOff& tie_off) { return std::holds_alternative<AnchorPath>(tie_off); }
 
-double pocket_radius_of(const TieOff& way, const BodyLayout& layout) {
-  return is_channel(way) ? layout.pocket_radius : room_of(way);
-}
-
-bool cuts_into(const BodyLayout& layout, const TieOff& way) {
-  return pocket_of(way).norm() < layout.hub_radius + pocket_radius_of(way, layout);
+double pocket_radius_of(const TieOff& tie_off, const BodyLayout& layout) {
+  return is_channel(tie_off) ? layout.pocket_radius : room_of(tie_off);
 }
 
-std::vector<Bar> bars_of(const TieOff& way, const BodyLayout& layout) {
-  std::vector<Bar> bars = of(way, [&layout](const auto& found) { return found.bars(layout.channel_width); });
-  bars.push_back({pocket_of(way), pocket_of(way), pocket_radius_of(way, layout)});
+// True if a pocket overlaps the hub in plan.
+bool cuts_into(const BodyLayout& layout, const TieOff& tie_off) {
+  return pocket_of(tie_off).norm() < layout.hub_radius + pocket_radius_of(tie_off, layout);
+}
+
+std::vector<Bar> bars_of(const TieOff& tie_off, const BodyLayout& layout) {
+  std::vector<Bar> bars =
+      property_of(tie_off, [&layout](const auto& found) { return found.bars(layout.channel_width); });
+  bars.push_back({pocket_of(tie_off), pocket_of(tie_off), pocket_radius_of(tie_off, layout)});
   return bars;
 }
 
-int cuts_into_hub(const BodyLayout& layout, const TieOffPair& pair) {
+// Number of pockets that cut into the hub.
+int count_cuts_into_hub(const BodyLayout& layout, const TieOffPair& pair) {
   return int{cuts_into(layout, pair.wound)} + int{pair.spare && cuts_into(layout, *pair.spare)};
 }
 
 // On a shaft with a flat the set screw cannot be turned away from a pocket.
 bool blocks_set_screw(const BodyLayout& layout, const TieOffPair& pair) {
   if (!layout.set_screw.present || layout.bore.kind == Bore::round) return false;
-  const auto blocks = [&layout](const TieOff& way) { return !clears_set_screw(layout, layout.set_screw.angle, way); };
+  const auto blocks = [&layout](const TieOff& tie_off) {
+    return !clears_set_screw(layout, layout.set_screw.angle, tie_off);
+  };
   return blocks(pair.wound) || (pair.spare && blocks(*pair.spare));
 }
 
 }  // namespace
 
 Vec2 PlannedAnchor::start() const {
-  return of(way, [](const auto& found) { return found.start; });
+  return property_of(tie_off, [](const auto& found) { return found.start; });
 }
-Vec2 PlannedAnchor::pocket() const { return pocket_of(way); }
-double PlannedAnchor::pocket_radius(const BodyLayout& layout) const { return pocket_radius_of(way, layout); }
+Vec2 PlannedAnchor::pocket() const { return pocket_of(tie_off); }
+double PlannedAnchor::pocket_radius(const BodyLayout& layout) const { return pocket_radius_of(tie_off, layout); }
 bool PlannedAnchor::cuts_into_hub(const BodyLayout& layout) const {
-  return side == transmission::Side::right && cuts_into(layout, way);
+  return side == transmission::Side::right && cuts_into(layout, tie_off);
 }
-double PlannedAnchor::wrap() const { return wrap_of(way); }
-std::vector<Bar> PlannedAnchor::bars(const BodyLayout& layout) const { return bars_of(way, layout); }
+double PlannedAnchor::wrap() const { return wrap_of(tie_off); }
+std::vector<Bar> PlannedAnchor::bars(const BodyLayout& layout) const { return bars_of(tie_off, layout); }
 
-bool clears_set_screw(const BodyLayout& layout, double angle, const TieOff& way) {
+bool clears_set_screw(const BodyLayout& layout, double angle, const TieOff& tie_off) {
   const SetScrewLayout& screw = layout.set_screw;
   const Bar bar{Vec2::Zero(), layout.hub_radius * unit(angle), 0.5 * std::max(screw.hole_diameter, screw.nut_width)};
-  return gap({pocket_of(way), pocket_of(way), pocket_radius_of(way, layout)}, bar) >= std::min(layout.min_wall, 1.0);
+  return gap({pocket_of(tie_off), pocket_of(tie_off), pocket_radius_of(tie_off, layout)}, bar) >=
+         std::min(layout.min_wall, 1.0);
 }
 
 void choose_channel(BodyLayout& layout, const Mechanism& mechanism) {
@@ -154,7 +161,9 @@ WoundTieOffs TieOffPlanner::wound(const BodyLayout& layout) const {
 }
 
 bool TieOffPlanner::has_room(const BodyLayout& layout, const WoundTieOffs& wound) const {
-  const auto enough = [&](const TieOff& way) { return !is_channel(way) || room_of(way) >= least_pocket(layout); };
+  const auto enough = [&](const TieOff& tie_off) {
+    return !is_channel(tie_off) || room_of(tie_off) >= least_pocket(layout);
+  };
   return wound.both() && enough(*wound.p1) && enough(*wound.p2);
 }
 
@@ -162,8 +171,8 @@ void TieOffPlanner::settle_pockets(BodyLayout& layout, const WoundTieOffs& wound
   const double wanted = wanted_pocket(layout);
   layout.pocket_radius = wanted;
   if (!wound.both()) return;
-  for (const TieOff& way : {*wound.p1, *wound.p2}) {
-    if (is_channel(way)) layout.pocket_radius = std::min(layout.pocket_radius, room_of(way));
+  for (const TieOff& tie_off : {*wound.p1, *wound.p2}) {
+    if (is_channel(tie_off)) layout.pocket_radius = std::min(layout.pocket_radius, room_of(tie_off));
   }
   if (mechanism_.body.knot_pocket <= 0 && layout.pocket_radius < wanted) {
     layout.omit("knot_pocket", fmt::format("no space for knot pockets of {:.2f} mm: reduced to {:.2f} mm", 2.0 * wanted,
@@ -174,13 +183,13 @@ void TieOffPlanner::settle_pockets(BodyLayout& layout, const WoundTieOffs& wound
 std::vector<PlannedAnchor> TieOffPlanner::all(BodyLayout& layout, const WoundTieOffs& wound) const {
   std::vector<PlannedAnchor> anchors;
   if (!wound.both()) return anchors;
-  // Both searches are independent. The nearest are found faster than a thread starts.
+  // Both searches are independent. Without a search for the furthest, they end before a thread would have started.
   const bool takes_long = mechanism_.body.wrap <= 0 && wishes_.wrap == WrapChoice::furthest;
-  auto pair2 = run_async([&] { return wrapped_furthest(layout, ground2_, *wound.p2); }, takes_long);
+  auto search_p2 = run_async([&] { return wrapped_furthest(layout, ground2_, *wound.p2); }, takes_long);
   const TieOffPair pair1 = wrapped_furthest(layout, ground1_, *wound.p1);
-  const TieOffPair of_p2 = pair2.get();
+  const TieOffPair pair2 = search_p2.get();
   add(anchors, layout, ground1_, pair1);
-  add(anchors, layout, ground2_, of_p2);
+  add(anchors, layout, ground2_, pair2);
   return anchors;
 }
 
@@ -219,15 +228,15 @@ TieOffPair TieOffPlanner::wrapped_furthest(const BodyLayout& layout, const Ancho
   if (mechanism_.body.wrap > 0 || wishes_.wrap == WrapChoice::nearest) return nearest;
   const double radius = pocket_radius_of(first, layout);
   for (double wrap = k_two_pi; wrap > wrap_of(first); wrap -= k_wrap_step) {
-    LapRange there = ground.lap_range(true, wrap);
-    there.most = there.least;
-    const auto wound = tie_off(site(layout, ground), layout, true, radius, there);
+    LapRange laps = ground.lap_range(true, wrap);
+    laps.most = laps.least;
+    const auto wound = tie_off(site(layout, ground), layout, true, radius, laps);
     if (!wound || is_channel(*wound) != is_channel(first) || room_of(*wound) < radius) continue;
     if (is_rejected(ground.outline().side, true, wrap_of(*wound))) continue;
     const TieOffPair further{*wound, spare_beside(layout, ground, *wound)};
-    const bool in_the_way =
-        ground.outline().side == transmission::Side::right &&
-        (cuts_into_hub(layout, further) > cuts_into_hub(layout, nearest) || blocks_set_screw(layout, further));
+    const bool in_the_way = ground.outline().side == transmission::Side::right &&
+                            (count_cuts_into_hub(layout, further) > count_cuts_into_hub(layout, nearest) ||
+                             blocks_set_screw(layout, further));
     const bool complete = further.spare || is_rejected(ground.outline().side, false, 0.0);
     if (complete && !in_the_way) return further;
   }

@@ -17,13 +17,14 @@ namespace fusee::solid {
 /// The two kinds of tie-off.
 using TieOff = std::variant<AnchorPath, FaceHole>;
 
+/// A tie-off at an end of a pulley's closing arc.
 struct PlannedAnchor {
   transmission::Side side = transmission::Side::left;
-  bool wound_end = true;
-  TieOff way;
+  bool wound_end = true;  ///< the end that carries load; false: a spare tie-off at the other end
+  TieOff tie_off;
   std::optional<TailSlot> tail;
 
-  /// Properties of both kinds.
+  // Properties that both kinds of tie-off have.
   Vec2 start() const;
   Vec2 pocket() const;
   double pocket_radius(const BodyLayout& layout) const;
@@ -37,8 +38,8 @@ struct PlannedAnchor {
 struct Rejection {
   transmission::Side side = transmission::Side::left;
   bool wound_end = true;
-  double wrap = 0;
-  bool tail = false;
+  double wrap = 0;    ///< past the end of the active arc, rad
+  bool tail = false;  ///< only the tail's slot did not print
 
   bool operator==(const Rejection&) const = default;
 };
@@ -49,7 +50,7 @@ struct WoundTieOffs {
   bool both() const { return p1 && p2; }
 };
 
-/// Both tie-offs of a pulley.
+/// Both tie-offs of P1, or of P2.
 struct TieOffPair {
   TieOff wound;
   std::optional<TieOff> spare;
@@ -63,7 +64,7 @@ struct AnchorRoom {
 };
 
 /// True if a set screw whose axis points in direction `angle` keeps a wall to this tie-off.
-bool clears_set_screw(const BodyLayout& layout, double angle, const TieOff& way);
+bool clears_set_screw(const BodyLayout& layout, double angle, const TieOff& tie_off);
 
 /// Sets width and fillet of the channels.
 void choose_channel(BodyLayout& layout, const Mechanism& mechanism);
@@ -71,13 +72,14 @@ void choose_channel(BodyLayout& layout, const Mechanism& mechanism);
 /// Default place of a load-carrying tie-off on the closing arc.
 enum class WrapChoice { furthest, nearest };
 
-/// Options for planning tie-offs. `nearest` alone decides whether any plan exists, in a tenth of the time.
+/// Options for planning tie-offs. A plan exists exactly if one with `nearest` exists, which takes a tenth of the time
+/// to find.
 struct TieOffWishes {
   WrapChoice wrap = WrapChoice::furthest;
   std::vector<Rejection> rejected = {};  ///< places that must not be planned again
   double entry_lean = k_steep_lean;
-  /// True to decide only whether a plan exists. Skips work that a failed condition makes needless, and slots for tails
-  /// without conditions.
+  /// True to decide only whether a plan exists. Omits whatever is no condition of a plan: work after a failed
+  /// condition, marks, and slots for tails without a clamp screw.
   bool conditions_alone = false;
 };
 
@@ -95,14 +97,15 @@ class TieOffPlanner {
   /// From now on, uses a slot to the face where a channel and its pocket do not fit.
   void allow_face_holes() { face_holes_ = true; }
 
-  /// Requires a layout with bore, hub, wall and channel.
+  /// The tie-offs that carry load. Requires a layout with bore, hub, wall and channel.
   WoundTieOffs wound(const BodyLayout& layout) const;
+  /// True if both exist and their pockets are large enough.
   bool has_room(const BodyLayout& layout, const WoundTieOffs& wound) const;
   /// Chooses one pocket size for all channels: the smaller of those that fit at the wound ends.
   void settle_pockets(BodyLayout& layout, const WoundTieOffs& wound) const;
   /// All tie-offs including the spare ones. The layout notes an omitted one.
   std::vector<PlannedAnchor> all(BodyLayout& layout, const WoundTieOffs& wound) const;
-  /// Results for channels, and for pulleys without any tie-off.
+  /// The results for P1 and P2 where a channel or nothing was found. A slot to the face has no pocket to report.
   std::vector<AnchorRoom> rooms(const BodyLayout& layout, const WoundTieOffs& wound) const;
 
  private:

@@ -11,15 +11,17 @@
 namespace fusee::solid {
 namespace {
 
+// Facets of a set screw's hole, in its first variant.
 constexpr int k_hole_facets = 20;
 
 using Indices = std::vector<std::uint32_t>;
 
-// Vertices of the same plane points at several heights.
+// Builds a mesh from vertical walls and horizontal faces over the same points of the plane.
 class Levels {
  public:
   explicit Levels(const std::vector<Vec2>& points) : points_(points) {}
 
+  // Number of the vertex over a point at a height, which is added if it is new.
   std::uint32_t vertex(std::uint32_t point, double z) {
     for (std::size_t k = 0; k < heights_.size(); ++k) {
       if (heights_[k] == z) return number(k, point);

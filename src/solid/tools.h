@@ -16,8 +16,10 @@ TriangleMesh prism(const std::vector<Polygon>& loops, double low, double high);
 
 /// An outline at one height, as a section for strip().
 std::vector<Vec3> at_height(const Polygon& outline, double z);
-/// The body between convex outlines with equal numbers of corners, one above the other.
+/// The closed mesh between convex sections with equal numbers of corners. Consecutive sections are joined corner by
+/// corner, and the first and the last are closed.
 TriangleMesh strip(const std::vector<std::vector<Vec3>>& sections);
+/// Reverses the orientation of all facets.
 void turn_inside_out(TriangleMesh& mesh);
 
 /// The set screw's hole from the axis through the hub, with the slot for its nut. Each `variant` has different facets.

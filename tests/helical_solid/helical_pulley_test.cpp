@@ -53,7 +53,7 @@ void expect_good(const HelicalPulley& pulley, const std::string& name) {
   EXPECT_EQ(failures(solid::check_print(pulley.mesh)), "");
 }
 
-TEST(HelicalPulley, RoundHelix) {
+TEST(HelicalPulley, BuildsRoundHelix) {
   const Mechanism mechanism = plain();
   const double lead = least_lead(helical_section(mechanism), 0.0) + 0.05, slope = lead / (k_two_pi * 16.0);
   const HelicalPulley pulley = make_helical_pulley(mechanism, spiral_of(testing::round_curve(16.0), 0.3, 5, slope),
@@ -91,7 +91,7 @@ TEST(HelicalPulley, BuildsOvals) {
   expect_good(pulley, "oval");
 }
 
-// The number of facets is proportional to the number of turns.
+// Equal numbers of additional turns add equal numbers of facets.
 TEST(HelicalPulley, FacetsAreProportionalToTurns) {
   const Mechanism mechanism = plain();
   const double lead = least_lead(helical_section(mechanism), 0.0) + 0.05, slope = lead / (k_two_pi * 16.0);

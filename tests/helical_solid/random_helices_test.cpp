@@ -26,7 +26,7 @@ class PulleyGenerator {
  public:
   explicit PulleyGenerator(unsigned seed) : random_(seed) {}
 
-  RandomPulley one() {
+  RandomPulley next() {
     RandomPulley random;
     Mechanism& m = random.mechanism;
     m.body = testing::plain_mechanism().body;
@@ -81,7 +81,7 @@ TEST(RandomHelices, AreSolidsOrReportWhyNot) {
   int made = 0;
   double longest = 0;
   for (int n = 0; n < count; ++n) {
-    const RandomPulley random = generator.one();
+    const RandomPulley random = generator.next();
     const auto begin = std::chrono::steady_clock::now();
     const HelicalPulley pulley = make_helical_pulley(random.mechanism, random.p1, random.p2);
     longest = std::max(longest, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());

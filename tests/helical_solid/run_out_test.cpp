@@ -13,6 +13,7 @@
 namespace fusee::helical_solid {
 namespace {
 
+// Radius of the pitch curve, and distance of the groove's end from the face. mm
 constexpr double k_radius = 12.0, k_from_face = 9.0;
 
 GrooveEnd end_on(transmission::Side side) {
@@ -26,8 +27,11 @@ GrooveEnd end_on(transmission::Side side) {
 }
 
 struct Sizes {
-  double radius, bend_ratio, entry, growth;  ///< growth of the radius along the arc
-  double peak = 57.5;
+  double radius;       ///< of the channel, mm
+  double bend_ratio;   ///< radius of the arc, in channel radii
+  double entry;        ///< radius at the entry, mm
+  double growth;       ///< of the radius, per length along the arc
+  double peak = 57.5;  ///< slope of the ceiling, deg
 };
 
 RunOutSizes sizes_of(const Sizes& wanted) {

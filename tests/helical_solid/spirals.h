@@ -17,6 +17,7 @@ struct SupportCurve {
   std::function<double(double)> p, dp, d2p;
 };
 
+/// The spiral over a curve from the turn `begin` on, with rows at most `step` apart.
 inline helix::Spiral spiral_of(const SupportCurve& curve, double begin, double turns, double slope,
                                double step = 0.02) {
   helix::Spiral spiral;

@@ -50,7 +50,7 @@ bool is_inside(const std::vector<Polygon>& loops, const Vec2& point) {
   return inside;
 }
 
-/// Distance from a section to a line's points; 0 inside.
+/// Least distance of points from a section; 0 if one lies inside.
 double distance(const std::vector<Polygon>& loops, const std::vector<Vec2>& points) {
   double least = 1e9;
   for (const Vec2& point : points) {
@@ -100,7 +100,7 @@ std::vector<PlacedPart> put_together(const Model& model, double theta, double al
 
 class Kit : public ::testing::TestWithParam<const char*> {};
 
-/// Parts that touch each other: they are screwed together, or turn on the same bearing.
+/// True for parts that are screwed together.
 bool may_touch(const std::string& a, const std::string& b) {
   static const std::set<std::set<std::string>> pairs{
       {"link", "post"}, {"link", "magnet_cap"}, {"link", "tensioner_slide"}};
@@ -124,7 +124,7 @@ TEST_P(Kit, MovingPartsDoNotCollide) {
         if (!all[i].moves || cuts[i].empty()) continue;
         for (std::size_t k = 0; k < all.size(); ++k) {
           if (i == k || cuts[k].empty() || may_touch(all[i].name, all[k].name)) continue;
-          // Rings lie in the link's own bore.
+          // The ring lies in the link's bore.
           if (all[k].name == "bearing_ring") continue;
           for (const Polygon& loop : cuts[i])
             EXPECT_GT(distance(cuts[k], dotted(loop, true)), 0.4)
@@ -234,7 +234,7 @@ TEST(KitOfOne, SmallFingerGetsSmallBearings) {
 
 // ---- the coupon -----------------------------------------------------------------------------------------------------
 
-TEST(KitOfOne, CouponHasFiveOfEach) {
+TEST(KitOfOne, CouponHasFiveHolesAndPegs) {
   const Model model = model_of("forearm");
   const solid::TriangleMesh mesh = kit::mesh_of(kit::coupon_body(model.mechanism));
   for (const Check& check : solid::check_mesh(mesh)) EXPECT_TRUE(check.ok) << check.name << " " << check.where;
@@ -290,14 +290,14 @@ TEST(KitOfOne, TendonLengthCoversItsPath) {
     const profile::Outline& outline = left ? product.synthesis.p1 : product.synthesis.p2;
     const auto trace = formats::trace_tendon(product.joint.mechanism, outline, 0, 0);
     // Up the post, and along the link to the slide's screw.
-    double way = trace->free_length;
+    double path = trace->free_length;
     if (left) {
       const kit::KitSizes& sizes = made.product.plan.sizes;
-      way += sizes.link_low + sizes.link + sizes.flange - sizes.post_low;
-      way += 2.5 + sizes.post;
+      path += sizes.link_low + sizes.link + sizes.flange - sizes.post_low;
+      path += 2.5 + sizes.post;
     }
-    EXPECT_GT(cut.between_knots, way);
-    EXPECT_LT(cut.between_knots, way + 1.5 * perimeter(profile::parallel(outline, 0)));
+    EXPECT_GT(cut.between_knots, path);
+    EXPECT_LT(cut.between_knots, path + 1.5 * perimeter(profile::parallel(outline, 0)));
     EXPECT_GT(cut.cut, cut.between_knots + 100);
   }
 }

@@ -53,25 +53,26 @@ void expect_solid(const std::optional<BooleanResult>& result, double volume, dou
 
 const TriangleMesh k_body = box({0, 0, 0}, {10, 10, 10});
 
-TEST(Boolean, CrossingBoxes) {
+// The tool is 2 × 3 mm wide and projects by 1 mm from both faces of the body.
+TEST(Boolean, CombinesCrossingBoxes) {
   const TriangleMesh tool = box({4, 4, -1}, {6, 7, 11});
   expect_solid(subtract(k_body, tool), 1000 - 60, 60);
   expect_solid(unite(k_body, tool), 1000 + 12, 60);
 }
 
-TEST(Boolean, DisjointBoxes) {
+TEST(Boolean, CombinesDisjointBoxes) {
   const TriangleMesh tool = box({20, 0, 0}, {21, 1, 1});
   expect_solid(subtract(k_body, tool), 1000, 0);
   expect_solid(unite(k_body, tool), 1001, 0);
 }
 
-TEST(Boolean, NestedBoxes) {
+TEST(Boolean, CombinesNestedBoxes) {
   const TriangleMesh tool = box({2, 2, 2}, {3, 3, 3});
   expect_solid(subtract(k_body, tool), 999, 1);
   expect_solid(unite(k_body, tool), 1000, 1);
 }
 
-/// mm
+/// Length of the shortest edge, mm.
 double shortest_edge(const TriangleMesh& mesh) {
   double least = 1e9;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -84,13 +85,13 @@ double shortest_edge(const TriangleMesh& mesh) {
 // A corner of the tool lies close to the diagonal of the body's face, for either of the two possible diagonals. admesh
 // would compute another normal for the facet of that width.
 TEST(Boolean, LeavesNoEdgesOfFloatLength) {
-  for (const double hair : {1.2e-5, -1.2e-5, 7e-6}) {
+  for (const double offset : {1.2e-5, -1.2e-5, 7e-6}) {
     for (const double x : {0.0, 2.0}) {
-      const TriangleMesh tool = box({4 - x, 4 - x + hair, -1}, {6, 6 + hair, 11});
+      const TriangleMesh tool = box({4 - x, 4 - x + offset, -1}, {6, 6 + offset, 11});
       const double area = (2 + x) * (2 + x);
       const auto result = subtract(k_body, tool);
       expect_solid(result, 1000 - 10 * area, 10 * area);
-      EXPECT_GT(shortest_edge(result->mesh), 0.1) << hair;
+      EXPECT_GT(shortest_edge(result->mesh), 0.1) << offset;
     }
   }
 }
@@ -129,7 +130,7 @@ TEST(Boolean, LeavesNoFlatFacets) {
 }
 
 // The tool ends in a face of the body, from inside and from outside.
-TEST(Boolean, CoincidentFaces) {
+TEST(Boolean, CombinesBoxesWithCoincidentFaces) {
   expect_solid(subtract(k_body, box({4, 4, 5}, {6, 7, 10})), 1000 - 30, 30);
   expect_solid(subtract(k_body, box({4, 4, 10}, {6, 7, 15})), 1000, 0);
   expect_solid(unite(k_body, box({4, 4, 10}, {6, 7, 15})), 1030, 0);
@@ -148,11 +149,13 @@ TEST(Boolean, KeepsDistantFacetsBitwise) {
   const auto cut = subtract(body, box({-1, -1, 8}, {1, 1, 12}));
   ASSERT_TRUE(cut.has_value());
   expect_solid(cut, whole - cut->common_volume, cut->common_volume);
+  // A hole of 2 × 2 mm, at most 2 mm deep, into the curved top of the ball.
   EXPECT_GT(cut->common_volume, 4 * 1.5);
   EXPECT_LT(cut->common_volume, 4 * 2.0);
   std::size_t kept = 0;
   for (const Vec3& vertex : body.vertices)
     kept += std::find(cut->mesh.vertices.begin(), cut->mesh.vertices.end(), vertex) != cut->mesh.vertices.end() ? 1 : 0;
+  // All but those of the pole and of one ring around it.
   EXPECT_GE(kept, body.vertices.size() - 60);
 }
 

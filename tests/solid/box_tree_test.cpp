@@ -11,7 +11,7 @@ namespace {
 
 using Pairs = std::multiset<std::pair<std::size_t, std::size_t>>;
 
-Pairs of_tree(const std::vector<Box3>& boxes) {
+Pairs pairs_of_tree(const std::vector<Box3>& boxes) {
   Pairs pairs;
   BoxTree(boxes).any_pair([&](std::size_t a, std::size_t b) {
     pairs.insert(std::minmax({a, b}));
@@ -20,7 +20,7 @@ Pairs of_tree(const std::vector<Box3>& boxes) {
   return pairs;
 }
 
-Pairs of_all(const std::vector<Box3>& boxes) {
+Pairs pairs_by_comparison(const std::vector<Box3>& boxes) {
   Pairs pairs;
   for (std::size_t a = 0; a < boxes.size(); ++a) {
     for (std::size_t b = a + 1; b < boxes.size(); ++b) {
@@ -31,7 +31,7 @@ Pairs of_all(const std::vector<Box3>& boxes) {
 }
 
 // Boxes on a coarse grid: many touch or coincide, and some are needles.
-std::vector<Box3> drawn(std::size_t count, std::mt19937& draw) {
+std::vector<Box3> random_boxes(std::size_t count, std::mt19937& draw) {
   std::uniform_int_distribution<int> place(0, 12), size(0, 2), chance(0, 9);
   std::vector<Box3> boxes(count);
   for (Box3& box : boxes) {
@@ -46,14 +46,14 @@ std::vector<Box3> drawn(std::size_t count, std::mt19937& draw) {
 TEST(BoxTree, FindsEveryPairOnce) {
   std::mt19937 draw(3);
   for (const std::size_t count : {0u, 1u, 2u, 4u, 5u, 9u, 40u, 300u}) {
-    const std::vector<Box3> boxes = drawn(count, draw);
-    EXPECT_EQ(of_tree(boxes), of_all(boxes)) << count << " boxes";
+    const std::vector<Box3> boxes = random_boxes(count, draw);
+    EXPECT_EQ(pairs_of_tree(boxes), pairs_by_comparison(boxes)) << count << " boxes";
   }
 }
 
 TEST(BoxTree, StopsOnRequest) {
   std::mt19937 draw(4);
-  const std::vector<Box3> boxes = drawn(100, draw);
+  const std::vector<Box3> boxes = random_boxes(100, draw);
   int calls = 0;
   EXPECT_TRUE(BoxTree(boxes).any_pair([&](std::size_t, std::size_t) { return ++calls == 3; }));
   EXPECT_EQ(calls, 3);

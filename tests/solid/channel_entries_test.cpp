@@ -9,16 +9,17 @@
 namespace fusee::solid {
 namespace {
 
+// A channel on a round or straight floor. mm
 struct Case {
   AnchorPath path;
-  double width = 0;
-  double beyond = 0;
-  double groove_edge = 0;  ///< outside the floor
+  double width = 0;        ///< of the channel
+  double beyond = 0;       ///< as in flared_edges()
+  double groove_edge = 0;  ///< its distance outside the floor, with a margin
   Polygon floor;
   double floor_radius = 0;  ///< radius of the circle about the origin; 0: straight, below y = -d/2
 };
 
-constexpr double k_d = 1.0;
+constexpr double k_d = 1.0;  // diameter of the tendon
 
 AnchorPath path_at(const Vec2& start, const Vec2& normal, double sense, double fillet, double turn, double straight) {
   AnchorPath path;
@@ -131,7 +132,7 @@ TEST(ChannelEntries, EdgesAreSimpleAndDoNotCross) {
   }
 }
 
-TEST(ChannelEntries, ContainThePlainChannel) {
+TEST(ChannelEntries, ContainChannelOfConstantWidth) {
   for (const Case& one : cases()) {
     const Polygon entry = outline_of(flared_edges(one.path, one.width, one.floor, k_steep_lean, one.beyond));
     const ChannelEdges plain = plain_edges(one.path, one.width);

@@ -41,9 +41,9 @@ struct TiedPulley {
 
 /// The tension that remains at `exit` of a taut string over the turned pitch polygon, after friction at each corner.
 /// The take-off is the last corner that the line from the pin touches.
-double left_at(const TiedPulley& held, transmission::Side side, double alpha, double tension, const Vec2& exit) {
-  const Mechanism& m = held.mechanism;
-  const profile::Outline& outline = side == transmission::Side::left ? held.synthesis.p1 : held.synthesis.p2;
+double tension_at(const TiedPulley& tied, transmission::Side side, double alpha, double tension, const Vec2& exit) {
+  const Mechanism& m = tied.mechanism;
+  const profile::Outline& outline = side == transmission::Side::left ? tied.synthesis.p1 : tied.synthesis.p2;
   const double outward = side == transmission::Side::left ? -1.0 : 1.0;
   const Vec2 pin(side == transmission::Side::left ? -m.guides.EB : m.guides.ED, m.pulley.EF);
   const double rho = m.guide_pitch_radius();
@@ -76,25 +76,25 @@ double left_at(const TiedPulley& held, transmission::Side side, double alpha, do
 }
 
 TEST(Holding, KnotLoadMatchesStringOnPolygon) {
-  const TiedPulley held(loaded_forearm());
-  ASSERT_TRUE(held.pulley.made()) << held.pulley.brief();
-  ASSERT_EQ(held.holding.knots.size(), 2u);
-  Mechanism unloaded = held.mechanism;
+  const TiedPulley tied(loaded_forearm());
+  ASSERT_TRUE(tied.pulley.made()) << tied.pulley.brief();
+  ASSERT_EQ(tied.holding.knots.size(), 2u);
+  Mechanism unloaded = tied.mechanism;
   unloaded.load = {};
-  for (const KnotHold& knot : held.holding.knots) {
+  for (const KnotHold& knot : tied.holding.knots) {
     std::optional<Vec2> exit;
-    for (const Anchor& anchor : held.pulley.anchors) {
+    for (const Anchor& anchor : tied.pulley.anchors) {
       if (anchor.side == knot.side && anchor.wound_end) exit = anchor.exit;
     }
     ASSERT_TRUE(exit.has_value());
     double most = 0;
-    for (const Mechanism& moved : {static_cast<const Mechanism&>(held.mechanism), unloaded}) {
+    for (const Mechanism& moved : {static_cast<const Mechanism&>(tied.mechanism), unloaded}) {
       analysis::AnalysisOptions quick;
       quick.samples = 10;
       for (const analysis::AnalysisRow& row : analysis::analyse(moved, quick).rows) {
         for (const joint::EquilibriumPoint& point : {row.rising, row.falling}) {
           const double tension = (knot.side == transmission::Side::left ? point.t1 : point.t2).lower;
-          most = std::max(most, left_at(held, knot.side, point.alpha, tension, *exit));
+          most = std::max(most, tension_at(tied, knot.side, point.alpha, tension, *exit));
         }
       }
     }
@@ -107,33 +107,33 @@ TEST(Holding, KnotLoadMatchesStringOnPolygon) {
 TEST(Holding, KnotCarriesFullTensionWithoutFriction) {
   DeclaredMechanism mechanism = loaded_forearm();
   mechanism.pulley.mu = 0;
-  const TiedPulley held(mechanism);
+  const TiedPulley tied(mechanism);
   const double most = analysis::analyse(mechanism, {.samples = 10}).largest_tension.tension;
-  double bears = 0;
-  for (const KnotHold& knot : held.holding.knots) bears = std::max(bears, knot.at_knot);
+  double at_knot = 0;
+  for (const KnotHold& knot : tied.holding.knots) at_knot = std::max(at_knot, knot.at_knot);
   // The largest value lies between two places of the analysis.
-  EXPECT_NEAR(bears, most, 1e-2 * most);
+  EXPECT_NEAR(at_knot, most, 1e-2 * most);
 }
 
 /// The load pulls at tendon 2 and relieves tendon 1, which carries its pretension without the load.
 TEST(Holding, RelievedTendonKeepsPretension) {
-  const TiedPulley held(loaded_forearm());
-  const KnotHold& first = held.holding.knots.front();
+  const TiedPulley tied(loaded_forearm());
+  const KnotHold& first = tied.holding.knots.front();
   ASSERT_EQ(first.side, transmission::Side::left);
-  EXPECT_GT(first.tension, held.mechanism.tendon.pretension);
+  EXPECT_GT(first.tension, tied.mechanism.tendon.pretension);
 }
 
 TEST(Holding, WarnsAboveHalfStrengthWithAdvice) {
   DeclaredMechanism mechanism = loaded_forearm();
   EXPECT_TRUE(TiedPulley(mechanism).holding.warnings.empty());
   mechanism.body.wrap = radians(6);
-  TiedPulley held(mechanism);
-  const double worst_knot = std::max(held.holding.knots[0].at_knot, held.holding.knots[1].at_knot);
+  TiedPulley tied(mechanism);
+  const double worst_knot = std::max(tied.holding.knots[0].at_knot, tied.holding.knots[1].at_knot);
   // A tenth more than half of the strength.
   mechanism.tendon.strength = worst_knot / 0.55 / 0.5;
-  held = TiedPulley(mechanism);
-  ASSERT_EQ(held.holding.warnings.size(), 1u);
-  const std::string& warning = held.holding.warnings.front();
+  tied = TiedPulley(mechanism);
+  ASSERT_EQ(tied.holding.warnings.size(), 1u);
+  const std::string& warning = tied.holding.warnings.front();
   EXPECT_THAT(warning, HasSubstr("tendon 2"));
   EXPECT_THAT(warning, HasSubstr("55 %"));
   EXPECT_THAT(warning, HasSubstr("tendon.strength_N"));
@@ -144,9 +144,9 @@ TEST(Holding, WarnsAboveHalfStrengthWithAdvice) {
   advised.body.wrap = radians(std::stod(warning.substr(at + 16)));
   EXPECT_TRUE(TiedPulley(advised).holding.warnings.empty());
   advised = mechanism;
-  const std::size_t bears = warning.find("a tendon with a strength of ");
-  ASSERT_NE(bears, std::string::npos) << warning;
-  advised.tendon.strength = std::stod(warning.substr(bears + 28));
+  const std::size_t strength = warning.find("a tendon with a strength of ");
+  ASSERT_NE(strength, std::string::npos) << warning;
+  advised.tendon.strength = std::stod(warning.substr(strength + 28));
   EXPECT_TRUE(TiedPulley(advised).holding.warnings.empty());
 }
 
@@ -155,22 +155,23 @@ TEST(Holding, ReportsUnknownStrength) {
   mechanism.tendon.strength = 0;
   mechanism.tendon.modulus = 12345;
   mechanism.load.tip_force = 500;
-  const TiedPulley held(mechanism);
-  EXPECT_FALSE(held.holding.share(held.holding.knots[0]).has_value());
-  EXPECT_TRUE(held.holding.warnings.empty());
+  const TiedPulley tied(mechanism);
+  EXPECT_FALSE(tied.holding.share(tied.holding.knots[0]).has_value());
+  EXPECT_TRUE(tied.holding.warnings.empty());
 }
 
 class Profile : public ::testing::TestWithParam<const char*> {};
 
-/// The previous wraps of the profiles, near the active arc: 4 to 30 degrees, except the optimum's P1.
+/// Tie-offs near the active arc had wraps of 4° to 30° on these profiles (except P1 of the optimum). The wraps must
+/// exceed that. The optimum's thick tendon leaves less space.
 TEST_P(Profile, WrapsFurtherAndHoldsTendons) {
   const MechanismFile file = read_mechanism(std::string(FUSEE_SOURCE_DIR) + "/profiles/" + GetParam() + ".toml");
-  const TiedPulley held(file.mechanism);
-  ASSERT_TRUE(held.pulley.made()) << held.pulley.brief();
-  EXPECT_TRUE(held.holding.warnings.empty());
-  const bool thick = std::string(GetParam()) == "paper_optimum";
-  for (const KnotHold& knot : held.holding.knots)
-    EXPECT_GE(degrees(knot.wrap_left), thick ? 19 : 35) << transmission::pulley_name(knot.side);
+  const TiedPulley tied(file.mechanism);
+  ASSERT_TRUE(tied.pulley.made()) << tied.pulley.brief();
+  EXPECT_TRUE(tied.holding.warnings.empty());
+  const bool is_thick = std::string(GetParam()) == "paper_optimum";
+  for (const KnotHold& knot : tied.holding.knots)
+    EXPECT_GE(degrees(knot.wrap_left), is_thick ? 19 : 35) << transmission::pulley_name(knot.side);
 }
 INSTANTIATE_TEST_SUITE_P(All, Profile,
                          ::testing::Values("finger", "forearm", "gripper", "linear_wrist", "paper_optimum",

@@ -142,7 +142,7 @@ void expect_holes(const BuiltPiece& made, const Horn& horn) {
   EXPECT_EQ(failed(check_pulley(made.pulley.mesh, made.mechanism, made.shape, made.pulley, 0.01)), "");
   const double top = bounds(made.pulley.mesh).high.z();
   const double sinks = std::max(horn.boss_height, horn.spline_length);
-  // Near the face of the horn or shaft, and above everything that sinks in.
+  // Near the face of the horn or shaft, and above everything that sinks in. No vertex lies at these heights.
   for (const double z : {0.71, top - 0.31}) {
     SCOPED_TRACE(z);
     const std::vector<Loop> loops = sliced(made.pulley.mesh, z);

@@ -24,7 +24,7 @@ DeclaredMechanism profile_named(const std::string& name) {
   return read_mechanism(FUSEE_SOURCE_DIR "/profiles/" + name + ".toml").mechanism;
 }
 
-/// A finger's base joint with a drum, as its length, r1 and tendon.
+/// A finger's base joint with a drum, with this r1 and this diameter of the tendon. mm
 DeclaredMechanism finger_of(double r1, double tendon) {
   DeclaredMechanism mechanism = profile_named("finger_mcp");
   mechanism.joint.R = 45;
@@ -54,7 +54,7 @@ BodyLayout with_hub(Mechanism mechanism, double diameter) {
   return layout_of(mechanism);
 }
 
-// A nut would need a hub of 14.4 mm on a flange of 21 mm.
+// A nut would need a hub of 14.4 mm on a flange of 21 mm. The lists pin what the search finds: no finger lacks more.
 TEST(Hub, CostsSmallPulleysFewFeatures) {
   struct Finger {
     double r1, tendon;
@@ -84,7 +84,7 @@ TEST(Hub, KeepsNutWhereNothingIsLost) {
   EXPECT_TRUE(pulley.layout.set_screw.nut_trap);
 }
 
-TEST(Hub, KeepsMoreThanAWideOne) {
+TEST(Hub, AutomaticOmitsLessThanWideOne) {
   const Mechanism mechanism = finger_of(9.0, 0.6);
   const BodyLayout automatic = layout_of(mechanism), wide = with_hub(mechanism, 14.4);
   EXPECT_GT(wide.omissions.size(), automatic.omissions.size());

@@ -85,7 +85,8 @@ solid::TriangleMesh half(const solid::TriangleMesh& mesh, double z, bool upper) 
   return kept;
 }
 
-double between(const solid::BodyLayout& layout) { return 0.5 * (layout.z_p1 + layout.z_p2); }
+/// The height half-way between both grooves.
+double between_grooves(const solid::BodyLayout& layout) { return 0.5 * (layout.z_p1 + layout.z_p2); }
 
 double largest_distance(const Polygon& a, const Polygon& b) {
   double largest = 0;
@@ -117,7 +118,7 @@ TEST_P(EveryPulley, IsFoundInAnyPosition) {
       ASSERT_EQ(result.status, solid::PlacementStatus::found);
       const solid::Placement& placement = result.placement;
       EXPECT_EQ(placement.turned_over, over);
-      // Resolution of floats of 123 mm: 8 µm / 2.
+      // Floats of 123 mm are 8e-6 mm apart. The fit averages over all directions.
       EXPECT_LT((placement.axis - move.by.head<2>()).norm(), 2e-6);
       EXPECT_NEAR(std::remainder(degrees(placement.turn) - turn, 360.0), 0, 2e-5);
       EXPECT_LT(placement.deviation, 1e-5);
@@ -148,7 +149,7 @@ TEST_P(EveryPulley, ReportsItsScale) {
 }
 
 TEST_P(EveryPulley, FindsTurnOfP2Alone) {
-  const solid::TriangleMesh upper = half(part.mesh, between(part.layout), true);
+  const solid::TriangleMesh upper = half(part.mesh, between_grooves(part.layout), true);
   for (const bool over : {false, true}) {
     const solid::PlacementResult result =
         solid::find_placement(moved(upper, {over, -70, Vec3(-30, 9, 0)}), part.floors, part.tendon);
@@ -163,7 +164,7 @@ TEST_P(EveryPulley, FindsTurnOfP2Alone) {
 
 TEST(RoundP1, HasNoTurn) {
   const BuiltPiece& part = made("forearm");
-  const solid::TriangleMesh lower = half(part.mesh, between(part.layout), false);
+  const solid::TriangleMesh lower = half(part.mesh, between_grooves(part.layout), false);
   const solid::PlacementResult result =
       solid::find_placement(moved(lower, {false, -70, Vec3(-30, 9, 0)}), part.floors, part.tendon);
   ASSERT_EQ(result.status, solid::PlacementStatus::found);

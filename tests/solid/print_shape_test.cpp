@@ -23,12 +23,13 @@ using testing::plain_mechanism;
 using testing::pulley_of;
 using testing::SupportShape;
 
-// Heights are floats of scaled numbers.
+// Tolerance of heights, which are rounded to float. mm
 constexpr double k_flat = 1e-5;
 // Ceilings are steeper than requested by this margin (heights.cpp). Measured values may be off by a float step.
 constexpr double k_margin = radians(2.5);
 constexpr double k_grain = radians(0.05);
-// The first layer, and the ceilings of marks 0.4 mm deep, which are narrow bridges.
+// Faces up to this height above the bed are not measured: those in the first layer, and the ceilings of marks 0.4 mm
+// deep, which are narrow bridges.
 constexpr double k_above_bed = 0.41;
 
 struct BuiltPiece {
@@ -101,7 +102,7 @@ double flattest_ceiling(const BuiltPiece& made) {
 struct Kind {
   Groove groove;
   Flange flange;
-  bool recess;
+  bool recess;  ///< the bore is a horn's recess
 };
 
 std::vector<Kind> kinds() {

@@ -18,7 +18,7 @@ using testing::plain_mechanism;
 using testing::pulley_of;
 using testing::SupportShape;
 
-constexpr double k_tolerance = 0.01;
+constexpr double k_tolerance = 0.01;  // chord error, mm
 
 std::string failures(const Pulley& pulley, const Mechanism& mechanism, const profile::SynthesisResult& shape) {
   return failed(check_pulley(pulley.mesh, mechanism, shape, pulley, k_tolerance));
