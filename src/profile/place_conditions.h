@@ -24,9 +24,9 @@ std::vector<double> lift_offs(const Mechanism& mechanism, const transmission::Tr
 /// Distance from a lift-off angle at which only one branch applies. rad
 constexpr double k_beside_lift_off = 1e-9;
 
-/// Effect of a kink of r at the joint angle `image_theta` on the pitch curve: length of the resulting straight part;
-/// negative: a hollow, which no pitch curve can have. mm
-double straight_piece(const TakeOffs& take_offs, double image_theta);
+/// Length of the straight part of the pitch curve that a kink of r at the joint angle `image_theta` causes. Negative:
+/// the curve would need a hollow, which no pitch curve can have. mm
+double straight_length(const TakeOffs& take_offs, double image_theta);
 /// Shorter straight parts, of either sign, are ignored. mm
 constexpr double k_least_straight = 1e-6;
 
