@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::array<transmission::Side, 2> k_sides = {transmission::Side::left, transmission::Side::right};
 
+/// The condition that `value` does not exceed `limit`, still without a message.
 profile::Condition at_most(std::string name, double alpha, double value, double limit, std::string unit) {
   profile::Condition condition;
   condition.name = std::move(name);
@@ -40,20 +41,21 @@ profile::Condition number_of_turns(const transmission::Transmission& planar, tra
   return condition;
 }
 
-/// A straight tendon rises by a groove's depth h over the length √(2ρh) and moves aside by that length times tan δ.
-/// Above the limiting fleet angle it touches the groove edge.
-profile::Condition fleet(const HelixSide& side, transmission::Side which, const HelixGroove& groove,
+/// Limit of the fleet angle δ. A straight tendon rises by the groove's depth h over the length √(2ρh) and moves aside by
+/// that length times tan δ. Above the limit it touches the groove edge. The largest radius of curvature ρ gives the
+/// lowest limit.
+profile::Condition fleet(const HelixSide& helix, transmission::Side side, const HelixGroove& groove,
                          double largest_radius) {
-  constexpr double k_none = 1e-9;  // tolerance of rounding about zero
-  const double limit = std::max(
-      k_none, elementary::atan(groove.room_at_groove_edge / std::sqrt(2.0 * largest_radius * groove.groove_edge)));
-  const std::string number = which == transmission::Side::left ? "1" : "2";
+  constexpr double k_rounding = 1e-9;  // rad; a tendon without any fleet angle passes where there is no room
+  const double length_to_edge = std::sqrt(2.0 * largest_radius * groove.groove_edge);
+  const double limit = std::max(k_rounding, elementary::atan(groove.room_at_groove_edge / length_to_edge));
+  const std::string number = side == transmission::Side::left ? "1" : "2";
   profile::Condition condition =
-      at_most("fleet_angle_" + number, side.fleet_at, degrees(side.fleet), degrees(limit), "deg");
+      at_most("fleet_angle_" + number, helix.fleet_at, degrees(helix.fleet), degrees(limit), "deg");
   if (!condition.ok) {
     condition.message = "tendon " + number + " leaves its groove at a fleet angle of " +
-                        rounded(degrees(side.fleet), 3) + "° at " + profile::at_alpha_text(side.fleet_at) + ": above " +
-                        rounded(degrees(limit), 3) +
+                        rounded(degrees(helix.fleet), 3) + "° at " + profile::at_alpha_text(helix.fleet_at) +
+                        ": above " + rounded(degrees(limit), 3) +
                         "° it touches the groove edge. Increase pulley.EF_mm, reduce body.lead_mm or the number of "
                         "turns, or increase body.groove_angle_deg";
   }
@@ -67,7 +69,8 @@ profile::Condition room_for_turns(const Mechanism& mechanism, const HelixGeometr
   condition.value = geometry.slope * geometry.circumference;
   condition.limit = geometry.needed_lead;
   condition.unit = "mm";
-  condition.ok = condition.value >= condition.limit * (1.0 - 1e-9);
+  constexpr double k_rounding = 1e-9;
+  condition.ok = condition.value >= condition.limit * (1.0 - k_rounding);
   if (!condition.ok) {
     condition.message =
         "a lead of " + rounded(mechanism.body.lead, 4) + " mm (body.lead_mm) is too small: groove, rib " +
@@ -76,6 +79,7 @@ profile::Condition room_for_turns(const Mechanism& mechanism, const HelixGeometr
   return condition;
 }
 
+/// The condition that the spare turns are convex, as the tendon and the groove floor require.
 profile::Condition spare_turns(const Mechanism& mechanism, const Spiral& spiral, transmission::Side side) {
   const double half = 0.5 * mechanism.tendon.diameter;
   const std::string pulley(transmission::pulley_name(side));
