@@ -60,7 +60,7 @@ std::vector<double> bench_clock(const BenchLog& log);
 /// A mechanism with identified pins, length, friction and tendon. Its pulley is still the declared one.
 struct MountedMechanism {
   Mechanism mechanism;
-  std::array<PathError, 2> longer = {};  ///< left, right
+  std::array<PathError, 2> longer = {};  ///< additional length of the left and right tendon's path
 };
 
 /// A tendon below its pin, in its right-hand image (increasing α winds in). mm, rad.

@@ -84,8 +84,8 @@ SpiralPoint PitchSpiral::at(double psi) const {
   return {found.curve, sigma(found)};
 }
 
-// Along u, outwards from an end of the working arc with the support h and d = ±dh/dψ,
-// the support p and the radius of curvature ρ are
+// Along u, outwards from an end of the working arc with the support h and d = ±dh/dψ, the support p and the radius of
+// curvature ρ are
 //   p = h + d sin u w      p' = d (cos u w + sin u w')      ρ = p + p'' = h + d (2 cos u w' + sin u w'')
 //   ∫ρ du = p' − d + h u + d ∫ sin u w du
 SpiralPoint PitchSpiral::beyond(double turned, const SpiralPoint& from, double direction) const {
