@@ -75,13 +75,14 @@ struct UpperNumbers {
   S free;   ///< C to the pin, mm
 };
 
+/// Both tendons at one point of the stroke.
 template <typename S>
 struct StrokeNumbers {
   transmission::RotationAngle<S> theta;
   UpperNumbers<S> upper1, upper2;  ///< of both tendons
-  S r1, r2;
-  S reach;  ///< pin D to the foot of G's perpendicular, mm
-  S phi;    ///< wrap on pin D [8]
+  S r1, r2;                        ///< mm
+  S reach;                         ///< pin D to the foot of G's perpendicular, mm
+  S phi;                           ///< wrap on pin D [8]
 };
 
 /// The tendon's line above the pin, in the frame of the link; for intervals by sharp.h.
