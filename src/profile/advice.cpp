@@ -208,10 +208,10 @@ constexpr std::size_t k_helpful = 4;
 /// Search for one mechanism.
 class AdviceSearch {
  public:
-  AdviceSearch(const Mechanism& mechanism, const FeasibilityOracle& judge, const std::vector<std::string>& more_keys,
+  AdviceSearch(const Mechanism& mechanism, const FeasibilityOracle& oracle, const std::vector<std::string>& more_keys,
                std::size_t sufficient)
       : mechanism_(mechanism),
-        judge_(judge),
+        oracle_(oracle),
         variables_(design_variables(mechanism, more_keys)),
         sufficient_(sufficient) {
     for (const DesignVariable& variable : variables_) {
@@ -228,7 +228,7 @@ class AdviceSearch {
     search(found, {k_sweep_ratio, HUGE_VAL, true});
     search(found, {k_step_ratio, k_last_step, false});
     if (!found.empty()) return found;
-    max_evaluations_ = judge_.is_expensive ? k_max_evaluations - k_pair_evaluations : k_max_sweep_evaluations;
+    max_evaluations_ = oracle_.is_expensive ? k_max_evaluations - k_pair_evaluations : k_max_sweep_evaluations;
     search(found, {k_sweep_ratio, HUGE_VAL, false});
     return found;
   }
@@ -299,7 +299,7 @@ class AdviceSearch {
 
   /// False for a variable that these steps leave out.
   bool is_searched(const SearchDirection& search, const Steps& steps) const {
-    return !steps.is_first_only || std::any_of(judge_.first.begin(), judge_.first.end(), [&](const std::string& key) {
+    return !steps.is_first_only || std::any_of(oracle_.first.begin(), oracle_.first.end(), [&](const std::string& key) {
       return search.variable->key == key || search.variable->key.starts_with(key + "[");
     });
   }
@@ -363,8 +363,8 @@ class AdviceSearch {
     std::vector<std::vector<Condition>> obstacles(changed.size());
     evaluations_ += static_cast<int>(changed.size());
     ThreadPool::shared().each(
-        changed.size(), [&](std::size_t i, std::size_t) { obstacles[i] = judge_.obstacles(changed[i]); },
-        judge_.made ? 2 : 1);
+        changed.size(), [&](std::size_t i, std::size_t) { obstacles[i] = oracle_.obstacles(changed[i]); },
+        oracle_.made ? 2 : 1);
     return obstacles;
   }
 
@@ -397,9 +397,9 @@ class AdviceSearch {
   /// Records the effect of a change that is not sufficient. With an expensive test, a change without effect is
   /// evaluated at growing intervals.
   void record_effect(SearchRecord& record, const std::vector<Condition>& obstacles) {
-    if (unchanged_.empty()) unchanged_ = judge_.obstacles(mechanism_);
+    if (unchanged_.empty()) unchanged_ = oracle_.obstacles(mechanism_);
     record.gain = std::max(record.gain, weight(unchanged_) - weight(obstacles));
-    if (!judge_.is_expensive) return;
+    if (!oracle_.is_expensive) return;
     std::vector<Condition> remaining = obstacles;
     std::erase_if(remaining, [this](const Condition& condition) {
       return std::none_of(unchanged_.begin(), unchanged_.end(),
@@ -461,7 +461,7 @@ class AdviceSearch {
           is_new = is_new && to.back() != search.variable->value && to.back() >= search.variable->least &&
                    to.back() <= search.variable->most;
         }
-        if (!is_new || !judge_.obstacles(changed_mechanism(candidate.directions, to)).empty()) continue;
+        if (!is_new || !oracle_.obstacles(changed_mechanism(candidate.directions, to)).empty()) continue;
         if (to == candidate.to) break;  // the other rounding differs too little to justify a full build
         candidate.to = to;
         return true;
@@ -494,19 +494,19 @@ class AdviceSearch {
   }
 
   std::size_t builds_left() const {
-    if (!judge_.made) return k_sufficient;
+    if (!oracle_.made) return k_sufficient;
     const int remaining = k_max_builds - builds_;
     return static_cast<std::size_t>(
-        std::max(0, judge_.builds_left ? std::min(remaining, judge_.builds_left()) : remaining));
+        std::max(0, oracle_.builds_left ? std::min(remaining, oracle_.builds_left()) : remaining));
   }
 
   /// Full builds; true for the candidates that pass.
   std::vector<bool> make(const std::vector<Candidate>& candidates) {
-    if (!judge_.made) return std::vector<bool>(candidates.size(), true);
+    if (!oracle_.made) return std::vector<bool>(candidates.size(), true);
     builds_ += static_cast<int>(candidates.size());
     std::vector<char> made(candidates.size());  // vector<bool> packs neighbours into one byte: a race of both threads
     ThreadPool::shared().each(candidates.size(), [&](std::size_t i, std::size_t) {
-      made[i] = judge_.made(changed_mechanism(candidates[i].directions, candidates[i].to)) ? 1 : 0;
+      made[i] = oracle_.made(changed_mechanism(candidates[i].directions, candidates[i].to)) ? 1 : 0;
     });
     return {made.begin(), made.end()};
   }
@@ -516,7 +516,7 @@ class AdviceSearch {
   }
 
   const Mechanism& mechanism_;
-  const FeasibilityOracle& judge_;
+  const FeasibilityOracle& oracle_;
   std::vector<DesignVariable> variables_;
   std::vector<SearchDirection> directions_;
   std::vector<SearchRecord> records_;        ///< one per direction
@@ -534,17 +534,17 @@ class AdviceSearch {
 std::vector<Change> nearest_changes(const Mechanism& mechanism, const std::function<bool(const Mechanism&)>& possible,
                                     const std::vector<std::string>& more_keys) {
   // A default condition stands for the reason of infeasibility, which is not known.
-  const FeasibilityOracle judge{[&possible](const Mechanism& changed) {
+  const FeasibilityOracle oracle{[&possible](const Mechanism& changed) {
     return possible(changed) ? std::vector<Condition>{} : std::vector<Condition>(1);
   }};
-  return AdviceSearch(mechanism, judge, more_keys, k_sufficient).alone();
+  return AdviceSearch(mechanism, oracle, more_keys, k_sufficient).alone();
 }
 
-Advice find_advice(const Mechanism& mechanism, const FeasibilityOracle& judge,
+Advice find_advice(const Mechanism& mechanism, const FeasibilityOracle& oracle,
                    const std::vector<std::string>& more_keys, std::size_t known) {
-  const std::size_t sufficient = judge.made ? k_sufficient_builds : k_sufficient;
+  const std::size_t sufficient = oracle.made ? k_sufficient_builds : k_sufficient;
   if (known >= sufficient) return {};
-  AdviceSearch search(mechanism, judge, more_keys, sufficient - known);
+  AdviceSearch search(mechanism, oracle, more_keys, sufficient - known);
   Advice advice;
   advice.alone = search.alone();
   advice.is_exhausted = search.is_exhausted();

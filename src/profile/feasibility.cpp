@@ -144,8 +144,8 @@ std::vector<Probe> curve_probes(const Mechanism& mechanism, const TakeOffs& take
 }
 
 /// Appends the conditions up to the first failure; true when all hold.
-bool judge(std::vector<Condition>& conditions, const std::vector<Probe>& probes, const TakeOffs& take_offs,
-           const std::vector<TakeOff>& samples) {
+bool add_probe_conditions(std::vector<Condition>& conditions, const std::vector<Probe>& probes,
+                          const TakeOffs& take_offs, const std::vector<TakeOff>& samples) {
   for (const Probe& probe : probes) {
     conditions.push_back(condition_of_probe(probe, tightest(take_offs, samples, probe)));
     if (!conditions.back().ok) return false;
@@ -190,8 +190,8 @@ std::vector<TakeOff> take_samples(const Mechanism& mechanism, const TakeOffs& ta
 /// Tests the pitch curve at each angle at which a tendon leaves its drum. The slope of that tendon's moment arm m jumps
 /// up there. A curve with a radius proportional to m is straight there. A curve with a radius proportional to 1/m would
 /// need a hollow: P2 beside a round P1, since r2 = r1 m2/m1. False at the first hollow.
-bool judge_lift_offs(std::vector<Condition>& conditions, const Mechanism& mechanism, const TakeOffs& take_offs,
-                     SideAttempt& attempt) {
+bool add_lift_off_conditions(std::vector<Condition>& conditions, const Mechanism& mechanism, const TakeOffs& take_offs,
+                             SideAttempt& attempt) {
   const transmission::Side side = take_offs.side();
   const double sign = transmission::mirror_sign(side);
   for (const double theta : lift_offs(mechanism, take_offs.transmission(), side)) {
@@ -218,7 +218,7 @@ bool judge_lift_offs(std::vector<Condition>& conditions, const Mechanism& mechan
 
 /// The condition that active arc and anchor lap fit into one turn. The tendon stays wound at the beginning of the
 /// image's stroke.
-Condition one_turn(const Mechanism& mechanism, transmission::Side side, const std::vector<TakeOff>& samples) {
+Condition one_turn_condition(const Mechanism& mechanism, transmission::Side side, const std::vector<TakeOff>& samples) {
   // A polar drawing spans the motor's own turn.
   const double active = mechanism.pulley.method == Method::exact
                             ? samples.back().curve.psi - samples.front().curve.psi
@@ -242,7 +242,7 @@ Condition one_turn(const Mechanism& mechanism, transmission::Side side, const st
   return condition;
 }
 
-Condition closes(const Mechanism& mechanism, transmission::Side side, const SideAttempt& attempt) {
+Condition closing_condition(const Mechanism& mechanism, transmission::Side side, const SideAttempt& attempt) {
   const double tendon_radius = 0.5 * mechanism.tendon.diameter;
   Condition condition;
   condition.name = "closing_arc_P" + digit(side);
@@ -264,7 +264,7 @@ Condition closes(const Mechanism& mechanism, transmission::Side side, const Side
 }
 
 /// The condition that both tendons have a moment arm over the whole range.
-Condition dead_centre(const transmission::Transmission& transmission) {
+Condition moment_arm_condition(const transmission::Transmission& transmission) {
   Condition condition;
   condition.name = "moment_arms";
   condition.unit = "deg";
@@ -286,7 +286,7 @@ Condition dead_centre(const transmission::Transmission& transmission) {
 
 /// The condition that the smooth curve through the table increases between its rows too. Tested along α, because the
 /// ends of the stroke are defined only if it holds.
-Condition law_grows(const Mechanism& mechanism, const transmission::Transmission& transmission) {
+Condition growth_condition(const Mechanism& mechanism, const transmission::Transmission& transmission) {
   constexpr int k_steps = 1024;
   // The innermost rows that enclose the range.
   const std::vector<LawRow>& rows = mechanism.pulley.rows;
@@ -315,7 +315,7 @@ Condition law_grows(const Mechanism& mechanism, const transmission::Transmission
 }
 
 /// The condition that load and wanted torque have the same sign at every angle, so that motor and joint turn together.
-Condition torque_holds(const Mechanism& mechanism) {
+Condition torque_condition(const Mechanism& mechanism) {
   const transmission::TorqueMatch worst = transmission::tightest_torque(mechanism);
   Condition condition;
   condition.name = "torque_holds";
@@ -335,7 +335,7 @@ Condition torque_holds(const Mechanism& mechanism) {
 }
 
 /// The closing arc with the largest minimum radius of a few candidates; sharper bends where necessary.
-std::optional<ClosingArc> close(const Mechanism& mechanism, const std::vector<TakeOff>& samples) {
+std::optional<ClosingArc> closing_arc_of(const Mechanism& mechanism, const std::vector<TakeOff>& samples) {
   const CurvePoint& end = samples.back().curve;
   CurvePoint next_turn = samples.front().curve;
   next_turn.psi += k_two_pi;
@@ -351,16 +351,17 @@ std::optional<ClosingArc> close(const Mechanism& mechanism, const std::vector<Ta
 SideAttempt attempt_side(std::vector<Condition>& conditions, const Mechanism& mechanism, const TakeOffs& take_offs,
                          Turns turns) {
   SideAttempt side{take_offs, take_samples(mechanism, take_offs), std::nullopt, {}};
-  if (!judge(conditions, path_probes(mechanism, take_offs), take_offs, side.samples)) return side;
+  if (!add_probe_conditions(conditions, path_probes(mechanism, take_offs), take_offs, side.samples)) return side;
   const bool exact = mechanism.pulley.method == Method::exact;
   // A polar drawing need not be an envelope: it is drawn as it is, and its error is measured.
-  if (exact && !judge(conditions, curve_probes(mechanism, take_offs), take_offs, side.samples)) return side;
-  if (exact && !judge_lift_offs(conditions, mechanism, take_offs, side)) return side;
+  if (exact && !add_probe_conditions(conditions, curve_probes(mechanism, take_offs), take_offs, side.samples))
+    return side;
+  if (exact && !add_lift_off_conditions(conditions, mechanism, take_offs, side)) return side;
   if (turns == Turns::many) return side;
-  conditions.push_back(one_turn(mechanism, take_offs.side(), side.samples));
+  conditions.push_back(one_turn_condition(mechanism, take_offs.side(), side.samples));
   if (!exact || !conditions.back().ok) return side;
-  side.closing = close(mechanism, side.samples);
-  conditions.push_back(closes(mechanism, take_offs.side(), side));
+  side.closing = closing_arc_of(mechanism, side.samples);
+  conditions.push_back(closing_condition(mechanism, take_offs.side(), side));
   return side;
 }
 
@@ -376,13 +377,13 @@ Attempt attempt(const Mechanism& mechanism, const transmission::Transmission& tr
   Attempt attempt{place_conditions(mechanism), {}};
   if (!attempt.feasible()) return attempt;
   if (mechanism.pulley.law == Law::torque) {
-    attempt.conditions.push_back(torque_holds(mechanism));
+    attempt.conditions.push_back(torque_condition(mechanism));
     if (!attempt.conditions.back().ok) return attempt;
   }
-  attempt.conditions.push_back(dead_centre(transmission));
+  attempt.conditions.push_back(moment_arm_condition(transmission));
   if (!attempt.conditions.back().ok) return attempt;
   if (mechanism.pulley.law == Law::table) {
-    attempt.conditions.push_back(law_grows(mechanism, transmission));
+    attempt.conditions.push_back(growth_condition(mechanism, transmission));
     if (!attempt.conditions.back().ok) return attempt;
   }
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
@@ -423,11 +424,11 @@ std::optional<Condition> first_failed(const std::vector<Condition>& conditions) 
 std::optional<Condition> first_failure(const Mechanism& mechanism, const transmission::Transmission& transmission) {
   std::vector<Condition> conditions = place_conditions(mechanism);
   if (auto failed = first_failed(conditions)) return failed;
-  if (mechanism.pulley.law == Law::torque) conditions.push_back(torque_holds(mechanism));
+  if (mechanism.pulley.law == Law::torque) conditions.push_back(torque_condition(mechanism));
   if (auto failed = first_failed(conditions)) return failed;
-  conditions.push_back(dead_centre(transmission));
+  conditions.push_back(moment_arm_condition(transmission));
   if (mechanism.pulley.law == Law::table && conditions.back().ok)
-    conditions.push_back(law_grows(mechanism, transmission));
+    conditions.push_back(growth_condition(mechanism, transmission));
   if (auto failed = first_failed(conditions)) return failed;
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     if (auto failed = failure_at_few_places(mechanism, TakeOffs(transmission, side))) return failed;
