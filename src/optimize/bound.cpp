@@ -112,10 +112,11 @@ struct Legs {
   transmission::Jet a, b;
 };
 
-Legs legs(const DesignNumbers<transmission::Jet>& d, bool of_tendon_1, const StrokeNumbers<transmission::Jet>& n) {
+Legs legs(const DesignNumbers<transmission::Jet>& d, transmission::Side side,
+          const StrokeNumbers<transmission::Jet>& n) {
   const transmission::PinOffset<transmission::Jet> to_C =
-      of_tendon_1 ? transmission::offset_from_pin_in_link(d.R, d.EB, d.OE, n.theta.mirrored())
-                  : transmission::offset_from_pin_in_link(d.R, d.ED, d.OE, n.theta);
+      side == transmission::Side::left ? transmission::offset_from_pin_in_link(d.R, d.EB, d.OE, n.theta.mirrored())
+                                       : transmission::offset_from_pin_in_link(d.R, d.ED, d.OE, n.theta);
   return {-to_C.x, to_C.y};
 }
 
@@ -249,13 +250,15 @@ transmission::Jet BoundCalculator::value_of(const Query& query, const DesignNumb
   const transmission::Interval theta = (d.theta_min + transmission::Jet(place) * (d.theta_max - d.theta_min)).value;
   transmission::Domain of_1, upper;
   if (!d.linear) {
-    const transmission::Interval least = lower_line_of(d, d.r1, true, of_1).normal.value - theta - k_between_places;
+    const transmission::Interval least =
+        lower_line_of(d, d.r1, transmission::Side::left, of_1).normal.value - theta - k_between_places;
     if (of_1.possible) d.least.of_1 = least.lower();
   }
   const StrokeNumbers<transmission::Jet> n = upper_stroke(d, transmission::Jet(place), upper);
   transmission::Domain of_2;
   const transmission::Interval least =
-      lower_line_of(d, transmission::Jet(n.r2.value.lower()), false, of_2).normal.value + theta - k_between_places;
+      lower_line_of(d, transmission::Jet(n.r2.value.lower()), transmission::Side::right, of_2).normal.value + theta -
+      k_between_places;
   if (upper.possible && of_2.possible) d.least.of_2 = least.lower();
   // Bounds without effect are dropped, to avoid a second evaluation.
   if (!(n.upper1.gamma.value.lower() <= d.least.of_1)) d.least.of_1 = PinAngles().of_1;
@@ -452,10 +455,12 @@ std::vector<BoundCalculator::Query> BoundCalculator::queries_around(const std::v
   const DesignNumbers<transmission::Jet> d = numbers_over(box);
   transmission::Domain domain;
   const StrokeNumbers<transmission::Jet> n = stroke_numbers(d, transmission::Jet(place), domain);
-  const Legs over = legs(d, torque, n);
+  // The torque depends on γ1, the tension on γ2.
+  const transmission::Side side = torque ? transmission::Side::left : transmission::Side::right;
+  const Legs over = legs(d, side, n);
   // Linear in the variables only if the angle is a number.
   if (!domain.possible || n.theta.angle.count != 0 || !(over.a.value.lower() > 0)) return -k_infinite;
-  const Legs at_lower = legs(numbers_over(corner_of(box, {})), torque, n);
+  const Legs at_lower = legs(numbers_over(corner_of(box, {})), side, n);
   // Lower bound q of b/a. b − q a >= g implies b/a >= q + g/a: from any lower bound, a better one.
   double q = (over.b.value / over.a.value).lower();
   for (int step = 0; step < k_most_steps; ++step) {

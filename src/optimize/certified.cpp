@@ -151,7 +151,7 @@ class BranchAndBound {
   void process(const std::vector<Box>& boxes) {
     const std::vector<Outcome> outcomes = outcomes_of(boxes);
     for (const Outcome& outcome : outcomes) {
-      for (const EvaluatedDesign& one : outcome.evaluated) accept_if_better(one);
+      for (const EvaluatedDesign& candidate : outcome.evaluated) accept_if_better(candidate);
     }
     // Among ties, every batch finds a design better by a rounding error.
     if (!best_.empty() && best_value_ < polished_ - 0.1 * options_.gap * std::abs(best_value_)) polish();
@@ -213,13 +213,13 @@ class BranchAndBound {
     return {design, evaluate_design(problem_, objective_, design)};
   }
 
-  void accept_if_better(const EvaluatedDesign& one) {
-    if (!one.evaluation.possible) {
-      if (best_.empty()) ++reasons_[one.evaluation.reason.substr(0, one.evaluation.reason.find(" at "))];
-    } else if (one.evaluation.value < best_value_ || best_.empty()) {
-      best_ = one.design;
-      best_value_ = one.evaluation.value;
-      best_theta_ = one.evaluation.theta;
+  void accept_if_better(const EvaluatedDesign& candidate) {
+    if (!candidate.evaluation.possible) {
+      if (best_.empty()) ++reasons_[candidate.evaluation.reason.substr(0, candidate.evaluation.reason.find(" at "))];
+    } else if (candidate.evaluation.value < best_value_ || best_.empty()) {
+      best_ = candidate.design;
+      best_value_ = candidate.evaluation.value;
+      best_theta_ = candidate.evaluation.theta;
     }
   }
 

@@ -95,12 +95,13 @@ bool conditions_at(const DesignNumbers<S>& d, const S& place, std::size_t count,
   const auto set = [&values](DesignCondition condition, const S& value, const transmission::Domain& domain) {
     values[static_cast<std::size_t>(condition)] = {value, domain};
   };
-  set(DesignCondition::clear_of_B, clear_of_guide(d, n.r1, true), arms);
-  set(DesignCondition::clear_of_D, clear_of_guide(d, n.r2, false), arms);
+  set(DesignCondition::clear_of_B, clear_of_guide(d, n.r1, transmission::Side::left), arms);
+  set(DesignCondition::clear_of_D, clear_of_guide(d, n.r2, transmission::Side::right), arms);
   transmission::Domain of_B = arms, of_D = arms;
   const S wrap_B = wrap_over_B(d, n, of_B);
   set(DesignCondition::wrap_B, wrap_B, of_B);
-  const S wrap_D = n.upper2.gamma - n.theta.angle - off_pin(d, lower_line_of(d, n.r2, false, of_D).normal);
+  const S wrap_D =
+      n.upper2.gamma - n.theta.angle - off_pin(d, lower_line_of(d, n.r2, transmission::Side::right, of_D).normal);
   set(DesignCondition::wrap_D, wrap_D, of_D);
   if (count <= k_basic_conditions) return true;
   set(DesignCondition::radius_1, n.r1 - d.half, arms);
