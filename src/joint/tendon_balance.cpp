@@ -6,10 +6,6 @@
 namespace fusee::joint {
 namespace {
 
-double tension_of(double EA, double length, double material) {
-  return length > material ? EA * (length / material - 1.0) : 0.0;
-}
-
 /// A tendon that slides over its pin: T_up = ratio · T_low.
 struct SlidingTendon {
   const Spans& spans;

@@ -17,6 +17,11 @@ struct Spans {
   double EA = 0;       ///< axial stiffness, N
 };
 
+/// Tension of a span; 0 if it is slack. N
+inline double tension_of(double EA, double length, double material) {
+  return length > material ? EA * (length / material - 1.0) : 0.0;
+}
+
 /// Tensions of both spans, and the material that crosses the pin.
 struct TendonBalance {
   double upper = 0;  ///< tensions, N

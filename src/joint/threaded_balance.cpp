@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "joint/tendon_balance.h"
+
 namespace fusee::joint {
 namespace {
 
@@ -18,10 +20,6 @@ constexpr int k_most_steps = 60;
 constexpr double k_last_relative_step = 1e-7;
 /// Material passing a bend in the wrong direction below this fraction of a span is rounding.
 constexpr double k_rounding = 1e-14;
-
-double tension_of(double EA, double length, double material) {
-  return length > material ? EA * (length / material - 1.0) : 0.0;
-}
 
 /// Spans `first` … `last` with all bends between them sliding: their tensions have fixed ratios to that of the first.
 struct SlidingSpans {

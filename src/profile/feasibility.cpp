@@ -17,11 +17,9 @@ constexpr int k_samples = 192;
 /// Arc reserved on the closing arc for the tendon's lap and tie-off at the wound end, in tendon diameters.
 constexpr double k_anchor_lap = 5.0;
 
-std::string digit(transmission::Side side) { return side == transmission::Side::left ? "1" : "2"; }
-std::string pin_name(transmission::Side side) { return side == transmission::Side::left ? "B" : "D"; }
-std::string exit_name(transmission::Side side) { return "the exit of sheath " + digit(side); }
+std::string exit_name(transmission::Side side) { return "the exit of sheath " + side_digit(side); }
 /// "r1" or "r2".
-std::string radius_name(transmission::Side side) { return "r" + digit(side); }
+std::string radius_name(transmission::Side side) { return "r" + side_digit(side); }
 
 /// A quantity along the stroke that must exceed a limit.
 struct Probe {
@@ -70,11 +68,11 @@ Probe clear_of_other_pin(const TakeOffs& take_offs) {
   const transmission::PinPlace place = take_offs.place();
   const Vec2 other = other_pin(take_offs.transmission(), side);
   const double sign = transmission::mirror_sign(side);
-  return {"tendon_" + digit(side) + "_clear_of_pin_" + pin, "mm", 0.0,
+  return {"tendon_" + side_digit(side) + "_clear_of_pin_" + pin, "mm", 0.0,
           [=](const TakeOff& t) { return upper_clearance(place, sign * t.stroke.theta, other) - place.rho; },
           [=](const std::string& where, double value) {
-            return "tendon " + digit(side) + " cuts " + rounded(-value, 3) + " mm into pin " + pin + " at " + where +
-                   ", which is the other tendon's";
+            return "tendon " + side_digit(side) + " cuts " + rounded(-value, 3) + " mm into pin " + pin + " at " +
+                   where + ", which is the other tendon's";
           }};
 }
 
@@ -88,13 +86,14 @@ std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_
   };
   const std::string pin = pin_name(side);
   std::vector<Probe> probes;
-  probes.push_back({"radius_P" + digit(side), "mm", 0.0, [=](const TakeOff& t) { return tendon(t).p - tendon_radius; },
+  probes.push_back({"radius_P" + side_digit(side), "mm", 0.0,
+                    [=](const TakeOff& t) { return tendon(t).p - tendon_radius; },
                     [=](const std::string& where, double value) {
                       return radius_name(side) + " falls to " + rounded(value + tendon_radius) + " mm at " + where +
                              ": less than half the tendon's diameter, the groove floor would cross the axis";
                     }});
   const transmission::LowerGuide lower = place.lower();
-  const std::string from = place.sheath_exit ? "mouth_" + digit(side) : "pin_" + pin;
+  const std::string from = place.sheath_exit ? "mouth_" + side_digit(side) : "pin_" + pin;
   probes.push_back({"line_reaches_" + from, "mm", 0.0,
                     [=](const TakeOff& t) { return lower.c() - std::abs(tendon(t).p - lower.rho); },
                     [=](const std::string& where, double value) {
@@ -104,7 +103,7 @@ std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_
                     }});
   probes.push_back({"tendon_on_pin_" + pin, "deg", 0.0, [=](const TakeOff& t) { return degrees(tendon(t).wrap); },
                     [=](const std::string& where, double value) {
-                      return "tendon " + digit(side) + " leaves pin " + pin + " at " + where + ": its wrap there" +
+                      return "tendon " + side_digit(side) + " leaves pin " + pin + " at " + where + ": its wrap there" +
                              (place.sheath_exit ? ", down into its sheath," : "") + " is " + rounded(value, 3) +
                              "° and must stay above 0°";
                     }});
@@ -120,23 +119,23 @@ std::vector<Probe> curve_probes(const Mechanism& mechanism, const TakeOffs& take
     return take_offs.tendon(t);
   };
   std::vector<Probe> probes;
-  probes.push_back({"take_off_advances_P" + digit(side), "deg/deg", 0.0, [](const TakeOff& t) { return t.dpsi; },
+  probes.push_back({"take_off_advances_P" + side_digit(side), "deg/deg", 0.0, [](const TakeOff& t) { return t.dpsi; },
                     [=](const std::string& where, double) {
                       return radius_name(side) + " changes so fast at " + where +
                              " that the take-off point moves backwards";
                     }});
-  probes.push_back({"convex_floor_P" + digit(side), "mm", k_least_floor_radius,
+  probes.push_back({"convex_floor_P" + side_digit(side), "mm", k_least_floor_radius,
                     [=](const TakeOff& t) { return t.curve.radius - tendon_radius; },
                     [=](const std::string& where, double value) {
                       const std::string radius = " (radius of curvature " + rounded(std::abs(value), 3) + " mm)";
-                      return "P" + digit(side) + " would be " + (value > 0 ? "too sharp" : "concave") + " at " + where +
-                             radius + ": a tendon requires a convex groove floor with a radius above " +
+                      return "P" + side_digit(side) + " would be " + (value > 0 ? "too sharp" : "concave") + " at " +
+                             where + radius + ": a tendon requires a convex groove floor with a radius above " +
                              rounded(k_least_floor_radius) + " mm";
                     }});
-  probes.push_back({"free_span_" + digit(side), "mm", 0.0,
+  probes.push_back({"free_span_" + side_digit(side), "mm", 0.0,
                     [=](const TakeOff& t) { return tendon(t).lower_reach - t.curve.dh; },
                     [=](const std::string& where, double value) {
-                      return "tendon " + digit(side) + " has no free span between " +
+                      return "tendon " + side_digit(side) + " has no free span between " +
                              (sheathed ? "its sheath" : "pin") + " and pulley at " + where + " (" + rounded(value, 3) +
                              " mm): the " + (sheathed ? "sheath exit" : "pin") + " lies inside the pulley";
                     }});
@@ -198,16 +197,16 @@ bool add_lift_off_conditions(std::vector<Condition>& conditions, const Mechanism
     const double straight = straight_length(take_offs, theta);
     if (straight > k_least_straight) attempt.straight.push_back(take_offs.at(theta).curve.psi);
     Condition condition;
-    condition.name = "convex_at_lift_off_P" + digit(side);
+    condition.name = "convex_at_lift_off_P" + side_digit(side);
     condition.alpha = take_offs.transmission().alpha(sign * theta);
     condition.value = straight;
     condition.unit = "mm";
     condition.ok = straight > -k_least_straight;
     if (!condition.ok) {
       const std::string other =
-          digit(side == transmission::Side::left ? transmission::Side::right : transmission::Side::left);
+          side_digit(side == transmission::Side::left ? transmission::Side::right : transmission::Side::left);
       condition.message = "tendon " + other + " leaves the drum at " + at_alpha_text(condition.alpha) + ", and P" +
-                          digit(side) + " would need a hollow there of " + rounded(-straight, 3) +
+                          side_digit(side) + " would need a hollow there of " + rounded(-straight, 3) +
                           " mm: beside a round P" + other + " it stays on the drum, or off it, over the whole range";
     }
     conditions.push_back(condition);
@@ -225,14 +224,14 @@ Condition one_turn_condition(const Mechanism& mechanism, transmission::Side side
                             : std::abs(samples.back().stroke.alpha - samples.front().stroke.alpha);
   const double lap = k_anchor_lap * mechanism.tendon.diameter / samples.front().curve.h;
   Condition condition;
-  condition.name = "one_turn_P" + digit(side);
+  condition.name = "one_turn_P" + side_digit(side);
   condition.alpha = samples.front().stroke.alpha;
   condition.value = degrees(k_two_pi - active - lap);
   condition.limit = 0;
   condition.unit = "deg";
   condition.ok = condition.value > 0;
   if (!condition.ok) {
-    condition.message = "P" + digit(side) + " would need " + rounded(degrees(active), 4) + "° of active arc and " +
+    condition.message = "P" + side_digit(side) + " would need " + rounded(degrees(active), 4) + "° of active arc and " +
                         rounded(degrees(lap), 3) + "° for the anchor: more than one turn" +
                         (mechanism.pulley.winding == WindingChoice::automatic &&
                                  mechanism.pulley.method == Method::exact && !mechanism.sheath.is_there()
@@ -245,17 +244,17 @@ Condition one_turn_condition(const Mechanism& mechanism, transmission::Side side
 Condition closing_condition(const Mechanism& mechanism, transmission::Side side, const SideAttempt& attempt) {
   const double tendon_radius = 0.5 * mechanism.tendon.diameter;
   Condition condition;
-  condition.name = "closing_arc_P" + digit(side);
+  condition.name = "closing_arc_P" + side_digit(side);
   condition.alpha = attempt.samples.back().stroke.alpha;
   condition.value = attempt.closing ? attempt.closing->least_support() - tendon_radius : 0.0;
   condition.unit = "mm";
   condition.ok = attempt.closing && condition.value > 0;
   if (attempt.closing && !condition.ok) {
-    condition.message = "the arc that closes P" + digit(side) + " would pass the axis at " +
+    condition.message = "the arc that closes P" + side_digit(side) + " would pass the axis at " +
                         rounded(-condition.value, 3) + " mm on the wrong side";
   } else if (!condition.ok) {
     condition.message =
-        "the ends of P" + digit(side) + "'s active arc (" + radius_name(side) + " " +
+        "the ends of P" + side_digit(side) + "'s active arc (" + radius_name(side) + " " +
         rounded(attempt.samples.front().curve.h) + " and " + rounded(attempt.samples.back().curve.h) +
         " mm) cannot be joined by a convex arc over the " +
         rounded(360.0 - degrees(attempt.samples.back().curve.psi - attempt.samples.front().curve.psi), 3) + "° left";
@@ -278,7 +277,7 @@ Condition moment_arm_condition(const transmission::Transmission& transmission) {
   condition.value = degrees(theta);
   condition.alpha = transmission.alpha(theta);
   if (!std::isfinite(condition.alpha)) condition.alpha = 0;  // C lies within a pin
-  condition.message = "tendon " + digit(side) + " passes through the joint axis (dead centre), or C meets pin " +
+  condition.message = "tendon " + side_digit(side) + " passes through the joint axis (dead centre), or C meets pin " +
                       pin_name(side) + ", at θ = " + rounded(degrees(theta), 4) + "°, " +
                       at_alpha_text(condition.alpha) + ": the range must end before it";
   return condition;
@@ -452,7 +451,7 @@ std::vector<std::string> bend_warnings(const Mechanism& mechanism, const Attempt
     });
     if (tightest->curve.radius >= least) continue;
     warnings.push_back(
-        "P" + digit(side) + " bends the tendon to a radius of " + rounded(tightest->curve.radius, 3) + " mm at " +
+        "P" + side_digit(side) + " bends the tendon to a radius of " + rounded(tightest->curve.radius, 3) + " mm at " +
         at_alpha_text(tightest->stroke.alpha) + "; this tendon requires " + rounded(least, 3) +
         " mm or more (tendon.bend_ratio, D/d = " + rounded(mechanism.tendon.bend_ratio, 3) + "): expect wear there");
   }

@@ -8,13 +8,10 @@
 namespace fusee::profile {
 namespace {
 
-std::string digit(transmission::Side side) { return side == transmission::Side::left ? "1" : "2"; }
-std::string pin_name(transmission::Side side) { return side == transmission::Side::left ? "B" : "D"; }
-
 Condition attachment_outside_drum(const Mechanism& mechanism, transmission::Side side) {
   const Joint& joint = mechanism.joint;
   const auto& own = side == transmission::Side::left ? joint.attachment1 : joint.attachment2;
-  const std::string tendon = digit(side);
+  const std::string tendon = side_digit(side);
   const std::string key = own ? "joint.attachment" + tendon + "_mm" : "joint.length_mm";
   // Tolerates rounding of a place on the drum in the last digits of a double.
   constexpr double rounding = 1e-9;
@@ -47,6 +44,9 @@ Condition drum_clear_of_pin(const Mechanism& mechanism, transmission::Side side)
 }
 
 }  // namespace
+
+std::string side_digit(transmission::Side side) { return side == transmission::Side::left ? "1" : "2"; }
+std::string pin_name(transmission::Side side) { return side == transmission::Side::left ? "B" : "D"; }
 
 std::vector<Condition> place_conditions(const Mechanism& mechanism) {
   std::vector<Condition> conditions;

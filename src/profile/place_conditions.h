@@ -2,12 +2,18 @@
 /// Additional conditions for drums and separate attachments. None for a plain joint.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "fusee/profile.h"
 #include "profile/take_off.h"
 
 namespace fusee::profile {
+
+/// "1" for tendon 1 and P1 (left), "2" for tendon 2 and P2.
+std::string side_digit(transmission::Side side);
+/// "B" for tendon 1 (left), "D" for tendon 2.
+std::string pin_name(transmission::Side side);
 
 /// Conditions that do not depend on tendon paths: attachments outside the drum, pins clear of it.
 std::vector<Condition> place_conditions(const Mechanism& mechanism);

@@ -12,7 +12,7 @@ namespace fusee::joint {
 namespace {
 
 /// Up, down and home again under a tip force, `count` times; the load is applied at home, in the first 40 steps.
-std::vector<JointStep> cycles(const Mechanism& mechanism, double tip_force, int count = 1) {
+std::vector<JointStep> loaded_cycles(const Mechanism& mechanism, double tip_force, int count = 1) {
   const transmission::Transmission law(mechanism);
   std::vector<JointStep> steps;
   for (int i = 0; i <= 40; ++i) steps.push_back({0.0, tip_force * i / 40, 0.0});
@@ -33,7 +33,7 @@ TEST(WideJoint, FollowsLawWithoutTension) {
     mechanism.guides.mu = 0;
     const transmission::Transmission law(mechanism);
     ASSERT_FALSE(law.dead_centre());
-    for (const EquilibriumPoint& point : follow(joint_model(mechanism), cycles(mechanism, 0)))
+    for (const EquilibriumPoint& point : follow(joint_model(mechanism), loaded_cycles(mechanism, 0)))
       EXPECT_NEAR(point.theta, law.theta(point.alpha), 1e-11) << mechanism.name;
   }
 }
@@ -60,7 +60,7 @@ TEST(WideJoint, DrumTensionIsTorqueOverRadius) {
   Mechanism mechanism = testing::finger();
   mechanism.tendon.pretension = 0;
   mechanism.guides.mu = 0;
-  for (const EquilibriumPoint& point : follow(joint_model(mechanism), cycles(mechanism, 20.0))) {
+  for (const EquilibriumPoint& point : follow(joint_model(mechanism), loaded_cycles(mechanism, 20.0))) {
     if (point.load_torque < 20.0 * mechanism.joint.R) continue;  // still loading
     EXPECT_NEAR(point.t2.upper, 20.0 * mechanism.joint.R / mechanism.drum_pitch_radius(), 1e-9);
     EXPECT_NEAR(point.motor_torque, 20.0 * mechanism.pulley.r1, 1e-7);
@@ -108,8 +108,8 @@ TEST(WideJoint, IdlerEqualsPinAtConstantWrap) {
   const double epsilon = 0.3 * 1.0 / 1.3 * std::sin(0.5 * wrap);
   Mechanism pin = testing::finger();
   pin.guides.mu = std::log((1 + epsilon) / (1 - epsilon)) / wrap;
-  const auto of_idler = follow(joint_model(idler), cycles(idler, 10.0, 2));
-  const auto of_pin = follow(joint_model(pin), cycles(pin, 10.0, 2));
+  const auto of_idler = follow(joint_model(idler), loaded_cycles(idler, 10.0, 2));
+  const auto of_pin = follow(joint_model(pin), loaded_cycles(pin, 10.0, 2));
   ASSERT_EQ(of_idler.size(), of_pin.size());
   double hysteresis = 0;
   for (std::size_t i = 0; i < of_pin.size(); ++i) {
@@ -153,7 +153,7 @@ TEST(WideJoint, FollowsLawWithSheath) {
   Mechanism mechanism = testing::sheathed_wrist();
   mechanism.tendon.pretension = mechanism.guides.mu = mechanism.sheath.mu = 0;
   const transmission::Transmission law(mechanism);
-  for (const EquilibriumPoint& point : follow(joint_model(mechanism), cycles(mechanism, 0)))
+  for (const EquilibriumPoint& point : follow(joint_model(mechanism), loaded_cycles(mechanism, 0)))
     EXPECT_NEAR(point.theta, law.theta(point.alpha), 1e-11);
 }
 
@@ -161,7 +161,7 @@ TEST(WideJoint, SheathFrictionEqualsPinFriction) {
   // Sliding throughout: a weight is lifted and lowered.
   const Sheath sheath{300.0, radians(200.0), 0.1, 0.0, 15.0, 60.0};
   const Mechanism mechanism = finger_with_sheath(sheath);
-  const auto points = follow(joint_model(mechanism), cycles(mechanism, 20.0));
+  const auto points = follow(joint_model(mechanism), loaded_cycles(mechanism, 20.0));
   const double lost = std::exp(0.1 * radians(200.0));
   int up = 0, down = 0;
   for (const EquilibriumPoint& point : points) {
@@ -185,7 +185,7 @@ TEST(WideJoint, SheathActsAsSpring) {
   longer.length += 250.0;
   const auto of = [](const Sheath& sheath) {
     const Mechanism mechanism = finger_with_sheath(sheath);
-    return follow(joint_model(mechanism), cycles(mechanism, 20.0));
+    return follow(joint_model(mechanism), loaded_cycles(mechanism, 20.0));
   };
   const auto with_rigid = of(rigid), with_soft = of(soft), with_longer = of(longer);
   // OC and the drum's pitch radius are equal, so the tension is the tip force.
