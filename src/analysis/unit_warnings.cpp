@@ -20,6 +20,9 @@ constexpr double k_narrow_range = 1.6;
 /// A smaller groove angle in degrees is practically parallel walls; in radians it is 120°, the maximum.
 constexpr double k_narrow_groove = 2.1;
 
+/// Distance from the next whole number below which a number is whole.
+constexpr double k_whole = 1e-9;
+
 /// A number that was written for degrees, if it is meant in radians.
 double in_degrees(double written) { return degrees(written); }
 
@@ -27,11 +30,11 @@ double in_degrees(double written) { return degrees(written); }
 /// are not taken for radians.
 bool is_round_in_radians(double written) {
   constexpr double k_round_angle = 15.0;  // deg: its multiples are round
-  constexpr double k_three_digits = 1e-3, k_rounding = 1e-9;
+  constexpr double k_three_digits = 1e-3;
   const double multiple = std::abs(in_degrees(written)) / k_round_angle;
   const double nearest = std::round(multiple);
   const bool is_round = nearest > 0 && std::abs(multiple / nearest - 1.0) < k_three_digits;
-  const bool is_whole_or_half_degree = !(std::abs(2.0 * written - std::round(2.0 * written)) > k_rounding);
+  const bool is_whole_or_half_degree = !(std::abs(2.0 * written - std::round(2.0 * written)) > k_whole);
   return is_round && !is_whole_or_half_degree;
 }
 
@@ -242,8 +245,7 @@ std::vector<InputWarning> angle_warnings(const DeclaredMechanism& mechanism) {
   const double tilt = degrees(mechanism.load.tilt), groove = degrees(mechanism.body.groove_angle);
   if (mechanism.load.mass_kg > 0 && is_round_in_radians(tilt))
     warnings.push_back(radians_for_degrees("load.tilt_deg", tilt));
-  constexpr double k_rounding = 1e-9;
-  const bool is_whole = std::abs(groove - std::round(groove)) < k_rounding;
+  const bool is_whole = std::abs(groove - std::round(groove)) < k_whole;
   if (mechanism.body.groove != Groove::flat && groove > 0 && groove < k_narrow_groove && !is_whole)
     warnings.push_back(radians_for_degrees("body.groove_angle_deg", groove));
   return warnings;
