@@ -75,7 +75,7 @@ struct Change {
 
 /// Feasibility test of changed mechanisms during the search for advice.
 struct FeasibilityOracle {
-  /// Fast test: returns the failed conditions; none if the mechanism is feasible as far as a fast test tells. Called
+  /// Fast test: returns the failed conditions; none if the mechanism is feasible as far as this test can decide. Called
   /// hundreds of times, and by two threads at once if `made` is set.
   std::function<std::vector<Condition>(const Mechanism&)> obstacles;
   /// Full build of a change before it is reported, with the very numbers that the user will read. Empty: the fast test
@@ -114,7 +114,7 @@ struct Advice {
 /// the border, rounded to three digits on the safe side. If no single number suffices, the most helpful ones are
 /// changed in pairs. `more_keys` are easier to change and move three times as far. `known`: number of changes that are
 /// known already and need not be found.
-Advice find_advice(const Mechanism& mechanism, const FeasibilityOracle& judge,
+Advice find_advice(const Mechanism& mechanism, const FeasibilityOracle& oracle,
                    const std::vector<std::string>& more_keys = {}, std::size_t known = 0);
 
 /// The single changes of find_advice() for a yes/no feasibility test.

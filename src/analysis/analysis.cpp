@@ -15,7 +15,7 @@
 namespace fusee::analysis {
 namespace {
 
-/// Tension below which a tendon holds nothing. N
+/// Tension up to which a tendon counts as slack. N
 constexpr double k_min_tension = 1e-6;
 
 bool path_exists(const transmission::TransmissionPoint& point) {
@@ -23,17 +23,13 @@ bool path_exists(const transmission::TransmissionPoint& point) {
          point.t1.p > 0 && point.t2.p > 0;
 }
 
+/// True if the law and both tendon paths exist at every point of the stroke.
 bool law_exists(const profile::SynthesisResult& synthesis) {
-  const auto grows = [](const profile::Condition& condition) { return condition.ok || condition.name != "law_grows"; };
+  const auto permits_law = [](const profile::Condition& condition) {
+    return condition.ok || condition.name != "law_grows";
+  };
   return !synthesis.stroke.empty() && std::all_of(synthesis.stroke.begin(), synthesis.stroke.end(), path_exists) &&
-         std::all_of(synthesis.conditions.begin(), synthesis.conditions.end(), grows);
-}
-
-std::vector<profile::Condition> failed(const std::vector<profile::Condition>& conditions) {
-  std::vector<profile::Condition> found;
-  std::copy_if(conditions.begin(), conditions.end(), std::back_inserter(found),
-               [](const profile::Condition& condition) { return !condition.ok; });
-  return found;
+         std::all_of(synthesis.conditions.begin(), synthesis.conditions.end(), permits_law);
 }
 
 std::vector<AnalysisRow> rows_of(const Mechanism& mechanism,
@@ -69,14 +65,14 @@ void update_tensions(LargestTensions& largest, const joint::EquilibriumPoint& po
 }
 
 template <typename Predicate>
-std::vector<AlphaRange> ranges_where(const std::vector<AnalysisRow>& rows, Predicate holds) {
+std::vector<AlphaRange> ranges_where(const std::vector<AnalysisRow>& rows, Predicate predicate) {
   std::vector<AlphaRange> ranges;
-  bool within = false;
+  bool held_before = false;
   for (const AnalysisRow& row : rows) {
-    const bool now = holds(row);
-    if (now && !within) ranges.push_back({row.declared.alpha, row.declared.alpha});
-    if (now) ranges.back().to = row.declared.alpha;
-    within = now;
+    const bool holds = predicate(row);
+    if (holds && !held_before) ranges.push_back({row.declared.alpha, row.declared.alpha});
+    if (holds) ranges.back().to = row.declared.alpha;
+    held_before = holds;
   }
   return ranges;
 }
@@ -88,6 +84,7 @@ bool is_slack_in(const AnalysisRow& row, joint::TendonState joint::EquilibriumPo
          (has_equilibrium(row.falling) && is_slack(row.falling.*tendon));
 }
 
+/// Sets the extremes and the slack ranges from the rows.
 void summarise(UnderLoad& result) {
   LargestTensions tensions;
   for (const AnalysisRow& row : result.rows) {
@@ -116,6 +113,7 @@ void summarise(UnderLoad& result) {
   });
 }
 
+/// The tendons that rub on a drum, if the drum has friction.
 std::vector<DrumHold> drum_holds(const Mechanism& mechanism, const std::vector<AnalysisRow>& rows) {
   std::vector<DrumHold> all;
   if (!(mechanism.joint.drum_mu > 0)) return all;
@@ -135,14 +133,15 @@ std::vector<DrumHold> drum_holds(const Mechanism& mechanism, const std::vector<A
   return all;
 }
 
+/// True if this pretension keeps both tendons taut at these α, in both directions.
 bool stays_taut(Mechanism mechanism, double pretension, const std::vector<double>& alphas) {
   mechanism.tendon.pretension = pretension;
   const std::vector<StrokePoint> stroke = settled_stroke(mechanism, alphas);
   return std::all_of(stroke.begin(), stroke.end(), [](const StrokePoint& point) {
-    const auto taut = [](const joint::EquilibriumPoint& at) {
-      return has_equilibrium(at) && !is_slack(at.t1) && !is_slack(at.t2);
+    const auto is_taut = [](const joint::EquilibriumPoint& state) {
+      return has_equilibrium(state) && !is_slack(state.t1) && !is_slack(state.t2);
     };
-    return taut(point.rising) && taut(point.falling);
+    return is_taut(point.rising) && is_taut(point.falling);
   });
 }
 
@@ -152,18 +151,20 @@ double three_digits_up(double value) {
   return std::stod(rounded(std::ceil(value / unit) * unit, 3));
 }
 
-/// The taut pretension within 1 %, rounded up.
+/// UnderLoad::taut_pretension within 1 %, rounded up: doubled until the tendons stay taut, then bisected.
 std::optional<double> taut_pretension(const Mechanism& mechanism, const std::vector<AnalysisRow>& rows) {
+  constexpr double k_first = 1.0, k_least = 0.01;  // N
+  constexpr double k_tolerance = 1.01;             // taut per slack pretension
   std::vector<double> alphas;
   for (const AnalysisRow& row : rows) alphas.push_back(row.declared.alpha);
   double slack = mechanism.tendon.pretension;
-  double taut = std::max(1.0, slack);
+  double taut = std::max(k_first, slack);
   while (!stays_taut(mechanism, taut, alphas)) {
     slack = taut;
     taut *= 2.0;
     if (taut > find_field("tendon.pretension_N")->most) return std::nullopt;
   }
-  while (taut > 1.01 * slack && taut > 0.01) {
+  while (taut > k_tolerance * slack && taut > k_least) {
     const double middle = 0.5 * (slack + taut);
     (stays_taut(mechanism, middle, alphas) ? taut : slack) = middle;
   }
@@ -174,7 +175,8 @@ Strength with_knots(double tension, const Tendon& tendon, const std::string& sou
   return {tension, tension * tendon.knot_efficiency, source};
 }
 
-/// At C every tendon ends in an unrelieved knot; on the pulley the wrap relieves it (fusee/solid.h).
+/// UnderLoad::breaks_at. At C every tendon ends in an unrelieved knot. On the pulley the wrap relieves the knot
+/// (fusee/solid.h).
 std::optional<double> breaking_place(const UnderLoad& result) {
   if (!result.strength) return std::nullopt;
   if (result.largest_at_joint.value > result.strength->at_knot) return result.largest_at_joint.alpha;
@@ -204,9 +206,11 @@ LargestTensions largest_tensions(const Mechanism& mechanism, const std::vector<d
 std::optional<Strength> tendon_strength(const Tendon& tendon) {
   if (tendon.strength > 0) return with_knots(tendon.strength, tendon, "tendon.strength_N");
   for (const TendonType& type : tendon_types()) {
-    const bool same =
-        std::abs(type.diameter - tendon.diameter) < 0.005 && std::abs(type.modulus / tendon.modulus - 1.0) < 0.01;
-    if (same) return with_knots(type.breaking_strength, tendon, type.name);
+    constexpr double k_diameter_tolerance = 0.005;  // mm
+    constexpr double k_modulus_tolerance = 0.01;    // relative
+    const bool is_same = std::abs(type.diameter - tendon.diameter) < k_diameter_tolerance &&
+                         std::abs(type.modulus / tendon.modulus - 1.0) < k_modulus_tolerance;
+    if (is_same) return with_knots(type.breaking_strength, tendon, type.name);
   }
   return std::nullopt;
 }
@@ -216,21 +220,21 @@ std::optional<Strength> likely_strength(const Tendon& tendon) {
   // Fibre and lay affect modulus and strength alike: within a factor of two in modulus the tendon may be of the same
   // kind, with a strength proportional to its cross-section. Braids of one kind differ by 1.4
   // (profiles/catalogue/tendons.toml).
-  constexpr double alike = 2.0;
-  const auto times = [](double one, double other) { return std::max(one / other, other / one); };
+  constexpr double k_alike = 2.0;
+  const auto factor_between = [](double one, double other) { return std::max(one / other, other / one); };
   const TendonType* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (const TendonType& type : tendon_types()) {
-    const double stiffer = times(type.modulus, tendon.modulus);
-    const double factor = stiffer * times(type.diameter, tendon.diameter);
-    if (stiffer > alike || factor >= least) continue;
+    const double modulus_factor = factor_between(type.modulus, tendon.modulus);
+    const double factor = modulus_factor * factor_between(type.diameter, tendon.diameter);
+    if (modulus_factor > k_alike || factor >= least) continue;
     nearest = &type;
     least = factor;
   }
   if (nearest == nullptr) return std::nullopt;
-  const double thicker = tendon.diameter / nearest->diameter;
+  const double diameter_ratio = tendon.diameter / nearest->diameter;
   return with_knots(
-      nearest->breaking_strength * thicker * thicker, tendon,
+      nearest->breaking_strength * diameter_ratio * diameter_ratio, tendon,
       "an estimate from " + nearest->name + " of the catalogue by its section; tendon.strength_N is not set");
 }
 
@@ -309,7 +313,7 @@ AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& option
   synthesis_options.stroke_steps = options.steps;
   synthesis_options.advice = false;
   profile::SynthesisResult synthesis = profile::synthesise(mechanism, synthesis_options);
-  result.obstacles = failed(synthesis.conditions);
+  result.obstacles = profile::failed_of(synthesis.conditions);
   result.exists = law_exists(synthesis);
   if (!result.exists) {
     synthesis_options.advice = true;

@@ -9,6 +9,7 @@
 
 namespace fusee::analysis {
 
+/// A likely input error of one key.
 struct InputWarning {
   std::string key;      ///< key at which the warning is reported
   std::string message;  ///< the oddity, with the value and its unit
@@ -24,6 +25,7 @@ std::string setting_text(const std::string& key, double value);
 std::vector<InputWarning> angle_warnings(const DeclaredMechanism& mechanism);
 /// Lengths of the mechanism in another unit than mm, one or all.
 std::vector<InputWarning> length_warnings(const DeclaredMechanism& mechanism);
+/// A modulus in GPa.
 std::vector<InputWarning> modulus_warnings(const DeclaredMechanism& mechanism);
 /// guides.OE_mm with the opposite sign.
 std::vector<InputWarning> sign_warnings(const DeclaredMechanism& mechanism);

@@ -16,7 +16,7 @@ constexpr double k_advised_margin = 2.0;
 /// Rounding may put a range above a limit that equals it.
 constexpr double k_rounding = 1e-9;
 
-/// Torque and ratio at one place and in one direction of the stroke.
+/// Required torque, and ratio, at one place and in one direction of the stroke.
 struct Demand {
   double alpha = 0;
   double torque = 0;  ///< magnitude, N·mm
@@ -34,23 +34,27 @@ std::vector<Demand> demands(const UnderLoad& load) {
   return all;
 }
 
-/// Lowest speed of the joint over the stroke, with its place. Speed falls linearly with torque down to stall; a motor
+/// Lowest speed of the joint over the stroke, with its place. `loaded`: under the load, else without it. Speed falls linearly with torque down to stall; a motor
 /// that `holds` runs at full speed under any torque up to its limit. The magnitude of the torque counts: a load that
 /// drives the motor does not speed it up.
 Extreme lowest_joint_speed(const MotorModel& motor, const std::vector<Demand>& all, bool loaded) {
   Extreme lowest{std::numeric_limits<double>::infinity(), 0};
-  for (const Demand& at : all) {
-    double share = 1;
+  for (const Demand& demand : all) {
+    double speed_share = 1;  // of the motor's speed without load
     if (loaded && motor.stall_torque > 0) {
-      const double used = at.torque / motor.stall_torque;
-      share = motor.holds ? (used <= 1 ? 1 : 0) : std::max(0.0, 1 - used);
+      const double torque_share = demand.torque / motor.stall_torque;
+      if (!motor.holds)
+        speed_share = std::max(0.0, 1 - torque_share);
+      else if (!(torque_share <= 1))
+        speed_share = 0;
     }
-    const double speed = share * motor.speed / at.ratio;
-    if (speed < lowest.value) lowest = {speed, at.alpha};
+    const double speed = speed_share * motor.speed / demand.ratio;
+    if (speed < lowest.value) lowest = {speed, demand.alpha};
   }
   return lowest;
 }
 
+/// True if the model has the required travel, torque and speed.
 bool suffices(const MotorModel& model, const MotorCheck& need, const std::vector<Demand>& all) {
   const double margin = model.holds ? 1.0 : k_advised_margin;
   if (model.travel > 0 && model.travel < need.travel * (1 - k_rounding)) return false;
@@ -59,6 +63,7 @@ bool suffices(const MotorModel& model, const MotorCheck& need, const std::vector
          (model.speed > 0 && lowest_joint_speed(model, all, true).value >= need.joint_speed_needed * (1 - k_rounding));
 }
 
+/// MotorCheck::sufficient_models.
 std::vector<std::string> sufficient_models(const Mechanism& mechanism, const MotorCheck& need,
                                            const std::vector<Demand>& all) {
   std::vector<const MotorModel*> found;
@@ -122,14 +127,14 @@ std::string_view key_of(const std::string& condition) {
 }
 
 std::string hint_of(const MotorCheck& motor) {
-  std::string change;
-  for (const profile::Change& part : motor.advice.alone)
-    change += (change.empty() ? "try " : ", or ") + profile::setting_words(part);
-  for (const profile::Change& part : motor.advice.together)
-    change += (change.empty() ? "try " : " together with ") + profile::setting_words(part);
+  std::string advice;
+  for (const profile::Change& change : motor.advice.alone)
+    advice += (advice.empty() ? "try " : ", or ") + profile::setting_words(change);
+  for (const profile::Change& change : motor.advice.together)
+    advice += (advice.empty() ? "try " : " together with ") + profile::setting_words(change);
   const std::string models = motor.sufficient_models.empty() ? "no motor of the catalogue suffices"
                                                              : "of the catalogue these suffice: " + motor.models_text();
-  return change.empty() ? models : change + "; " + models;
+  return advice.empty() ? models : advice + "; " + models;
 }
 
 }  // namespace
@@ -161,7 +166,7 @@ MotorCheck motor_check(const Mechanism& mechanism, const UnderLoad& load) {
   MotorCheck check = travel_check(mechanism, load.rows.back().declared.alpha - load.rows.front().declared.alpha);
   check.torque = load.largest_torque;
   check.torque_limit = limits.stall_torque;
-  for (const Demand& at : all) check.ratio = std::max(check.ratio, at.ratio);
+  for (const Demand& demand : all) check.ratio = std::max(check.ratio, demand.ratio);
   check.speed_limit = limits.speed;
   check.joint_speed_needed = mechanism.motor.joint_speed;
   if (check.torque_limit > 0) check.conditions.push_back(torque_condition(check));

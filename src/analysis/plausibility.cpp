@@ -16,6 +16,7 @@ Diagnostic placed(const InputWarning& warning, const MechanismFile& file) {
   return {Severity::warning, file.place_of(warning.key), warning.message, warning.hint};
 }
 
+/// One kind of likely input error.
 using Rule = std::vector<InputWarning> (*)(const DeclaredMechanism&);
 constexpr Rule k_rules[] = {angle_warnings, length_warnings, sign_warnings, modulus_warnings};
 

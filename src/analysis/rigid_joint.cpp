@@ -9,22 +9,25 @@ RigidJoint::RigidJoint(const joint::MadePulleys& made, const Mechanism& mounted)
       pins_{transmission::pin_place(mounted, transmission::Side::left, mounted.guide_pitch_radius()),
             transmission::pin_place(mounted, transmission::Side::right, mounted.guide_pitch_radius())} {
   const std::array<joint::LowerPath, 2> paths = lower(0.0);
-  for (std::size_t i = 0; i < 2; ++i) home_[i] = transmission::upper_span(pins_[i], 0.0).length + below(i, paths[i]);
+  for (std::size_t i = 0; i < 2; ++i)
+    home_[i] = transmission::upper_span(pins_[i], 0.0).length + length_below_pin(i, paths[i]);
 }
 
 RigidPoint RigidJoint::at(double alpha) const {
   const std::array<joint::LowerPath, 2> paths = lower(alpha);
-  const double wanted = home_[0] - below(0, paths[0]);
+  const double upper_length = home_[0] - length_below_pin(0, paths[0]);
   RigidPoint point;
   point.theta = made_.declared().theta(alpha);
   // The upper span of tendon 1 grows with θ by its moment arm: Newton steps.
-  for (int i = 0; i < 30; ++i) {
+  constexpr int k_most_steps = 30;
+  constexpr double k_last_step = 1e-14;  // rad
+  for (int i = 0; i < k_most_steps; ++i) {
     const transmission::UpperSpan span = transmission::upper_span(pins_[0], -point.theta);
-    const double step = (span.length - wanted) / span.m;
+    const double step = (span.length - upper_length) / span.m;
     point.theta -= step;
-    if (!(std::abs(step) > 1e-14)) break;
+    if (!(std::abs(step) > k_last_step)) break;
   }
-  point.excess = home_[1] - below(1, paths[1]) - transmission::upper_span(pins_[1], point.theta).length;
+  point.excess = home_[1] - length_below_pin(1, paths[1]) - transmission::upper_span(pins_[1], point.theta).length;
   return point;
 }
 
@@ -92,24 +95,24 @@ double by_diameter(const transmission::PinPlace& pin, const joint::LowerPath& lo
                 transmission::upper_span(pin, theta).on_drum);
 }
 
-void alter_length(Alteration& joint, double by) { joint.mounted.joint.R += by; }
-void alter_drum(Alteration& joint, double by) { joint.mounted.joint.drum_radius += by; }
+void alter_length(Alteration& joint, double change) { joint.mounted.joint.R += change; }
+void alter_drum(Alteration& joint, double change) { joint.mounted.joint.drum_radius += change; }
 template <std::optional<Attachment> Joint::*end, double Attachment::*axis>
-void alter_end(Alteration& joint, double by) {
-  (joint.mounted.joint.*end).value().*axis += by;
+void alter_end(Alteration& joint, double change) {
+  (joint.mounted.joint.*end).value().*axis += change;
 }
-void alter_left(Alteration& joint, double by) { joint.mounted.guides.EB += by; }
-void alter_right(Alteration& joint, double by) { joint.mounted.guides.ED += by; }
-void alter_height(Alteration& joint, double by) { joint.mounted.guides.OE += by; }
-void alter_radius(Alteration& joint, double by) { joint.mounted.guides.radius += by; }
-void alter_pulley_place(Alteration& joint, double by) { joint.mounted.pulley.EF += by; }
-void alter_exit_across(Alteration& joint, double by) { joint.mounted.sheath.exit_across += by; }
-void alter_exit_above(Alteration& joint, double by) { joint.mounted.sheath.exit_above += by; }
-void alter_offset(Alteration& joint, double by) { joint.offset += by; }
+void alter_left(Alteration& joint, double change) { joint.mounted.guides.EB += change; }
+void alter_right(Alteration& joint, double change) { joint.mounted.guides.ED += change; }
+void alter_height(Alteration& joint, double change) { joint.mounted.guides.OE += change; }
+void alter_radius(Alteration& joint, double change) { joint.mounted.guides.radius += change; }
+void alter_pulley_place(Alteration& joint, double change) { joint.mounted.pulley.EF += change; }
+void alter_exit_across(Alteration& joint, double change) { joint.mounted.sheath.exit_across += change; }
+void alter_exit_above(Alteration& joint, double change) { joint.mounted.sheath.exit_above += change; }
+void alter_offset(Alteration& joint, double change) { joint.offset += change; }
 /// The groove's floor does not move: a thicker tendon lies further out on pulley and pin.
-void alter_diameter(Alteration& joint, double by) {
-  joint.mounted.tendon.diameter += by;
-  joint.offset += 0.5 * by;
+void alter_diameter(Alteration& joint, double change) {
+  joint.mounted.tendon.diameter += change;
+  joint.offset += 0.5 * change;
 }
 
 RigidJoint joint_of(const joint::MadePulleys& made, const Alteration& joint) {

@@ -10,6 +10,7 @@
 
 namespace fusee::analysis {
 
+/// The joint at one pulley angle.
 struct RigidPoint {
   double theta = 0;   ///< tendon 1 taut, rad
   double excess = 0;  ///< excess length of tendon 2 at that θ, mm; negative: it would have to stretch
@@ -25,7 +26,8 @@ class RigidJoint {
   std::array<joint::LowerPath, 2> lower(double alpha) const { return made_.paths(pins_, alpha); }
 
  private:
-  double below(std::size_t side, const joint::LowerPath& path) const {
+  /// Length of a tendon between a fixed point of its pin's rim and a fixed point of the pulley, up to a constant. mm
+  double length_below_pin(std::size_t side, const joint::LowerPath& path) const {
     return path.reach - pins_[side].rho * pins_[side].off_pin(path.normal) + path.wound;
   }
 
@@ -49,7 +51,7 @@ struct Dimension {
                       double theta, double alpha);
 };
 
-/// The dimensions of this joint.
+/// The dimensions of this joint, in a fixed order.
 std::vector<Dimension> dimensions(const Mechanism& mechanism);
 
 /// The pulleys `made` for `mechanism` in a joint with one dimension changed (mm).

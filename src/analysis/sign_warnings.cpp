@@ -27,29 +27,31 @@ Unevenness unevenness(const Mechanism& mechanism) {
   worst.made = synthesis.made();
   for (const auto& [tendon, pulley] :
        {std::pair(&transmission::TransmissionPoint::t1, "P1"), std::pair(&transmission::TransmissionPoint::t2, "P2")}) {
-    Unevenness here{worst.made, std::numeric_limits<double>::infinity(), 0, pulley};
+    Unevenness own{worst.made, std::numeric_limits<double>::infinity(), 0, pulley};
     for (const transmission::TransmissionPoint& point : synthesis.stroke) {
-      here.least = std::min(here.least, (point.*tendon).p);
-      here.most = std::max(here.most, (point.*tendon).p);
+      own.least = std::min(own.least, (point.*tendon).p);
+      own.most = std::max(own.most, (point.*tendon).p);
     }
-    if (here.least > 0 && here.times() > worst.times()) worst = here;
+    if (own.least > 0 && own.times() > worst.times()) worst = own;
   }
   return worst;
 }
 
-/// Ratio of radii above which the sign is implausible. With the pins below the joint, moment arms fall faster towards the
-/// ends of the range, so that radii vary more. Profiles with the sign reversed: 2.8 to 10.5 times, as they are 1.1 to
-/// 2.3 times. Random joints (tests/laws) as they are: at most 5.2 times, one in fifty above 3.5.
+/// Ratio of the largest to the smallest radius above which the sign is implausible. With the pins below the joint, moment
+/// arms fall faster towards the ends of the range, so radii vary more. The ratio is 1.1 to 2.3 in the profiles, and 2.8
+/// to 10.5 with their sign reversed. In random joints (tests/laws) it is 5.2 at most, and above 3.5 in one of fifty.
 constexpr double k_uneven = 4.0;
-/// Improvement by the opposite sign that is required for a warning.
-constexpr double k_evener = 3.0;
-/// Required improvement when no pulley exists with the declared sign.
-constexpr double k_evener_and_made = 2.0;
+/// Factor by which the opposite sign must reduce that ratio for a warning.
+constexpr double k_improvement = 3.0;
+/// The required factor if no pulley exists with the declared sign.
+constexpr double k_improvement_if_infeasible = 2.0;
 
+/// True if the mechanism with the opposite sign is the likelier intention.
 bool is_likelier(const Unevenness& other, const Unevenness& declared) {
   if (!other.made) return false;
-  const double evener = declared.times() / other.times();
-  return declared.made ? declared.times() >= k_uneven && evener >= k_evener : evener >= k_evener_and_made;
+  const double improvement = declared.times() / other.times();
+  if (!declared.made) return improvement >= k_improvement_if_infeasible;
+  return declared.times() >= k_uneven && improvement >= k_improvement;
 }
 
 std::string fold_text(const Unevenness& uneven) { return rounded(uneven.times(), 2) + "-fold"; }
@@ -61,16 +63,16 @@ std::string fold_text(const Unevenness& uneven) { return rounded(uneven.times(),
 std::vector<InputWarning> sign_warnings(const DeclaredMechanism& mechanism) {
   const double OE = mechanism.guides.OE;
   if (mechanism.transmission || OE <= 0) return {};
-  Mechanism turned = mechanism;
-  turned.guides.OE = -OE;
-  const Unevenness declared = unevenness(mechanism), other = unevenness(turned);
+  Mechanism mirrored = mechanism;
+  mirrored.guides.OE = -OE;
+  const Unevenness declared = unevenness(mechanism), other = unevenness(mirrored);
   if (!is_likelier(other, declared)) return {};
   const char* key = "guides.OE_mm";
-  const std::string what = declared.made ? "there the radius of " + std::string(declared.pulley) + " varies " +
-                                               fold_text(declared) + ", " + rounded(declared.least, 3) + " to " +
-                                               rounded(declared.most, 3) + " mm"
-                                         : "there no such pulley can be made";
-  return {{key, setting_text(key, OE) + " mm: positive is below the joint, away from C, and " + what,
+  const std::string consequence = declared.made ? "there the radius of " + std::string(declared.pulley) + " varies " +
+                                                      fold_text(declared) + ", " + rounded(declared.least, 3) + " to " +
+                                                      rounded(declared.most, 3) + " mm"
+                                                : "there no such pulley can be made";
+  return {{key, setting_text(key, OE) + " mm: positive is below the joint, away from C, and " + consequence,
            "did you mean " + rounded(-OE) + " mm? Above the joint " +
                (declared.made ? "it varies " : "one can, of a radius that varies ") + fold_text(other)}};
 }

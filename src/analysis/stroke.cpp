@@ -8,13 +8,15 @@ namespace {
 
 /// Maximum step as a fraction of the range: within one step, tensions change linearly.
 constexpr double k_max_step = 1.0 / 180;
-constexpr int k_cycles_before = 2;
+/// Cycles in which the joint settles, before the recorded one.
+constexpr int k_settling_cycles = 2;
 
+/// Moves a joint under its declared load.
 class StrokeRunner {
  public:
   explicit StrokeRunner(const Mechanism& mechanism) : motion_(joint::joint_model(mechanism)), load_(mechanism.load) {}
 
-  /// Proceeds to `alpha` in short steps.
+  /// Proceeds to `alpha` in steps of at most `longest`. rad
   joint::EquilibriumPoint run_to(double alpha, double longest) {
     const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(alpha - alpha_) / longest)));
     joint::EquilibriumPoint point;
@@ -36,7 +38,7 @@ class StrokeRunner {
 std::vector<StrokePoint> settled_stroke(const Mechanism& mechanism, const std::vector<double>& alphas) {
   StrokeRunner runner(mechanism);
   const double longest = (alphas.back() - alphas.front()) * k_max_step;
-  for (int cycle = 0; cycle < k_cycles_before; ++cycle) {
+  for (int cycle = 0; cycle < k_settling_cycles; ++cycle) {
     runner.run_to(alphas.back(), longest);
     runner.run_to(alphas.front(), longest);
   }

@@ -20,15 +20,22 @@ constexpr double k_narrow_range = 1.6;
 /// A smaller groove angle in degrees is practically parallel walls; in radians it is 120°, the maximum.
 constexpr double k_narrow_groove = 2.1;
 
+/// Distance from the next whole number below which a number is whole.
+constexpr double k_whole = 1e-9;
+
+/// A number that was written for degrees, if it is meant in radians.
 double in_degrees(double written) { return degrees(written); }
 
 /// True if a number in degrees equals a round angle in radians to three digits: 1.57, 0.7854. Whole and half degrees
 /// are not taken for radians.
 bool is_round_in_radians(double written) {
-  const double fifteenths = std::abs(in_degrees(written)) / 15.0;
-  const double nearest = std::round(fifteenths);
-  const bool near = nearest > 0 && std::abs(fifteenths / nearest - 1.0) < 1e-3;
-  return near && std::abs(2.0 * written - std::round(2.0 * written)) > 1e-9;
+  constexpr double k_round_angle = 15.0;  // deg: its multiples are round
+  constexpr double k_three_digits = 1e-3;
+  const double multiple = std::abs(in_degrees(written)) / k_round_angle;
+  const double nearest = std::round(multiple);
+  const bool is_round = nearest > 0 && std::abs(multiple / nearest - 1.0) < k_three_digits;
+  const bool is_whole_or_half_degree = !(std::abs(2.0 * written - std::round(2.0 * written)) > k_whole);
+  return is_round && !is_whole_or_half_degree;
 }
 
 std::vector<InputWarning> range_warnings(const DeclaredMechanism& mechanism) {
@@ -47,19 +54,19 @@ InputWarning radians_for_degrees(const std::string& key, double written) {
 
 // ---- lengths --------------------------------------------------------------------------------------------------------
 
-/// Plausible range of a length relative to OC. Profiles and 300 random joints from finger to arm (tests/laws) lie
-/// within half of these bounds; a factor of ten exceeds them. Typical: EB and ED 0.3 … 0.75, |OE| up to 0.5, EF 0.5 …
+/// Plausible range of a length relative to OC. Profiles and 300 random joints from finger to arm (tests/laws) stay within
+/// these bounds by a factor of two. A length that is wrong by a factor of ten exceeds them. Typical: EB and ED 0.3 … 0.75, |OE| up to 0.5, EF 0.5 …
 /// 1.6, r1 0.11 … 0.2. A pulley may be far from its joint.
 struct Proportion {
   const char* key;
-  double least;
+  double least;  ///< of length / OC
   double most;
 };
 constexpr Proportion k_proportions[] = {
     {"guides.EB_mm", 0.09, 3.0},  {"guides.ED_mm", 0.09, 3.0},  {"guides.OE_mm", 0.0, 3.0},
     {"pulley.EF_mm", 0.15, 30.0}, {"pulley.r1_mm", 0.025, 1.0},
 };
-constexpr const char* k_length = "joint.length_mm";
+constexpr const char* k_reference_key = "joint.length_mm";
 
 bool has_length(const DeclaredMechanism& mechanism, const char* key) { return is_used(*find_field(key), mechanism); }
 
@@ -70,8 +77,8 @@ double proportion(const DeclaredMechanism& mechanism, const char* key) {
 
 bool is_odd(const DeclaredMechanism& mechanism, const Proportion& allowed) {
   if (!has_length(mechanism, allowed.key)) return false;
-  const double here = proportion(mechanism, allowed.key);
-  return here < allowed.least || here > allowed.most;
+  const double value = proportion(mechanism, allowed.key);
+  return value < allowed.least || value > allowed.most;
 }
 
 bool has_odd_proportions(const DeclaredMechanism& mechanism) {
@@ -88,11 +95,11 @@ constexpr double k_mm_per_inch = 25.4;
 
 /// The unit of a length that is correct after multiplication by `factor`.
 const char* written_in(double factor) {
-  return factor == 10.0                  ? "in cm"
-         : factor == k_mm_per_inch       ? "in inches"
-         : factor == 1.0 / k_mm_per_inch ? "in mm"
-         : factor == 1000.0              ? "in m"
-                                         : "ten times too large";
+  if (factor == 10.0) return "in cm";
+  if (factor == k_mm_per_inch) return "in inches";
+  if (factor == 1.0 / k_mm_per_inch) return "in mm";
+  if (factor == 1000.0) return "in m";
+  return "ten times too large";
 }
 
 /// Likely factors between a length as read and as meant, in groups from likely to unlikely.
@@ -103,29 +110,29 @@ std::vector<std::vector<double>> unit_factors(LengthUnit units) {
 
 /// "is it in cm or in inches? guides.EB_mm = 50 mm or 127 mm would be in proportion"
 std::string proportionate_text(const std::string& subject, const char* key, double value,
-                               const std::vector<double>& factors, const std::string& then) {
+                               const std::vector<double>& factors, const std::string& after_values) {
   std::string units, values;
   for (const double factor : factors) {
     units += (units.empty() ? "" : " or ") + std::string(written_in(factor));
     values += (values.empty() ? setting_text(key, factor * value) : " or " + rounded(factor * value)) + " mm";
   }
-  return subject + " " + units + "? " + values + then + " would be in proportion";
+  return subject + " " + units + "? " + values + after_values + " would be in proportion";
 }
 
-InputWarning odd_length(const DeclaredMechanism& mechanism, const char* key, const std::string& how,
+InputWarning odd_length(const DeclaredMechanism& mechanism, const char* key, const std::string& oddity,
                         const std::vector<double>& factors) {
   const double value = declared_number(mechanism, key);
-  return {key, setting_text(key, value) + " mm " + how, proportionate_text("is it", key, value, factors, "")};
+  return {key, setting_text(key, value) + " mm " + oddity, proportionate_text("is it", key, value, factors, "")};
 }
 
 std::string beside_the_joint(const DeclaredMechanism& mechanism, const char* key) {
-  return "is " + rounded(proportion(mechanism, key), 2) + " times " + k_length;
+  return "is " + rounded(proportion(mechanism, key), 2) + " times " + k_reference_key;
 }
 
 /// The one length that, in another unit or units, makes all proportions plausible. That of the joint is tried last,
 /// because it is the reference of the others.
 std::vector<InputWarning> single_length_warning(const DeclaredMechanism& mechanism) {
-  const auto mending = [&](const char* key, std::vector<double> factors) {
+  const auto factors_that_suffice = [&](const char* key, std::vector<double> factors) {
     std::erase_if(factors, [&](double factor) {
       return has_odd_proportions(with_number(mechanism, key, factor * declared_number(mechanism, key)));
     });
@@ -134,11 +141,11 @@ std::vector<InputWarning> single_length_warning(const DeclaredMechanism& mechani
   for (const std::vector<double>& factors : unit_factors(mechanism.units)) {
     for (const Proportion& allowed : k_proportions) {
       if (!is_odd(mechanism, allowed)) continue;
-      if (const auto mend = mending(allowed.key, factors); !mend.empty())
-        return {odd_length(mechanism, allowed.key, beside_the_joint(mechanism, allowed.key), mend)};
+      if (const auto sufficient = factors_that_suffice(allowed.key, factors); !sufficient.empty())
+        return {odd_length(mechanism, allowed.key, beside_the_joint(mechanism, allowed.key), sufficient)};
     }
-    if (const auto mend = mending(k_length, factors); !mend.empty())
-      return {odd_length(mechanism, k_length, "is out of proportion to the others", mend)};
+    if (const auto sufficient = factors_that_suffice(k_reference_key, factors); !sufficient.empty())
+      return {odd_length(mechanism, k_reference_key, "is out of proportion to the others", sufficient)};
   }
   return {};
 }
@@ -163,8 +170,8 @@ std::vector<InputWarning> odd_lengths(const DeclaredMechanism& mechanism) {
 /// below half of these ratios; in cm, most exceed at least one.
 struct BoughtPart {
   const char* key;
-  const char* reference;
-  double most;
+  const char* reference;  ///< key of that length
+  double most;            ///< of part / length
   const char* words;
 };
 constexpr BoughtPart k_bought[] = {
@@ -174,6 +181,7 @@ constexpr BoughtPart k_bought[] = {
     {"body.bore_diameter_mm", "pulley.r1_mm", 1.6, "a shaft"},
 };
 
+/// A purchased part that is too large for its reference length; null if there is none.
 const BoughtPart* too_large_part(const DeclaredMechanism& mechanism) {
   for (const BoughtPart& part : k_bought) {
     if (!has_length(mechanism, part.reference)) continue;
@@ -202,12 +210,12 @@ std::vector<InputWarning> all_lengths_warning(const DeclaredMechanism& mechanism
   return {{part->reference,
            setting_text(part->reference, length) + " mm is small for " + part->words + " of " + rounded(size) +
                " mm (" + part->key + ")",
-           proportionate_text("are the lengths of [joint], [guides] and [pulley]", k_length, mechanism.joint.R, factors,
-                              " and so on") +
+           proportionate_text("are the lengths of [joint], [guides] and [pulley]", k_reference_key, mechanism.joint.R,
+                              factors, " and so on") +
                (in_inches ? " (units = \"inch\" for a file in inches)" : "") + "; or is " + part->key + " too large?"}};
 }
 
-/// No tendon of a catalogue is thicker: in an inch file, a diameter in mm is.
+/// No tendon of a catalogue is thicker. A diameter in mm that is read as inches exceeds it.
 constexpr double k_thickest_tendon = 8.0;  // mm
 
 std::vector<InputWarning> inch_file_warning(const DeclaredMechanism& mechanism) {
@@ -237,7 +245,7 @@ std::vector<InputWarning> angle_warnings(const DeclaredMechanism& mechanism) {
   const double tilt = degrees(mechanism.load.tilt), groove = degrees(mechanism.body.groove_angle);
   if (mechanism.load.mass_kg > 0 && is_round_in_radians(tilt))
     warnings.push_back(radians_for_degrees("load.tilt_deg", tilt));
-  const bool is_whole = std::abs(groove - std::round(groove)) < 1e-9;
+  const bool is_whole = std::abs(groove - std::round(groove)) < k_whole;
   if (mechanism.body.groove != Groove::flat && groove > 0 && groove < k_narrow_groove && !is_whole)
     warnings.push_back(radians_for_degrees("body.groove_angle_deg", groove));
   return warnings;

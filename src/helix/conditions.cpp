@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::array<transmission::Side, 2> k_sides = {transmission::Side::left, transmission::Side::right};
 
+/// The condition that `value` does not exceed `limit`, still without a message.
 profile::Condition at_most(std::string name, double alpha, double value, double limit, std::string unit) {
   profile::Condition condition;
   condition.name = std::move(name);
@@ -24,7 +25,7 @@ profile::Condition at_most(std::string name, double alpha, double value, double 
   return condition;
 }
 
-profile::Condition number_of_turns(const transmission::Transmission& planar, transmission::Side side) {
+profile::Condition turn_count_condition(const transmission::Transmission& planar, transmission::Side side) {
   const profile::TakeOffs take_offs(planar, side);
   const double first = take_offs.at(transmission::mirror_sign(side) * planar.theta(planar.alpha_min())).curve.psi;
   const double last = take_offs.at(transmission::mirror_sign(side) * planar.theta(planar.alpha_max())).curve.psi;
@@ -40,34 +41,36 @@ profile::Condition number_of_turns(const transmission::Transmission& planar, tra
   return condition;
 }
 
-/// A straight tendon rises by a groove's depth h over the length √(2ρh) and moves aside by that length times tan δ.
-/// Above the limiting fleet angle it touches the groove edge.
-profile::Condition fleet(const HelixSide& side, transmission::Side which, const HelixGroove& groove,
-                         double largest_radius) {
-  constexpr double k_none = 1e-9;  // tolerance of rounding about zero
-  const double limit = std::max(
-      k_none, elementary::atan(groove.room_at_groove_edge / std::sqrt(2.0 * largest_radius * groove.groove_edge)));
-  const std::string number = which == transmission::Side::left ? "1" : "2";
+/// Limit of the fleet angle δ. A straight tendon rises by the groove's depth h over the length √(2ρh) and moves aside by
+/// that length times tan δ. Above the limit it touches the groove edge. The largest radius of curvature ρ gives the
+/// lowest limit.
+profile::Condition fleet_condition(const HelixSide& helix, transmission::Side side, const HelixGroove& groove,
+                                   double largest_radius) {
+  constexpr double k_rounding = 1e-9;  // rad; a tendon without any fleet angle passes where there is no room
+  const double length_to_edge = std::sqrt(2.0 * largest_radius * groove.groove_edge);
+  const double limit = std::max(k_rounding, elementary::atan(groove.room_at_groove_edge / length_to_edge));
+  const std::string number = side == transmission::Side::left ? "1" : "2";
   profile::Condition condition =
-      at_most("fleet_angle_" + number, side.fleet_at, degrees(side.fleet), degrees(limit), "deg");
+      at_most("fleet_angle_" + number, helix.fleet_at, degrees(helix.fleet), degrees(limit), "deg");
   if (!condition.ok) {
     condition.message = "tendon " + number + " leaves its groove at a fleet angle of " +
-                        rounded(degrees(side.fleet), 3) + "° at " + profile::at_alpha_text(side.fleet_at) + ": above " +
-                        rounded(degrees(limit), 3) +
+                        rounded(degrees(helix.fleet), 3) + "° at " + profile::at_alpha_text(helix.fleet_at) +
+                        ": above " + rounded(degrees(limit), 3) +
                         "° it touches the groove edge. Increase pulley.EF_mm, reduce body.lead_mm or the number of "
                         "turns, or increase body.groove_angle_deg";
   }
   return condition;
 }
 
-profile::Condition room_for_turns(const Mechanism& mechanism, const HelixGeometry& geometry, transmission::Side side) {
+profile::Condition lead_condition(const Mechanism& mechanism, const HelixGeometry& geometry, transmission::Side side) {
   const std::string pulley(transmission::pulley_name(side));
   profile::Condition condition;
   condition.name = "neighbouring_turns_" + pulley;
   condition.value = geometry.slope * geometry.circumference;
   condition.limit = geometry.needed_lead;
   condition.unit = "mm";
-  condition.ok = condition.value >= condition.limit * (1.0 - 1e-9);
+  constexpr double k_rounding = 1e-9;
+  condition.ok = condition.value >= condition.limit * (1.0 - k_rounding);
   if (!condition.ok) {
     condition.message =
         "a lead of " + rounded(mechanism.body.lead, 4) + " mm (body.lead_mm) is too small: groove, rib " +
@@ -76,7 +79,8 @@ profile::Condition room_for_turns(const Mechanism& mechanism, const HelixGeometr
   return condition;
 }
 
-profile::Condition spare_turns(const Mechanism& mechanism, const Spiral& spiral, transmission::Side side) {
+/// The condition that the spare turns are convex, as the tendon and the groove floor require.
+profile::Condition spare_turn_condition(const Mechanism& mechanism, const Spiral& spiral, transmission::Side side) {
   const double half = 0.5 * mechanism.tendon.diameter;
   const std::string pulley(transmission::pulley_name(side));
   profile::Condition condition;
@@ -95,7 +99,7 @@ profile::Condition spare_turns(const Mechanism& mechanism, const Spiral& spiral,
   return condition;
 }
 
-profile::Condition closure(const Windings& windings) {
+profile::Condition closure_condition(const Windings& windings) {
   constexpr double k_limit = 0.002;
   profile::Condition condition = at_most("sloped_paths_close", 0, windings.closure, k_limit, "mm");
   if (!condition.ok) {
@@ -110,7 +114,7 @@ profile::Condition closure(const Windings& windings) {
 std::vector<profile::Condition> turn_conditions(const Mechanism& mechanism, const transmission::Transmission& planar) {
   std::vector<profile::Condition> conditions;
   for (const transmission::Side side : k_sides) {
-    conditions.push_back(number_of_turns(planar, side));
+    conditions.push_back(turn_count_condition(planar, side));
     for (const double kink : profile::lift_offs(mechanism, planar, side)) {
       profile::Condition condition;
       condition.name = "on_drum_all_the_way";
@@ -126,16 +130,16 @@ std::vector<profile::Condition> turn_conditions(const Mechanism& mechanism, cons
 
 std::vector<profile::Condition> helix_conditions(const Mechanism& mechanism, const HelixSynthesis& made,
                                                  const Windings& windings, const HelixGroove& groove) {
-  std::vector<profile::Condition> conditions = {closure(windings)};
+  std::vector<profile::Condition> conditions = {closure_condition(windings)};
   for (const transmission::Side side : k_sides) {
     const std::size_t i = side == transmission::Side::left ? 0 : 1;
     const HelixSide& helix = made.sides[i];
     double largest = 0;
     for (std::size_t k = helix.spiral.first_used; k <= helix.spiral.last_used; ++k)
       largest = std::max(largest, helix.spiral.rows[k].rho);
-    conditions.push_back(spare_turns(mechanism, helix.spiral, side));
-    conditions.push_back(room_for_turns(mechanism, windings.geometry[i], side));
-    conditions.push_back(fleet(helix, side, groove, largest));
+    conditions.push_back(spare_turn_condition(mechanism, helix.spiral, side));
+    conditions.push_back(lead_condition(mechanism, windings.geometry[i], side));
+    conditions.push_back(fleet_condition(helix, side, groove, largest));
   }
   return conditions;
 }

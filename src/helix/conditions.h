@@ -14,6 +14,7 @@ std::vector<profile::Condition> turn_conditions(const Mechanism& mechanism, cons
 /// Conditions on the wound curves.
 std::vector<profile::Condition> helix_conditions(const Mechanism& mechanism, const HelixSynthesis& made,
                                                  const Windings& windings, const HelixGroove& groove);
+/// Warnings that do not prevent making: fleet angles above k_warned_fleet.
 std::vector<std::string> helix_warnings(const HelixSynthesis& made);
 
 }  // namespace fusee::helix

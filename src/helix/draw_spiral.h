@@ -6,12 +6,14 @@
 
 namespace fusee::helix {
 
+/// Accuracy of draw_spiral().
 struct SpiralDrawing {
-  double chord_error_mm = 0.01;        ///< sagitta, mm
+  double chord_error_mm = 0.01;        ///< largest sagitta of a chord, mm
   double reach = 0;                    ///< distance of the outermost parallel curve that keeps the tolerance, mm
   double largest_turn = radians(1.5);  ///< largest angle from row to row
 };
 
+/// The rows of a curve in the world, with the spare turns. `slope`: tan λ of the groove.
 Spiral draw_spiral(const PitchSpiral& curve, transmission::Side side, double slope, const SpiralDrawing& drawing);
 
 }  // namespace fusee::helix

@@ -8,18 +8,19 @@ namespace {
 
 constexpr int k_samples = 192;
 
-/// Weight that falls from 1 to 0 over the spare turns with zero slope at both ends, and its derivatives.
+/// Weight w(u) that falls from 1 to 0 over the spare turns with zero slope at both ends, and its derivatives.
 struct Taper {
   double w = 0, d1 = 0, d2 = 0;
 };
 
+/// The taper at the angle u of spare turns that have the angle `length`.
 Taper taper(double u, double length) {
   const double x = u / length;
   return {1.0 - x * x * (3.0 - 2.0 * x), -6.0 * x * (1.0 - x) / length, -6.0 * (1.0 - 2.0 * x) / (length * length)};
 }
 
 /// ∫ sin u w(u) du from 0, Simpson's rule.
-double tapered_integral(double u, double length) {
+double tapered_sine_integral(double u, double length) {
   constexpr int k_steps = 64;
   const auto value = [length](double v) { return elementary::sin(v) * taper(v, length).w; };
   double sum = value(0.0) + value(u);
@@ -57,6 +58,8 @@ double PitchSpiral::sigma(const profile::TakeOff& take_off) const {
          free_path(home_).whole;
 }
 
+// Within the working arc: Newton's method for the joint angle with this ψ, within the bracket of both neighbouring
+// samples. dψ/dθ = (dψ/dα)/g.
 SpiralPoint PitchSpiral::at(double psi) const {
   if (psi < working_begin())
     return beyond(working_begin() - psi, {samples_.front().curve, sigma(samples_.front())}, -1);
@@ -81,7 +84,8 @@ SpiralPoint PitchSpiral::at(double psi) const {
   return {found.curve, sigma(found)};
 }
 
-// Along u, outwards from the working arc, with d = ±dh/dψ there:
+// Along u, outwards from an end of the working arc with the support h and d = ±dh/dψ, the support p and the radius of
+// curvature ρ are
 //   p = h + d sin u w      p' = d (cos u w + sin u w')      ρ = p + p'' = h + d (2 cos u w' + sin u w'')
 //   ∫ρ du = p' − d + h u + d ∫ sin u w du
 SpiralPoint PitchSpiral::beyond(double turned, const SpiralPoint& from, double direction) const {
@@ -94,7 +98,7 @@ SpiralPoint PitchSpiral::beyond(double turned, const SpiralPoint& from, double d
   point.curve.h = from.curve.h + d * elementary::sin(u) * w.w;
   point.curve.dh = direction * slope;
   point.curve.radius = from.curve.h + d * (2.0 * elementary::cos(u) * w.d1 + elementary::sin(u) * w.d2);
-  const double length = slope - d + from.curve.h * u + d * tapered_integral(u, spare_);
+  const double length = slope - d + from.curve.h * u + d * tapered_sine_integral(u, spare_);
   point.sigma = from.sigma + direction * length;
   return point;
 }

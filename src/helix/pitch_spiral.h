@@ -11,10 +11,10 @@
 
 namespace fusee::helix {
 
-/// A point of the curve, and the length of tendon between it and the take-off at home.
+/// A point of the curve, and the length of the curve between it and the take-off at home.
 struct SpiralPoint {
   profile::CurvePoint curve;
-  double sigma = 0;  ///< in plan, growing with ψ, mm
+  double sigma = 0;  ///< σ: that length in plan, growing with ψ, 0 at home, mm
 };
 
 /// Planar lengths of the free part of a tendon.
@@ -23,12 +23,12 @@ struct FreePath {
   double sloping = 0;  ///< the part that rises: all of it, or with collars the part below the guide
 };
 
-/// Beyond the working arc, either end continues for the spare turns and approaches a circle about the axis. At the
-/// angle u beyond the end its support function is p + p' sin u w(u), with w falling from 1 to 0. Keeps a reference to
-/// the take-offs.
+/// The pitch curve of one side. Beyond the working arc, either end continues for the spare turns and approaches a circle
+/// about the axis. At the angle u beyond an end with the support h and its slope h', the support is h + h' sin u w(u),
+/// with w falling from 1 to 0. Keeps a reference to the take-offs.
 class PitchSpiral {
  public:
-  /// `lengthening`: q of the side, null for a planar tendon.
+  /// `lengthening`: q(α) of the side (transmission::SlopedPaths), null for a planar tendon.
   PitchSpiral(const Mechanism& mechanism, const profile::TakeOffs& take_offs,
               const transmission::ChebyshevSeries* lengthening);
 
@@ -46,13 +46,16 @@ class PitchSpiral {
   FreePath free_path(const profile::TakeOff& take_off) const;
 
  private:
+  /// Point of the spare turns at the angle `turned` beyond an end `from` of the working arc. `direction`: +1 with growing
+  /// ψ, −1 against it.
   SpiralPoint beyond(double turned, const SpiralPoint& from, double direction) const;
+  /// q at the pulley angle α. mm
   double lengthened(double alpha) const { return lengthening_ != nullptr ? lengthening_->at(alpha).d0 : 0.0; }
 
   const profile::TakeOffs& take_offs_;
   const transmission::ChebyshevSeries* lengthening_;
-  bool collar_;
-  double spare_;
+  bool collar_;   ///< the guides have collars: only the part below the guide slopes
+  double spare_;  ///< angle of the spare turns at either end, rad
   std::vector<profile::TakeOff> samples_;
   profile::TakeOff home_;
 };

@@ -20,26 +20,32 @@
 namespace fusee::helix {
 namespace {
 
-constexpr int k_nodes = 48;
-constexpr int k_places_of_turn = 72;
-constexpr int k_places_of_coarse_turn = 18;
-/// Margin on the lead: between the sampled places a pair of turns may need slightly more.
+constexpr int k_nodes = 48;  // of the Chebyshev series of q
+/// Directions per turn at which neighbouring turns are compared.
+constexpr int k_directions = 72;
+constexpr int k_coarse_directions = 18;
+/// Margin on the lead: between the sampled directions a pair of turns may need slightly more.
 constexpr double k_lead_margin = 1.005;
-constexpr double k_converged = 1e-10;  // mm
+/// Change of q from round to round at which the iteration ends. mm
+constexpr double k_converged = 1e-10;
+/// Rounds of the fixed-point iteration.
+constexpr int k_rounds = 16;
+constexpr int k_coarse_rounds = 2;
 
-/// Finds the least height from turn to turn, and the lead that the tightest pair requires.
+/// Sets the slope and the lead that the tightest pair of neighbouring turns requires. `wanted`: the lead that the file
+/// declares, 0 for the least one.
 void set_lead(HelixGeometry& geometry, const PitchSpiral& curve, transmission::Side side, const MinLead& least_lead,
               double wanted, HelixAccuracy accuracy) {
-  const int places = accuracy == HelixAccuracy::coarse ? k_places_of_coarse_turn : k_places_of_turn;
+  const int directions = accuracy == HelixAccuracy::coarse ? k_coarse_directions : k_directions;
   double least_slope = 0, circumference = 1e300;
-  for (double psi = curve.begin(); psi + k_two_pi <= curve.end() + 1e-9; psi += k_two_pi / places) {
+  for (double psi = curve.begin(); psi + k_two_pi <= curve.end() + 1e-9; psi += k_two_pi / directions) {
     const SpiralPoint here = curve.at(psi), next = curve.at(psi + k_two_pi);
-    const double around = next.sigma - here.sigma;
+    const double turn_length = next.sigma - here.sigma;
     const double step = transmission::mirror_sign(side) * (next.curve.h - here.curve.h);
-    const double needed = least_lead(step) / around;
-    circumference = std::min(circumference, around);
-    if (needed <= least_slope) continue;
-    least_slope = needed;
+    const double needed_slope = least_lead(step) / turn_length;
+    circumference = std::min(circumference, turn_length);
+    if (needed_slope <= least_slope) continue;
+    least_slope = needed_slope;
     geometry.tightest_at = psi;
   }
   geometry.circumference = circumference;
@@ -47,20 +53,22 @@ void set_lead(HelixGeometry& geometry, const PitchSpiral& curve, transmission::S
   geometry.slope = (wanted > 0 ? wanted : geometry.needed_lead) / circumference;
 }
 
-/// A free path, and the wound length at its take-off.
-struct WindingPlace {
+/// One tendon at one point of the stroke: its free path, and σ, the planar length wound since home.
+struct WindingPoint {
   FreePath path;
   double sigma = 0;
 };
 
-/// Bisects the rise at home at which the largest positive and negative fleet angles are equal.
-double smallest_fleet(HelixGeometry geometry, transmission::Side side, const std::vector<WindingPlace>& places) {
-  double low = -1e4, high = 1e4;
+/// HelixGeometry::below with the smallest fleet angles: the largest positive and negative ones are equal. Fleet angles
+/// grow with it, so it is bisected.
+double below_of_smallest_fleet(HelixGeometry geometry, transmission::Side side,
+                               const std::vector<WindingPoint>& points) {
+  double low = -1e4, high = 1e4;  // mm, far beyond any part
   for (int i = 0; i < 100; ++i) {
     geometry.below = 0.5 * (low + high);
     double least = 1e9, most = -1e9;
-    for (const WindingPlace& place : places) {
-      const double fleet = helix_point(geometry, side, place.path, place.sigma).fleet;
+    for (const WindingPoint& point : points) {
+      const double fleet = helix_point(geometry, side, point.path, point.sigma).fleet;
       least = std::min(least, fleet);
       most = std::max(most, fleet);
     }
@@ -69,19 +77,22 @@ double smallest_fleet(HelixGeometry geometry, transmission::Side side, const std
   return 0.5 * (low + high);
 }
 
-double q_of(const HelixGeometry& geometry, transmission::Side side, const WindingPlace& place) {
-  const double up = rise(geometry, side, place.sigma);
-  const double sloping = elementary::hypot(place.path.sloping, up);
-  const double secant = std::sqrt(1.0 + geometry.slope * geometry.slope);
-  return -up * up / (sloping + place.path.sloping) - place.sigma * (secant - 1.0);
+/// [H1], with Λ − L = Δ²/(√(L'² + Δ²) + L').
+double q_of(const HelixGeometry& geometry, transmission::Side side, const WindingPoint& point) {
+  const double up = rise(geometry, side, point.sigma);
+  const double sloping_in_space = elementary::hypot(point.path.sloping, up);
+  const double secant = std::sqrt(1.0 + geometry.slope * geometry.slope);  // 1/cos λ
+  return -up * up / (sloping_in_space + point.path.sloping) - point.sigma * (secant - 1.0);
 }
 
+/// One round of the fixed-point iteration for one side.
 struct SideIteration {
   HelixGeometry geometry;
-  std::vector<double> q;  ///< at the nodes
+  std::vector<double> q;  ///< at the nodes, relative to home, mm
   double change = 0;      ///< largest difference from the previous round's q, relative to home, mm
 };
 
+/// `before`: q of the round before, null in the first round.
 SideIteration solve_side(const Mechanism& mechanism, const transmission::Transmission& transmission,
                          transmission::Side side, const transmission::ChebyshevSeries* before,
                          const MinLead& least_lead, const std::vector<double>& nodes, HelixAccuracy accuracy) {
@@ -89,22 +100,22 @@ SideIteration solve_side(const Mechanism& mechanism, const transmission::Transmi
   const PitchSpiral curve(mechanism, take_offs, before);
   SideIteration round;
   set_lead(round.geometry, curve, side, least_lead, mechanism.body.lead, accuracy);
-  const auto place_of = [&](const profile::TakeOff& take_off) {
-    return WindingPlace{curve.free_path(take_off), curve.sigma(take_off)};
+  const auto point_of = [&](const profile::TakeOff& take_off) {
+    return WindingPoint{curve.free_path(take_off), curve.sigma(take_off)};
   };
-  std::vector<WindingPlace> places;
-  for (const profile::TakeOff& sample : curve.samples()) places.push_back(place_of(sample));
-  round.geometry.below = smallest_fleet(round.geometry, side, places);
-  const double home = q_of(round.geometry, side, place_of(take_offs.at(0.0)));
+  std::vector<WindingPoint> points;
+  for (const profile::TakeOff& sample : curve.samples()) points.push_back(point_of(sample));
+  round.geometry.below = below_of_smallest_fleet(round.geometry, side, points);
+  const double home_q = q_of(round.geometry, side, point_of(take_offs.at(0.0)));
   for (const double alpha : nodes) {
     const profile::TakeOff take_off = take_offs.at(transmission::mirror_sign(side) * transmission.theta(alpha));
-    round.q.push_back(q_of(round.geometry, side, place_of(take_off)) - home);
+    round.q.push_back(q_of(round.geometry, side, point_of(take_off)) - home_q);
   }
-  // Checked between the nodes too, which shows a series too short for the curve.
-  const double previous_home = before != nullptr ? before->at(0.0).d0 : 0.0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const double previous = before != nullptr ? before->at(curve.samples()[i].stroke.alpha).d0 - previous_home : 0.0;
-    round.change = std::max(round.change, std::abs(q_of(round.geometry, side, places[i]) - home - previous));
+  // Checked between the nodes too, so that a series too short for the curve shows.
+  const double previous_home_q = before != nullptr ? before->at(0.0).d0 : 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double previous = before != nullptr ? before->at(curve.samples()[i].stroke.alpha).d0 - previous_home_q : 0.0;
+    round.change = std::max(round.change, std::abs(q_of(round.geometry, side, points[i]) - home_q - previous));
   }
   return round;
 }
@@ -122,7 +133,7 @@ HelixPoint helix_point(const HelixGeometry& geometry, transmission::Side side, c
 }
 
 Windings wind(const Mechanism& mechanism, const MinLead& least_lead, HelixAccuracy accuracy) {
-  const int rounds = accuracy == HelixAccuracy::coarse ? 2 : 16;
+  const int rounds = accuracy == HelixAccuracy::coarse ? k_coarse_rounds : k_rounds;
   Windings windings;
   windings.transmission = std::make_unique<transmission::Transmission>(mechanism);
   for (int i = 0; i < rounds; ++i) {
@@ -134,16 +145,17 @@ Windings wind(const Mechanism& mechanism, const MinLead& least_lead, HelixAccura
     const SideIteration right = solve_side(mechanism, law, transmission::Side::right, before ? &before->q2 : nullptr,
                                            least_lead, nodes, accuracy);
     const double closure = std::max(left.change, right.change);
-    const bool no_better = i > 2 && closure > 0.5 * windings.closure;
+    const bool has_stalled = i > 2 && closure > 0.5 * windings.closure;
     windings.geometry = {left.geometry, right.geometry};
     windings.closure = closure;
-    if (before != nullptr && (closure < k_converged || no_better)) break;
+    if (before != nullptr && (closure < k_converged || has_stalled)) break;
     constexpr double k_least_coefficient = 1e-12;
     windings.paths = std::make_shared<transmission::SlopedPaths>(transmission::SlopedPaths{
         transmission::ChebyshevSeries(law.alpha_min(), law.alpha_max(), left.q, k_least_coefficient),
         transmission::ChebyshevSeries(law.alpha_min(), law.alpha_max(), right.q, k_least_coefficient)});
     windings.transmission = std::make_unique<transmission::Transmission>(mechanism, windings.paths);
   }
+  // Coarse curves are not expected to converge.
   if (accuracy == HelixAccuracy::coarse) windings.closure = 0;
   return windings;
 }

@@ -16,10 +16,11 @@ struct HelixGeometry {
   double slope = 0;          ///< tan λ of the groove
   double below = 0;          ///< height of the take-off at home above the tendon's end on the joint, mm
   double circumference = 0;  ///< of the shortest turn, mm
-  double needed_lead = 0;    ///< least lead over that turn for the tightest pair of turns, mm
+  double needed_lead = 0;    ///< least lead over the shortest turn that leaves room for the tightest pair of turns, mm
   double tightest_at = 0;    ///< ψ of the earlier turn of that pair, in the image
 };
 
+/// Both wound tendons: the transmission with their sloping paths, and their helices.
 struct Windings {
   std::unique_ptr<const transmission::Transmission> transmission;
   std::shared_ptr<const transmission::SlopedPaths> paths;  ///< null if the planar curves cannot be made
@@ -29,14 +30,15 @@ struct Windings {
 
 /// +1 where the take-off rises as the image's tendon is wound: later turns are further up the spiral on both sides.
 inline double helix_sign(transmission::Side side) { return transmission::mirror_sign(side); }
-/// Rise of the sloping part of a tendon's free path.
+/// Rise Δ of the sloping part of a tendon's free path, at the planar wound length σ. mm
 inline double rise(const HelixGeometry& geometry, transmission::Side side, double sigma) {
   return geometry.below + helix_sign(side) * geometry.slope * sigma;
 }
-/// Slope of the free path and angle to the groove, at a place of the curve, rad.
+/// The axial geometry of a tendon at the planar wound length σ. HelixPoint::z is left out.
 HelixPoint helix_point(const HelixGeometry& geometry, transmission::Side side, const FreePath& path, double sigma);
 
-/// Requires that the law's planar curves exist.
+/// Finds the law and both helices with which the tendons' lengths in space are constant. Requires that the law's planar
+/// curves exist.
 Windings wind(const Mechanism& mechanism, const MinLead& least_lead, HelixAccuracy accuracy);
 
 }  // namespace fusee::helix

@@ -16,28 +16,31 @@
 namespace fusee::joint {
 namespace {
 
-/// Error of the compensating law up to which P1 stays round. It is comparable with that of a drawn outline and small
-/// against any error worth a pulley.
+/// Error of θ up to which P1 stays round. A drawn outline has a similar error, and an error that justifies a new pulley
+/// is much larger.
 constexpr double k_round_suffices = radians(0.005);
 /// Deflection below which the law is not changed.
 constexpr double k_least_shift = radians(0.002);
 constexpr int k_rows_beyond = 4;  ///< rows beyond each end of the range, at the same spacing
 
+/// Accuracy of the search for the law.
 struct LawAccuracy {
-  int rows = 152;
+  int rows = 152;  ///< intervals of the range
   /// Residual error of the loaded joint at which the iteration ends.
   double reached = radians(1e-5);
 };
 LawAccuracy accuracy_of(LawSearch search) {
-  return search == LawSearch::whole ? LawAccuracy{} : LawAccuracy{48, radians(0.01)};
+  constexpr LawAccuracy k_brief{48, radians(0.01)};
+  return search == LawSearch::whole ? LawAccuracy{} : k_brief;
 }
 
 /// True when the law must be adapted to the load. Friction and pretension alone hardly change the mean of both
 /// directions.
-bool is_deflected(const Imperfections& at) {
-  return at.tendon.stretch != 0 || at.sheath.compliance != 0 || at.joint.weight != WeightError{} ||
-         at.joint.mean_load != 0;
+bool is_deflected(const Imperfections& errors) {
+  return errors.tendon.stretch != 0 || errors.sheath.compliance != 0 || errors.joint.weight != WeightError{} ||
+         errors.joint.mean_load != 0;
 }
+
 /// The target motion as rows that include both ends of the range, and slightly beyond them where the law continues.
 /// Beyond the end of a table all θ have one α, up to rounding; such rows are skipped. Empty where the law does not
 /// exist.
@@ -80,11 +83,11 @@ Mechanism identified_mechanism(const DeclaredMechanism& declared) {
   return joint;
 }
 
-Mechanism with_law(Mechanism joint, const CompensatingLaw& needed) {
+Mechanism with_law(Mechanism joint, const CompensatingLaw& compensating) {
   joint.pulley.law = Law::table;
-  joint.pulley.rows = from_home(needed.rows, needed.home);
-  joint.joint.theta_min = needed.theta_min;
-  joint.joint.theta_max = needed.theta_max;
+  joint.pulley.rows = from_home(compensating.rows, compensating.home);
+  joint.joint.theta_min = compensating.theta_min;
+  joint.joint.theta_max = compensating.theta_max;
   return joint;
 }
 
@@ -104,21 +107,23 @@ BenchLog sweep(const std::vector<LawRow>& rows, double tip_force) {
 }
 
 /// θ of the loaded joint at each row's α, averaged over both directions.
-std::vector<double> mean_motion(const Mechanism& joint, const std::vector<LawRow>& at, double tip_force) {
-  const std::vector<double> theta = predict(joint, {}, sweep(at, tip_force)).front();
+std::vector<double> mean_motion(const Mechanism& joint, const std::vector<LawRow>& rows, double tip_force) {
+  const std::vector<double> theta = predict(joint, {}, sweep(rows, tip_force)).front();
   std::vector<double> mean;
-  for (std::size_t i = 0; i < at.size(); ++i)
-    mean.push_back(0.5 * (theta[2 * at.size() + i] + theta[theta.size() - 1 - i]));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double up = theta[2 * rows.size() + i], down = theta[theta.size() - 1 - i];  // of the second cycle
+    mean.push_back(0.5 * (up + down));
+  }
   return mean;
 }
 
-/// Least squares fit by Chebyshev polynomials of α. A pulley's curvature contains the second derivative of the law, so
-/// that a kink (a tendon becoming slack) would be a dent. Deflections under moderate loads are smooth and reproduced to
-/// 1e-5.
+/// Least squares fit by Chebyshev polynomials of α. It removes kinks, such as where a tendon becomes slack: a pulley's
+/// curvature contains the second derivative of the law, so a kink would be a dent. Deflections under moderate loads are
+/// smooth and are reproduced to 1e-5.
 class ChebyshevSmoother {
  public:
   explicit ChebyshevSmoother(const std::vector<LawRow>& rows) : basis_(chebyshev_of(rows)), solver_(basis_) {}
-  Eigen::VectorXd of(const Eigen::VectorXd& values) const { return basis_ * solver_.nearest(values); }
+  Eigen::VectorXd smoothed(const Eigen::VectorXd& values) const { return basis_ * solver_.nearest(values); }
 
  private:
   static constexpr Eigen::Index k_terms = 9;
@@ -139,50 +144,53 @@ class ChebyshevSmoother {
   LeastSquares solver_;
 };
 
-/// The law minus the residual error `miss`; null where θ would not increase with α.
-std::optional<CompensatingLaw> corrected_law(CompensatingLaw needed, const std::vector<LawRow>& wanted,
-                                             const Joint& joint, const Eigen::VectorXd& miss) {
-  constexpr double rounding = 1e-12;
+/// The law minus the residual error of θ; null where θ would not increase with α. The last rows within the declared
+/// range become the ends of the range without load.
+std::optional<CompensatingLaw> corrected_law(CompensatingLaw compensating, const std::vector<LawRow>& target,
+                                             const Joint& joint, const Eigen::VectorXd& error) {
+  constexpr double k_rounding = 1e-12;  // rad
   double low = 0, high = 0;
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    LawRow& row = needed.rows[i];
-    row.theta -= miss(static_cast<Eigen::Index>(i));
-    if (i > 0 && row.theta <= needed.rows[i - 1].theta) return std::nullopt;
-    if (wanted[i].theta <= joint.theta_min + rounding) low = row.theta;
-    if (wanted[i].theta <= joint.theta_max + rounding) high = row.theta;
+  for (std::size_t i = 0; i < target.size(); ++i) {
+    LawRow& row = compensating.rows[i];
+    row.theta -= error(static_cast<Eigen::Index>(i));
+    if (i > 0 && row.theta <= compensating.rows[i - 1].theta) return std::nullopt;
+    if (target[i].theta <= joint.theta_min + k_rounding) low = row.theta;
+    if (target[i].theta <= joint.theta_max + k_rounding) high = row.theta;
   }
-  needed.theta_min = std::min(low, 0.0);
-  needed.theta_max = std::max(high, 0.0);
-  return needed;
+  compensating.theta_min = std::min(low, 0.0);
+  compensating.theta_max = std::max(high, 0.0);
+  return compensating;
 }
 
-/// The law with which `joint`, deflected by its load, follows `wanted`. Null if there is none. Friction at the pins is
-/// ignored: it causes hysteresis about the mean, and its reversals at the ends of the range cannot be corrected by a
-/// pulley.
+/// The law with which `joint`, deflected by its load, follows the target motion `declared`. Null if there is none.
+/// Fixed-point iteration: each round subtracts the error of the loaded joint. Friction at the pins is ignored: it causes
+/// hysteresis about the mean, and a pulley cannot correct its reversals at the ends of the range.
 std::optional<CompensatingLaw> law_under_load(Mechanism joint, const CompensatingLaw& declared, double tip_force,
                                               double reached) {
   joint = transmission::without_friction(std::move(joint));
-  const std::vector<LawRow>& wanted = declared.rows;
-  const ChebyshevSmoother smoothed(wanted);
-  CompensatingLaw needed = declared;
-  for (int i = 0; i < 20; ++i) {
-    const Mechanism made = with_law(joint, needed);
+  const std::vector<LawRow>& target = declared.rows;
+  constexpr int k_rounds = 20;
+  const ChebyshevSmoother smoother(target);
+  CompensatingLaw compensating = declared;
+  for (int i = 0; i < k_rounds; ++i) {
+    const Mechanism made = with_law(joint, compensating);
     if (transmission::Transmission(made).dead_centre()) return std::nullopt;
-    const std::vector<double> theta = mean_motion(made, from_home(wanted, needed.home), tip_force);
-    Eigen::VectorXd miss(static_cast<Eigen::Index>(wanted.size()));
-    for (std::size_t k = 0; k < wanted.size(); ++k) miss(static_cast<Eigen::Index>(k)) = theta[k] - wanted[k].theta;
-    if (!miss.allFinite()) return std::nullopt;
-    miss = smoothed.of(miss);
-    const auto next = corrected_law(needed, wanted, joint.joint, miss);
+    const std::vector<double> theta = mean_motion(made, from_home(target, compensating.home), tip_force);
+    Eigen::VectorXd error(static_cast<Eigen::Index>(target.size()));
+    for (std::size_t k = 0; k < target.size(); ++k) error(static_cast<Eigen::Index>(k)) = theta[k] - target[k].theta;
+    if (!error.allFinite()) return std::nullopt;
+    error = smoother.smoothed(error);
+    const auto next = corrected_law(compensating, target, joint.joint, error);
     if (!next) return std::nullopt;
-    needed = *next;
-    needed.home = 0;
-    needed.home = transmission::Transmission(with_law(joint, needed)).alpha(0.0);
-    if (miss.cwiseAbs().maxCoeff() < reached) break;
+    compensating = *next;
+    compensating.home = 0;
+    compensating.home = transmission::Transmission(with_law(joint, compensating)).alpha(0.0);
+    if (error.cwiseAbs().maxCoeff() < reached) break;
   }
-  for (std::size_t k = 0; k < wanted.size(); ++k)
-    needed.shifted = needed.shifted || std::abs(needed.rows[k].theta - wanted[k].theta) > k_least_shift;
-  return needed;
+  for (std::size_t k = 0; k < target.size(); ++k)
+    compensating.shifted =
+        compensating.shifted || std::abs(compensating.rows[k].theta - target[k].theta) > k_least_shift;
+  return compensating;
 }
 
 }  // namespace
@@ -192,42 +200,45 @@ CompensatingLaw compensating_law(const DeclaredMechanism& declared, LawSearch se
   const CompensatingLaw as_declared{declared_rows(declared, accuracy.rows), 0, declared.joint.theta_min,
                                     declared.joint.theta_max, false};
   if (as_declared.rows.empty() || !is_deflected(declared.identified)) return as_declared;
-  const auto needed = law_under_load(identified_mechanism(declared), as_declared,
-                                     declared.load.tip_force + declared.identified.joint.mean_load, accuracy.reached);
-  return needed && needed->shifted ? *needed : as_declared;
+  const auto compensating =
+      law_under_load(identified_mechanism(declared), as_declared,
+                     declared.load.tip_force + declared.identified.joint.mean_load, accuracy.reached);
+  return compensating && compensating->shifted ? *compensating : as_declared;
 }
 
 namespace {
 
-/// Maximum error of a joint with the law of `joint` against the rows; if home may shift, at the best assembly angle.
-double worst_miss(const Mechanism& joint, const CompensatingLaw& needed) {
+/// Maximum error of θ of the law of `joint` against the compensating law. If the latter is shifted, the assembly angle is
+/// free, and the best one counts.
+double largest_error(const Mechanism& joint, const CompensatingLaw& compensating) {
   const transmission::Transmission law(joint);
   constexpr double none = std::numeric_limits<double>::infinity();
   if (law.dead_centre()) return none;
   double least = none, most = -none;
-  for (const LawRow& row : needed.rows) {
-    const double off = (law.alpha(row.theta) - row.alpha) * law.at_theta(row.theta).g;
-    if (!std::isfinite(off)) return none;
-    least = std::min(least, off);
-    most = std::max(most, off);
+  for (const LawRow& row : compensating.rows) {
+    const double error = (law.alpha(row.theta) - row.alpha) * law.at_theta(row.theta).g;
+    if (!std::isfinite(error)) return none;
+    least = std::min(least, error);
+    most = std::max(most, error);
   }
-  return needed.shifted ? 0.5 * (most - least) : std::max(most, -least);
+  return compensating.shifted ? 0.5 * (most - least) : std::max(most, -least);
 }
 
 }  // namespace
 
-RoundChoice round_choice(const DeclaredMechanism& declared, const CompensatingLaw& needed) {
+RoundChoice round_choice(const DeclaredMechanism& declared, const CompensatingLaw& compensating) {
   Mechanism joint = identified_mechanism(declared);
   RoundChoice choice;
   choice.r1 = joint.pulley.r1;
-  if (declared.pulley.law != Law::compensate || needed.rows.empty()) return choice;
-  const auto miss = [&](double r1) {
+  if (declared.pulley.law != Law::compensate || compensating.rows.empty()) return choice;
+  const auto error_of = [&](double r1) {
     joint.pulley.r1 = r1;
-    return worst_miss(joint, needed);
+    return largest_error(joint, compensating);
   };
   // The maximum error has one minimum over r1.
-  choice.r1 = golden_section({0.8 * choice.r1, 1.25 * choice.r1}, 40, miss).middle();
-  choice.max_error = miss(choice.r1);
+  constexpr int k_sections = 40;
+  choice.r1 = golden_section({0.8 * choice.r1, 1.25 * choice.r1}, k_sections, error_of).middle();
+  choice.max_error = error_of(choice.r1);
   choice.suffices = choice.max_error <= k_round_suffices;
   return choice;
 }

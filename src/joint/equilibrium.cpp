@@ -36,6 +36,7 @@ constexpr double k_min_play = 1e-6;
 /// suffice. A tendon that sticks on a compliant pin converges more slowly, and a reversal of the sliding may need some
 /// halving.
 constexpr int k_rounds = 40;
+/// Lower limit of the tolerance for a slide's strain.
 constexpr double k_min_strain = 1e-14;
 /// Tolerance of the first search, and limit below which single Newton steps converge quadratically.
 constexpr double k_rough_step = 1e-5;   // rad
@@ -50,9 +51,10 @@ constexpr int k_friction_rounds = 6;
 constexpr double k_min_tension = 1e-4;
 /// Distance before the lift-off angle at which the tendon still lies on the drum. rad
 constexpr double k_before_lift_off = 1e-9;
-/// Relative tolerance for the tension that moves the joint against its friction.
+/// Relative tolerance, for rounding, of the tension that moves the joint against its friction.
 constexpr double k_rounding = 1e-6;
 
+/// Elastic energy per unstretched length. N·mm/mm
 double energy_per_material(double tension, double EA) { return 0.5 * tension * tension / EA; }
 
 /// Number of points at which the friction of a sheath acts, each in the middle of its section (threaded_balance.h).
@@ -66,9 +68,9 @@ double end_share(const transmission::SheathLoad& sheath) { return 0.5 / static_c
 /// Share of a sheath's compliance that belongs to one span, relative to its length when mounted at home. A spring of c
 /// mm/N equals a tendon of length EA c without temperature and creep (see PinCompliance).
 struct SheathShare {
-  double length = 0;
-  double virtual_length = 0;
-  double mounted = 0;  ///< elongation of the spring at home relative to zero tension
+  double length = 0;          ///< of the sheath's share, mm
+  double virtual_length = 0;  ///< EA c of its compliance, mm
+  double mounted = 0;         ///< elongation of the spring at home relative to zero tension, mm
 
   SheathShare(const transmission::SheathLoad& sheath, double share, double EA, double home)
       : length(share * sheath.length),
@@ -78,24 +80,24 @@ struct SheathShare {
 
 /// The tendon between the bends of a sheath, from the joint to the pulley.
 struct SheathHistory {
-  std::array<double, ThreadedSpans::k_bends - 1> material{};
-  std::array<double, ThreadedSpans::k_bends - 1> tension{};
-  std::array<int, ThreadedSpans::k_bends> slides{};  ///< at the last step
+  std::array<double, ThreadedSpans::k_bends - 1> material{};  ///< unstretched length, mm
+  std::array<double, ThreadedSpans::k_bends - 1> tension{};   ///< N
+  std::array<int, ThreadedSpans::k_bends> slides{};           ///< ThreadedBalance::slides of the last step
 };
 
 /// One tendon in its right-hand image, with its history.
 struct TendonHistory {
   transmission::Side side = transmission::Side::left;
-  double rim_reference = 0;  ///< normal of the rim's reference point between upper and lower part, rad
-  double upper_material = 0;
-  double lower_material = 0;
+  double rim_reference = 0;   ///< normal of the rim's reference point between upper and lower part, rad
+  double upper_material = 0;  ///< unstretched length of the upper span, mm
+  double lower_material = 0;  ///< unstretched length of the lower span, mm
   SheathHistory sheath;
-  WoundProfile wound;
+  WoundProfile wound;  ///< the tendon on the pulley
   /// The tendon on the joint's drum, in the frame of the link, if it rubs there; otherwise that part belongs to the
   /// upper span.
   std::optional<WoundProfile> on_drum;
-  double behind_drum = 0;  ///< straight length from the drum to the tendon's end
-  double upper = 0;        ///< tensions at the last step
+  double behind_drum = 0;  ///< straight length from the drum to the tendon's end, mm
+  double upper = 0;        ///< tensions of the spans at the last step, N
   double lower = 0;
   double home = 0;       ///< tension at home, N
   Vec2 home_push{0, 0};  ///< force on its pin at home, where the pin is as declared, N
@@ -103,7 +105,7 @@ struct TendonHistory {
   double strained = 0;   ///< increase of the lower span's strain in the last step
 };
 
-/// Directions of a tendon at its pin, away from it, and its force on the pin.
+/// Unit vectors along a tendon away from its pin, and its force on the pin.
 struct PinDirections {
   Vec2 up, down;
 
@@ -136,12 +138,12 @@ struct PinCompliance {
 /// A tendon at the pulley angle of a step, before θ is known.
 struct TendonAtAlpha {
   LowerPath path;
-  double lower_length = 0;  ///< length of the span from the rim's reference point
+  double lower_length = 0;  ///< length of the lower span from the rim's reference point, mm
   double swelling = 1;      ///< 1 + expansion of the material since home
   Spans spans;              ///< without the upper length, the capstan factor and the exchange with the pulley
   TurnedPulley turned;
   Slide slide;       ///< sliding on the pulley at a strain close to the solution
-  double moved = 0;  ///< last change of that strain by the search
+  double moved = 0;  ///< last change of that strain by update_slide()
 };
 
 /// The drum as a groove that turns with the link, from the tendon's end to the take-off. A free tendon has nothing on
@@ -205,31 +207,31 @@ Spans with_slide(Spans spans, const TendonAtAlpha& at) {
 }
 
 /// Tolerance of the strain for which a slide is computed.
-double near_strain(const JointModel& model) { return std::max(model.last_step, k_min_strain); }
+double strain_tolerance(const JointModel& model) { return std::max(model.last_step, k_min_strain); }
 
 /// Updates the slide to the expected strain `next`. Returns true if it was already consistent with the strain `now`, or
 /// if the predicted exchange with its span was accurate.
 ///
 /// Newton steps. Near a kink (a reversal of the sliding) they may cycle; halved steps break the cycle.
 bool update_slide(TendonAtAlpha& at, const WoundProfile& wound, double now, double next, const JointModel& model) {
-  const double near = near_strain(model);
+  const double tolerance = strain_tolerance(model);
   const double strain = at.slide.strain, freed = at.slide.freed, length = at.slide.length;
-  const bool same = std::abs(now - strain) <= near;
-  double by = std::max(next, 0.0) - strain;
-  if (std::abs(by) <= near) return same;
-  const bool swings = by * at.moved < 0 && std::abs(by) > 0.5 * std::abs(at.moved);
-  if (swings) by *= 0.5;
-  at.moved = by;
-  at.slide = wound.slide(at.turned, strain + by, at.swelling);
-  const double expected = length * (1.0 / (1.0 + strain) - 1.0 / (1.0 + at.slide.strain));
-  const double missed = std::abs(at.swelling * (at.slide.freed - freed) - expected);
-  return same || (!swings && missed <= model.last_step * at.path.p);
+  const bool was_consistent = std::abs(now - strain) <= tolerance;
+  double step = std::max(next, 0.0) - strain;
+  if (std::abs(step) <= tolerance) return was_consistent;
+  const bool swings = step * at.moved < 0 && std::abs(step) > 0.5 * std::abs(at.moved);
+  if (swings) step *= 0.5;
+  at.moved = step;
+  at.slide = wound.slide(at.turned, strain + step, at.swelling);
+  const double predicted = length * (1.0 / (1.0 + strain) - 1.0 / (1.0 + at.slide.strain));
+  const double error = std::abs(at.swelling * (at.slide.freed - freed) - predicted);
+  return was_consistent || (!swings && error <= model.last_step * at.path.p);
 }
 
-/// Spans with the tendon in a sheath with friction.
+/// Spans with the tendon in a sheath with friction, and their balance.
 struct ThreadedState {
   ThreadedSpans spans;
-  ThreadedBalance slid;
+  ThreadedBalance balance;
 };
 
 /// Sliding on the joint's drum.
@@ -241,15 +243,15 @@ struct DrumSlide {
 /// A tendon at a trial θ. Rarely used parts are allocated separately, so that copies are cheap.
 struct Trial {
   UpperSpanTable::Values span;
-  double upper_length = 0;  ///< length of the path
-  Spans spans;
+  double upper_length = 0;                  ///< path length of the upper span, mm
+  Spans spans;                              ///< with compliances, and with sliding as additional length
   std::unique_ptr<ThreadedState> threaded;  ///< the same spans with friction in a sheath
   std::unique_ptr<DrumSlide> on_drum;       ///< set if the tendon rubs on the drum
   TendonBalance balance;
-  double wrap = 0;
-  double pull = 0;         ///< torque on the joint, towards the tendon's own side: T_up m
-  double slope = 0;        ///< derivative of pull by the image's θ
-  double lower_slope = 0;  ///< derivative of the lower span's tension
+  double wrap = 0;         ///< on the pin, rad
+  double pull = 0;         ///< torque on the joint, towards the tendon's own side: T_up m, N·mm
+  double slope = 0;        ///< derivative of `pull` by the image's θ
+  double lower_slope = 0;  ///< derivative of the lower span's tension by the image's θ
 };
 
 /// The spans including the pieces of tendon between the bends of the sheath.
@@ -268,10 +270,9 @@ ThreadedSpans threaded(const Spans& spans, const TendonHistory& tendon, const Jo
   return all;
 }
 
-/// The balance as seen from both ends.
-TendonBalance from_ends(const ThreadedBalance& slid) {
-  return {slid.tension.front(), slid.tension.back(), slid.crossed.front(),
-          slid.contact,         slid.per_length,     slid.per_hold};
+/// The balance of the first and the last span.
+TendonBalance from_ends(const ThreadedBalance& all) {
+  return {all.tension.front(), all.tension.back(), all.crossed.front(), all.contact, all.per_length, all.per_hold};
 }
 
 /// Couples the tendon on the drum with the upper span, as sliding on the pulley is coupled with the lower span.
@@ -282,6 +283,7 @@ void rub_on_drum(Trial& trial, const TendonHistory& tendon, const TendonAtAlpha&
   const transmission::PinPlace& pin = model.pins[tendon.side == transmission::Side::left ? 0 : 1];
   const GroovePlace takes_off = place_on_drum(pin, trial.span.on_drum, tendon.behind_drum);
   trial.upper_length -= takes_off.arc + tendon.behind_drum;
+  // The span ends at the take-off from the drum.
   const double length = trial.spans.upper_length - takes_off.arc - tendon.behind_drum;
   const double material = trial.spans.upper_material;
   trial.on_drum = std::make_unique<DrumSlide>(DrumSlide{tendon.on_drum->turned_to(takes_off, at.swelling), {}});
@@ -290,11 +292,11 @@ void rub_on_drum(Trial& trial, const TendonHistory& tendon, const TendonAtAlpha&
     const Slide& slide = trial.on_drum->slide = tendon.on_drum->slide(trial.on_drum->turned, strain, at.swelling);
     trial.spans.upper_length = length + slide.length;
     trial.spans.upper_material = material + at.swelling * slide.freed + slide.length / (1.0 + strain);
-    double by = balanced() - strain;
-    if (std::abs(by) <= near_strain(model)) return;
-    if (by * moved < 0 && std::abs(by) > 0.5 * std::abs(moved)) by *= 0.5;
-    moved = by;
-    strain += by;
+    double step = balanced() - strain;
+    if (std::abs(step) <= strain_tolerance(model)) return;
+    if (step * moved < 0 && std::abs(step) > 0.5 * std::abs(moved)) step *= 0.5;
+    moved = step;
+    strain += step;
   }
 }
 
@@ -317,8 +319,8 @@ Trial evaluate_trial(const TendonHistory& tendon, const TendonAtAlpha& at, const
     if (trial.threaded) {
       ThreadedSpans& spans = trial.threaded->spans = threaded(trial.spans, tendon, model, at.swelling);
       spans.holds.front() += on_pin;
-      trial.threaded->slid = balance(spans, tendon.sheath.slides);
-      trial.balance = from_ends(trial.threaded->slid);
+      trial.threaded->balance = balance(spans, tendon.sheath.slides);
+      trial.balance = from_ends(trial.threaded->balance);
     } else {
       trial.spans.capstan = elementary::exp(on_pin);
       trial.balance = balance(trial.spans);
@@ -333,7 +335,7 @@ Trial evaluate_trial(const TendonHistory& tendon, const TendonAtAlpha& at, const
     for (int i = 0; i < k_rounds; ++i) {
       trial.spans = with_waves(straight, model.waves, pull, tendon.home);
       const double next = balance_once();
-      if (std::abs(next - pull) <= near_strain(model) * at.spans.EA) break;
+      if (std::abs(next - pull) <= strain_tolerance(model) * at.spans.EA) break;
       pull = next;
     }
     return trial.balance.upper / at.spans.EA;
@@ -344,16 +346,17 @@ Trial evaluate_trial(const TendonHistory& tendon, const TendonAtAlpha& at, const
     balanced();
   const double m = trial.span.m;
   trial.pull = trial.balance.upper * m;
-  double rate = -m * trial.balance.per_length;  // dL/dθ = −m
+  double rate = -m * trial.balance.per_length;  // of T_up by the image's θ; dL/dθ = −m
   if (trial.wrap > 0) rate += trial.balance.per_capstan * model.guide.slope(trial.wrap) * trial.span.dnormal;
   trial.slope = rate * m + trial.balance.upper * trial.span.dm;
   if (trial.threaded)
-    trial.lower_slope = rate * trial.threaded->slid.lower_per_upper;
+    trial.lower_slope = rate * trial.threaded->balance.lower_per_upper;
   else if (trial.balance.crossed != 0 && trial.balance.upper > 0)
     trial.lower_slope = rate * trial.balance.lower / trial.balance.upper;
   return trial;
 }
 
+/// Value and slope of a function whose root is sought.
 struct Residual {
   double value = 0;
   double slope = 0;
@@ -364,26 +367,28 @@ struct Residual {
 /// its sign.
 template <typename Function>
 std::optional<double> find_root(double start, double least, double most, double last_step, Function function) {
+  constexpr int k_most_steps = 200;
   double low = least;
   double high = most;
   bool low_seen = false;
   bool high_seen = false;
-  double stride = 0.01;
+  double stride = 0.01;  // rad
   double x = std::clamp(start, least, most);
-  for (int i = 0; i < 200; ++i) {
-    const Residual at = function(x);
-    if (at.value == 0) return x;
-    const bool falls = at.value > 0;
-    (falls ? low : high) = x;
-    (falls ? low_seen : high_seen) = true;
-    if ((falls && x >= most) || (!falls && x <= least)) return std::nullopt;
-    double next = at.slope < 0 ? x - at.value / at.slope : x + (falls ? stride : -stride);
+  for (int i = 0; i < k_most_steps; ++i) {
+    const Residual residual = function(x);
+    if (residual.value == 0) return x;
+    const bool is_above = residual.value > 0;  // the root, since the function decreases
+    (is_above ? low : high) = x;
+    (is_above ? low_seen : high_seen) = true;
+    if ((is_above && x >= most) || (!is_above && x <= least)) return std::nullopt;
+    double next = residual.slope < 0 ? x - residual.value / residual.slope : x + (is_above ? stride : -stride);
     if (low_seen && high_seen) {
-      // Kinks can make Newton steps cycle, so some steps bisect.
-      if (!(next > low && next < high) || i % 12 > 9) next = 0.5 * (low + high);
+      // Kinks can make Newton steps cycle, so the last two of twelve steps bisect.
+      const bool bisects = i % 12 > 9;
+      if (!(next > low && next < high) || bisects) next = 0.5 * (low + high);
     } else {
       next = std::clamp(next, x - stride, x + stride);
-      next = falls ? std::min(std::max(next, x), most) : std::max(std::min(next, x), least);
+      next = is_above ? std::min(std::max(next, x), most) : std::max(std::min(next, x), least);
       stride *= 2.0;
     }
     // Newton steps converge quadratically, except across a kink.
@@ -425,6 +430,7 @@ std::shared_ptr<const GrooveArc> groove_of(const JointModel& model, transmission
   return std::make_shared<const GrooveArc>(std::move(along), model.arcs_to_knots[right ? 1 : 0]);
 }
 
+/// A tendon at home with the same `tension` everywhere.
 TendonHistory at_home(transmission::Side side, const JointModel& model, const LowerPath& path, double tension) {
   const transmission::PinPlace& place = model.pins[side == transmission::Side::left ? 0 : 1];
   const transmission::UpperSpan span = transmission::upper_span(place, 0.0);
@@ -432,7 +438,7 @@ TendonHistory at_home(transmission::Side side, const JointModel& model, const Lo
   tendon.side = side;
   const double off_pin = place.off_pin(path.normal), in_sheath = end_share(model.sheath) * model.sheath.length;
   tendon.rim_reference = 0.5 * (span.normal + off_pin);
-  const double density = 1.0 / (1.0 + tension / model.EA);
+  const double density = 1.0 / (1.0 + tension / model.EA);  // material per length
   double free = span.free;
   if (model.drum_friction > 0 && place.drum > 0) {
     tendon.behind_drum = straight_behind(place);
@@ -466,21 +472,21 @@ WindingEnergy accept_winding(WoundProfile& wound, const TurnedPulley& turned, co
   const double before = wound.strain(swelling);
   const double now = slide.strain;
   const double arc = turned.take_off.arc - wound.take_off().arc;
-  const auto mean = [&](auto of) { return 0.5 * (of(before) + of(now)); };
+  const auto mean = [&](auto function) { return 0.5 * (function(before) + function(now)); };
   const double laid = arc * mean([](double strain) { return 1.0 / (1.0 + strain); });
   const double energy = arc * mean([](double strain) { return 0.5 * strain * strain / (1.0 + strain); });
   const double work = mean([](double strain) { return strain * (1.0 + 0.5 * strain); });
-  const double more = EA * wound.accept(turned, slide, swelling).energy;
-  return {more, EA * (work * (swelling * slide.freed + laid) + energy) - more};
+  const double stored = EA * wound.accept(turned, slide, swelling).energy;
+  return {stored, EA * (work * (swelling * slide.freed + laid) + energy) - stored};
 }
 
-/// Work carried by a unit of material that crosses at the tension `t`.
-double head(double t, double EA) { return t + energy_per_material(t, EA); }
+/// Work carried by a unit of material that crosses at the tension `t`: T + T²/(2 EA).
+double work_per_material(double t, double EA) { return t + energy_per_material(t, EA); }
 
 /// Work lost at the bends of a sheath; updates its pieces.
 double accept_sheath(TendonHistory& tendon, const ThreadedState& threaded, double swelling) {
   const double EA = threaded.spans.EA;
-  const ThreadedBalance& now = threaded.slid;
+  const ThreadedBalance& now = threaded.balance;
   SheathHistory& sheath = tendon.sheath;
   std::array<double, ThreadedSpans::k_bends + 1> before{};
   before.front() = tendon.upper;
@@ -488,8 +494,10 @@ double accept_sheath(TendonHistory& tendon, const ThreadedState& threaded, doubl
   std::copy(sheath.tension.begin(), sheath.tension.end(), before.begin() + 1);
   double lost = 0;
   for (std::size_t j = 0; j < now.crossed.size(); ++j) {
-    const double then = head(before[j], EA) - head(before[j + 1], EA);
-    lost += 0.5 * (then + head(now.tension[j], EA) - head(now.tension[j + 1], EA)) * now.crossed[j];
+    // Trapezoidal rule over the step.
+    const double lost_before = work_per_material(before[j], EA) - work_per_material(before[j + 1], EA);
+    lost += 0.5 * (lost_before + work_per_material(now.tension[j], EA) - work_per_material(now.tension[j + 1], EA)) *
+            now.crossed[j];
   }
   for (std::size_t i = 0; i < sheath.material.size(); ++i) {
     sheath.material[i] += (now.crossed[i + 1] - now.crossed[i]) / swelling;
@@ -506,20 +514,24 @@ struct EnergyChange {
   double groove_friction = 0;
 };
 
-/// Makes a trial permanent. The slide is recomputed only if its strain is off by more than `near`.
-EnergyChange accept_trial(TendonHistory& tendon, TendonAtAlpha& at, const Trial& trial, double near) {
+/// Makes a trial permanent. The slide is recomputed only if its strain is off by more than `tolerance`.
+EnergyChange accept_trial(TendonHistory& tendon, TendonAtAlpha& at, const Trial& trial, double tolerance) {
   const double EA = at.spans.EA;
   const TendonBalance& now = trial.balance;
   const ThreadedState* threaded = trial.threaded.get();
-  const double to_joint = threaded ? threaded->slid.crossed.back() : now.crossed;  // material that left the lower span
-  if (std::abs(at.slide.strain - now.lower / EA) > near)
+  // Material that left the lower span.
+  const double to_joint = threaded ? threaded->balance.crossed.back() : now.crossed;
+  if (std::abs(at.slide.strain - now.lower / EA) > tolerance)
     at.slide = tendon.wound.slide(at.turned, now.lower / EA, at.swelling);
   const WindingEnergy on_pulley = accept_winding(tendon.wound, at.turned, at.slide, at.swelling, EA);
   EnergyChange change{on_pulley.energy, 0, on_pulley.friction};
-  const auto dropped = [EA](double upper, double lower) { return head(upper, EA) - head(lower, EA); };
-  change.friction = threaded
-                        ? accept_sheath(tendon, *threaded, at.swelling)
-                        : 0.5 * (dropped(tendon.upper, tendon.lower) + dropped(now.upper, now.lower)) * now.crossed;
+  const auto lost_per_material = [EA](double upper, double lower) {
+    return work_per_material(upper, EA) - work_per_material(lower, EA);
+  };
+  change.friction =
+      threaded ? accept_sheath(tendon, *threaded, at.swelling)
+               : 0.5 * (lost_per_material(tendon.upper, tendon.lower) + lost_per_material(now.upper, now.lower)) *
+                     now.crossed;
   tendon.upper_material += now.crossed / at.swelling;
   if (tendon.on_drum) {
     const WindingEnergy on_drum =
@@ -586,9 +598,9 @@ double energy_of_sheath(const TendonHistory& tendon, const transmission::SheathL
 
 /// Result of the equilibrium search.
 struct RestState {
-  double theta = 0;
-  double held = 0;     ///< torque of the bearing's friction, N·mm
-  bool stays = false;  ///< true if the joint did not move
+  double theta = 0;            ///< rad
+  double friction_torque = 0;  ///< of the dry friction, towards −θ, N·mm
+  bool stays = false;          ///< true if the joint did not move
   std::array<Trial, 2> trials = {};
 };
 
@@ -599,20 +611,20 @@ struct JointMotion::State {
   std::array<TendonHistory, 2> tendons;
   std::array<double, 2> released{};  ///< length released so far, mm
   double theta = 0;
-  bool loose = false;       ///< the joint was loose at the last step
-  double dry = 0;           ///< dry friction on the joint, N·mm
-  double expected = 0;      ///< model.expected at the last step
-  double wound_energy = 0;  ///< energy wound onto the pulleys since home
-  double home_energy = 0;
-  double friction = 0;
-  double groove_friction = 0;
+  bool loose = false;          ///< the joint was loose at the last step
+  double dry = 0;              ///< limit of the dry friction on the joint, N·mm
+  double expected = 0;         ///< model.expected at the last step
+  double wound_energy = 0;     ///< energy wound onto the pulleys since home, N·mm
+  double home_energy = 0;      ///< energy of the spans at home, N·mm
+  double friction = 0;         ///< EquilibriumPoint::friction at the last step
+  double groove_friction = 0;  ///< EquilibriumPoint::groove_friction at the last step
 
   explicit State(JointModel joint);
   /// Torque of the tendons minus that of the load, towards +θ.
   Residual residual(const std::array<Trial, 2>& trials, const JointStep& step, double at_theta) const;
   std::array<Trial, 2> trials(const std::array<TendonAtAlpha, 2>& at, double at_theta) const;
-  std::optional<RestState> balanced(const std::array<TendonAtAlpha, 2>& at, const JointStep& step, double start,
-                                    double last_step) const;
+  std::optional<RestState> solve_theta(const std::array<TendonAtAlpha, 2>& at, const JointStep& step, double start,
+                                       double last_step) const;
   std::optional<RestState> solve_coupled(std::array<TendonAtAlpha, 2>& at, const JointStep& step, double start);
   std::optional<RestState> solve_with_friction(std::array<TendonAtAlpha, 2>& at, const JointStep& step, double start);
   bool update_coupling(std::array<TendonAtAlpha, 2>& at, const std::array<Trial, 2>& now, double move);
@@ -645,47 +657,47 @@ Residual JointMotion::State::residual(const std::array<Trial, 2>& trials, const 
 }
 
 /// Solves for θ with the sliding on the pulleys as given in `at`.
-std::optional<RestState> JointMotion::State::balanced(const std::array<TendonAtAlpha, 2>& at, const JointStep& step,
-                                                      double start, double last_step) const {
+std::optional<RestState> JointMotion::State::solve_theta(const std::array<TendonAtAlpha, 2>& at, const JointStep& step,
+                                                         double start, double last_step) const {
   // Friction of the bearing holds the joint up to its limit; beyond it the joint moves until the torque equals the
   // limit.
-  double held = 0;
-  const auto pull = [&](double at_theta) {
-    Residual beyond = residual(trials(at, at_theta), step, at_theta);
-    beyond.value -= held;
-    return beyond;
+  double friction_torque = 0;
+  const auto unbalanced = [&](double at_theta) {
+    Residual torque = residual(trials(at, at_theta), step, at_theta);
+    torque.value -= friction_torque;
+    return torque;
   };
   // The joint stays if friction holds it. A loose joint is only pushed, so its search starts at the present angle;
   // otherwise it starts at the expected angle plus the present deviation.
   if (theta > model.theta_least && theta < model.theta_most) {
-    const double here = pull(theta).value;
+    const double here = unbalanced(theta).value;
     if (std::abs(here) <= dry) return RestState{theta, 0, true};
-    held = std::copysign(dry, here);
+    friction_torque = std::copysign(dry, here);
     if (loose || dry > 0) start = theta;
   }
-  const auto found = find_root(start, model.theta_least, model.theta_most, last_step, pull);
+  const auto found = find_root(start, model.theta_least, model.theta_most, last_step, unbalanced);
   if (!found) return std::nullopt;
-  return RestState{*found, held, false};
+  return RestState{*found, friction_torque, false};
 }
 
 /// Updates the sliding on both pulleys, and the tension ratios of compliant pins, to the state expected after the joint
 /// moves by `move`. Returns true if they were consistent already.
 bool JointMotion::State::update_coupling(std::array<TendonAtAlpha, 2>& at, const std::array<Trial, 2>& now,
                                          double move) {
-  constexpr double near_ratio = 1e-7;
-  bool same = true;
+  constexpr double k_ratio_tolerance = 1e-7;
+  bool was_consistent = true;
   for (std::size_t i = 0; i < 2; ++i) {
     const TendonBalance& balance = now[i].balance;
     const double next = balance.lower + transmission::mirror_sign(tendons[i].side) * move * now[i].lower_slope;
     const double EA = at[i].spans.EA;
-    same = update_slide(at[i], tendons[i].wound, balance.lower / EA, next / EA, model) && same;
+    was_consistent = update_slide(at[i], tendons[i].wound, balance.lower / EA, next / EA, model) && was_consistent;
     if (!(model.pin_compliance > 0 && balance.upper > 0 && balance.lower > 0)) continue;
     const double ratio = balance.lower / balance.upper;
-    if (std::abs(ratio - tendons[i].ratio) <= near_ratio) continue;
+    if (std::abs(ratio - tendons[i].ratio) <= k_ratio_tolerance) continue;
     tendons[i].ratio = ratio;
-    same = false;
+    was_consistent = false;
   }
-  return same;
+  return was_consistent;
 }
 
 /// Solves for the joint angle and the sliding together by simultaneous Newton steps. Falls back to alternating searches
@@ -694,8 +706,8 @@ std::optional<RestState> JointMotion::State::solve_coupled(std::array<TendonAtAl
                                                            double start) {
   bool searched = false;
   const auto search = [&](double from) {
-    const double exactly = std::exchange(searched, true) ? model.last_step : std::max(model.last_step, k_rough_step);
-    return balanced(at, step, from, exactly);
+    const double tolerance = std::exchange(searched, true) ? model.last_step : std::max(model.last_step, k_rough_step);
+    return solve_theta(at, step, from, tolerance);
   };
   // With compliant pins there may be two solutions; the search finds the one consistent with the history.
   const bool first_search = loose || dry > 0 || model.pin_compliance > 0;
@@ -703,15 +715,15 @@ std::optional<RestState> JointMotion::State::solve_coupled(std::array<TendonAtAl
       first_search ? search(start) : std::optional(RestState{std::clamp(start, model.theta_least, model.theta_most)});
   for (int i = 0; i < k_rounds && rest; ++i) {
     rest->trials = trials(at, rest->theta);
-    const Residual beyond = residual(rest->trials, step, rest->theta);
-    const double move = beyond.slope < 0 && !rest->stays ? -(beyond.value - rest->held) / beyond.slope : 0.0;
-    const bool same = update_coupling(at, rest->trials, move);
-    const bool held = std::max(rest->trials[0].balance.upper, rest->trials[1].balance.upper) >= k_min_tension;
-    if (!searched && !(held && beyond.slope < 0 && std::abs(move) <= k_newton_range)) {
+    const Residual torque = residual(rest->trials, step, rest->theta);
+    const double move = torque.slope < 0 && !rest->stays ? -(torque.value - rest->friction_torque) / torque.slope : 0.0;
+    const bool was_consistent = update_coupling(at, rest->trials, move);
+    const bool is_taut = std::max(rest->trials[0].balance.upper, rest->trials[1].balance.upper) >= k_min_tension;
+    if (!searched && !(is_taut && torque.slope < 0 && std::abs(move) <= k_newton_range)) {
       rest = search(start);
       continue;
     }
-    if (same && std::abs(move) <= model.last_step) return rest;
+    if (was_consistent && std::abs(move) <= model.last_step) return rest;
     if (rest->stays || (searched && std::abs(move) > k_newton_step) || i >= k_newton_rounds)
       rest = search(rest->theta);
     else
@@ -734,13 +746,13 @@ std::optional<RestState> JointMotion::State::solve_with_friction(std::array<Tend
   return rest;
 }
 
-/// True if only the bearing's friction keeps the joint in place within its play. This counts as loose: otherwise an
-/// identified friction of 0.007 N·mm made rows appear certain that can rest anywhere (four false positives of 34 on
-/// wide joints).
+/// True if only the bearing's friction keeps the joint in place within its play. This counts as loose, since θ can rest
+/// anywhere in the play. Otherwise calibration takes such rows as certain: an identified friction of 0.007 N·mm caused
+/// false positives in 4 of 34 wide joints.
 bool JointMotion::State::is_loose(const EquilibriumPoint& point, const std::array<Trial, 2>& now) const {
   const auto hardly_pulls = [&](const TendonState& tendon, const Trial& trial) {
-    const double held = dry > 0 ? (1.0 + k_rounding) * dry / trial.span.m : 0.0;
-    return tendon.upper < k_min_tension + held;
+    const double held_by_friction = dry > 0 ? (1.0 + k_rounding) * dry / trial.span.m : 0.0;
+    return tendon.upper < k_min_tension + held_by_friction;
   };
   if (!hardly_pulls(point.t1, now[0]) || !hardly_pulls(point.t2, now[1])) return false;
   // The stretch that friction sustains is released before the play begins.
@@ -759,7 +771,7 @@ EquilibriumPoint JointMotion::State::accept(std::array<TendonAtAlpha, 2>& at, co
   point.theta = theta = found;
   point.stiffness = point.stiffness_stuck = model.own_slope(found);
   for (std::size_t i = 0; i < 2; ++i) {
-    const EnergyChange change = accept_trial(tendons[i], at[i], now[i], near_strain(model));
+    const EnergyChange change = accept_trial(tendons[i], at[i], now[i], strain_tolerance(model));
     wound_energy += change.wound;
     friction += change.friction;
     groove_friction += change.groove_friction;
@@ -770,9 +782,9 @@ EquilibriumPoint JointMotion::State::accept(std::array<TendonAtAlpha, 2>& at, co
     const double geometric = now[i].balance.upper * now[i].span.dm;
     point.stiffness_stuck += stuck_rate(now[i].spans, now[i].balance) * m * m - geometric;
     const ThreadedState* threaded = now[i].threaded.get();
-    const double passing =
-        threaded ? sliding_rate(threaded->spans, threaded->slid) : sliding_rate(now[i].spans, now[i].balance);
-    point.stiffness += passing * m * m - geometric;
+    const double sliding =
+        threaded ? sliding_rate(threaded->spans, threaded->balance) : sliding_rate(now[i].spans, now[i].balance);
+    point.stiffness += sliding * m * m - geometric;
   }
   point.motor_torque = point.t2.lower * at[1].path.p - point.t1.lower * at[0].path.p;
   point.stored += wound_energy - home_energy;

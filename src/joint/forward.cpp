@@ -14,11 +14,11 @@
 namespace fusee::joint {
 namespace {
 
-/// Steps from home to the beginning of a run. The motion before the log is unknown; a direct approach from home is the
-/// simplest assumption.
+/// Number of steps from home to the first row of a run. The motion before the log is unknown. A direct approach from
+/// home is the simplest assumption.
 constexpr int k_approach = 24;
 
-/// Margin for the effect of sensors and play on the logged angles, rad.
+/// Margin of the path tables beyond the logged α, for the errors of the motor's sensor and for play. rad
 constexpr double k_beyond = 0.1;
 
 /// Resets the order of a wave of zero amplitude, so that equivalent values compare equal.
@@ -29,13 +29,13 @@ void reset_idle_order(Wave& wave) {
 
 /// The imperfections that affect the motion, in canonical form: without the joint sensor, and without irrelevant
 /// numbers.
-Imperfections motion_key(Imperfections at) {
-  at.sensor = {};
-  reset_idle_order(at.motor);
-  reset_idle_order(at.pulley.outline);
-  if (at.tendon.slip == 0 && at.ratio_joint.step == 0) at.tendon.slip_time = 0;
-  if (at.tendon.pretension_share() == 0) at.tendon.pretension = 0;
-  return at;
+Imperfections motion_key(Imperfections errors) {
+  errors.sensor = {};
+  reset_idle_order(errors.motor);
+  reset_idle_order(errors.pulley.outline);
+  if (errors.tendon.slip == 0 && errors.ratio_joint.step == 0) errors.tendon.slip_time = 0;
+  if (errors.tendon.pretension_share() == 0) errors.tendon.pretension = 0;
+  return errors;
 }
 
 double tip_force(const BenchRun& run, const BenchRow& row, const Mechanism& declared) {
@@ -54,8 +54,8 @@ double slack_of(const RatioJointError& joint, double load) {
   return joint.slack / (1.0 + joint.slack_taken_up * std::abs(load));
 }
 
-std::vector<double> sensor_readings(const BenchRun& run, std::vector<double> theta, const Imperfections& at) {
-  return sensed(run, std::move(theta), turned(at.sensor, run.mounting.joint_sensor_turned));
+std::vector<double> sensor_readings(const BenchRun& run, std::vector<double> theta, const Imperfections& errors) {
+  return sensed(run, std::move(theta), turned(errors.sensor, run.mounting.joint_sensor_turned));
 }
 
 /// Angle of the joint; within its play, the angle to which it was last pushed.
@@ -75,8 +75,8 @@ bool are_driven_alike(const BenchRun& one, const BenchRun& other) {
          std::equal(one.rows.begin(), one.rows.end(), other.rows.begin(), other.rows.end(), alike);
 }
 
-bool depends_on_time(const Imperfections& at) {
-  return at.tendon.creep != 0 || at.tendon.slip != 0 || !(at.ratio_joint == RatioJointError{});
+bool depends_on_time(const Imperfections& errors) {
+  return errors.tendon.creep != 0 || errors.tendon.slip != 0 || !(errors.ratio_joint == RatioJointError{});
 }
 
 JointState state_of(const EquilibriumPoint& point) {
@@ -89,6 +89,7 @@ JointState state_of(const EquilibriumPoint& point) {
   return state;
 }
 
+/// Replaces the model's functions of α by tables from `least` to `most`.
 void tabulate_paths(JointModel& model, double least, double most) {
   const auto table = std::make_shared<const LowerPathTable>(model, least, most);
   model.lower = [table](double alpha) { return table->paths(alpha); };
@@ -103,8 +104,8 @@ TendonCreep::TendonCreep(double per_decade, double EA, JointMotion home, const J
 }
 
 std::array<double, 2> TendonCreep::strains(const EquilibriumPoint& point) const {
-  const auto of = [this](const TendonState& tendon) { return 0.5 * (tendon.upper + tendon.lower) / EA_; };
-  return {of(point.t1), of(point.t2)};
+  const auto mean_strain = [this](const TendonState& tendon) { return 0.5 * (tendon.upper + tendon.lower) / EA_; };
+  return {mean_strain(point.t1), mean_strain(point.t2)};
 }
 
 std::array<double, 2> TendonCreep::after(double time) const {
@@ -138,7 +139,7 @@ Forward::Forward(const Mechanism& declared, const BenchLog& log, const Mechanism
     all_.push_back(i);
     std::size_t first = 0;
     while (first < i && !are_driven_alike(log[first], log[i])) ++first;
-    driven_.push_back(first);
+    first_alike_.push_back(first);
   }
   for (const BenchRun& run : log) {
     for (const BenchRow& row : run.rows) {
@@ -151,47 +152,47 @@ Forward::Forward(const Mechanism& declared, const BenchLog& log, const Mechanism
 Forward::Forward(const Mechanism& declared, const BenchLog& log, const std::optional<EarlierState>& earlier)
     : Forward(declared, log) {
   if (!earlier) return;
-  earlier_motion_ = mechanism(earlier->joint);
+  earlier_motion_ = motion_of(earlier->joint);
   earlier_ = earlier;
   latest_ = {};  // later runs must not find the motions of earlier ones
   // Runs of the later state refer only to runs of the later state.
   for (std::size_t i = earlier->runs; i < log.size(); ++i) {
-    if (driven_[i] >= earlier->runs) continue;
-    driven_[i] = earlier->runs;
-    while (driven_[i] < i && !are_driven_alike(log[driven_[i]], log[i])) ++driven_[i];
+    if (first_alike_[i] >= earlier->runs) continue;
+    first_alike_[i] = earlier->runs;
+    while (first_alike_[i] < i && !are_driven_alike(log[first_alike_[i]], log[i])) ++first_alike_[i];
   }
 }
 
 /// The earlier state plus the imperfections; only the imperfections if there is none.
-Imperfections Forward::whole(const Imperfections& imperfections) const {
+Imperfections Forward::with_earlier_state(const Imperfections& imperfections) const {
   return earlier_ ? changed(earlier_->joint, imperfections, kind_of(declared_)) : imperfections;
 }
 
-JointMotion Forward::at_home(const Imperfections& at) {
-  const GeometryError key = geometry_of(at);
+JointMotion Forward::at_home(const Imperfections& errors) {
+  const GeometryError key = geometry_of(errors);
   Geometry* known = nullptr;
   for (Geometry& latest : latest_geometry_) {
     if (latest.model && latest.key == key) known = &latest;
   }
   if (known == nullptr) {
     known = &latest_geometry_[next_geometry_++ % latest_geometry_.size()];
-    *known = {key, imperfect_geometry(*made_, declared_, at)};
+    *known = {key, imperfect_geometry(*made_, declared_, errors)};
     tabulate_paths(*known->model, alpha_least_ - k_beyond, alpha_most_ + k_beyond);
   }
   JointModel model = *known->model;
-  set_imperfect_statics(model, declared_, at);
+  set_imperfect_statics(model, declared_, errors);
   return JointMotion(std::move(model));
 }
 
-TendonChange Forward::change(std::size_t index, const BenchRow& row, const Imperfections& at) const {
+TendonChange Forward::change(std::size_t index, const BenchRow& row, const Imperfections& errors) const {
   const BenchRun& run = log_[index];
   TendonChange change;
   if (run.has_temperature) {
     const double warmer = row.temperature_C - first_temperature_;
-    change.expansion = {at.tendon.thermal1 * warmer, at.tendon.thermal2 * warmer};
+    change.expansion = {errors.tendon.thermal1 * warmer, errors.tendon.thermal2 * warmer};
   }
-  if (row.time + clock_[index] >= at.tendon.slip_time)
-    change.released = {std::max(0.0, at.tendon.slip), std::max(0.0, -at.tendon.slip)};
+  if (row.time + clock_[index] >= errors.tendon.slip_time)
+    change.released = {std::max(0.0, errors.tendon.slip), std::max(0.0, -errors.tendon.slip)};
   return change;
 }
 
@@ -202,16 +203,16 @@ double Forward::time_before(std::size_t index) const {
   return std::max(0.0, log_[index].rows.front().time + clock_[index] - end);
 }
 
-void Forward::elastic(std::size_t index, JointMotion motion, const Imperfections& at, TendonCreep& creep,
-                      const std::function<void(const EquilibriumPoint&)>& found) const {
+void Forward::move_tendon_joint(std::size_t index, JointMotion motion, const Imperfections& errors, TendonCreep& creep,
+                                const std::function<void(const EquilibriumPoint&)>& on_row) const {
   const BenchRun& run = log_[index];
   if (run.rows.empty()) return;
   creep.rest(time_before(index));
   Play play(0.0);
-  const MotorSensorError motor = turned(at.motor, run.mounting.motor_sensor_turned);
+  const MotorSensorError motor = turned(errors.motor, run.mounting.motor_sensor_turned);
   const auto step = [&](double alpha, const BenchRow& row, double time) {
-    const double pulley = play.to(shaft_angle(alpha, motor), at.shaft.backlash);
-    TendonChange changed = change(index, row, at);
+    const double pulley = play.to(shaft_angle(alpha, motor), errors.shaft.backlash);
+    TendonChange changed = change(index, row, errors);
     const std::array<double, 2> crept = creep.after(time);
     for (std::size_t i = 0; i < 2; ++i) changed.expansion[i] += crept[i];
     const EquilibriumPoint point = motion.to({pulley, tip_force(run, row, declared_), declared_.load.torque, changed});
@@ -220,107 +221,113 @@ void Forward::elastic(std::size_t index, JointMotion motion, const Imperfections
   };
   const BenchRow& first = run.rows.front();
   for (int i = 1; i < k_approach; ++i) step(first.alpha * i / k_approach, first, 0.0);
-  double time = first.time;
-  for (const BenchRow& row : run.rows) found(step(row.alpha, row, row.time - std::exchange(time, row.time)));
+  double last_time = first.time;
+  for (const BenchRow& row : run.rows) {
+    on_row(step(row.alpha, row, row.time - last_time));
+    last_time = row.time;
+  }
 }
 
-std::vector<double> Forward::geared(std::size_t index, const Imperfections& at, CreepMemory& drift) const {
+std::vector<double> Forward::ratio_joint_angles(std::size_t index, const Imperfections& errors,
+                                                CreepMemory& drift) const {
   const BenchRun& run = log_[index];
   std::vector<double> theta;
   theta.reserve(run.rows.size());
   if (run.rows.empty()) return theta;
   const double ratio = declared_.transmission->ratio;
   const auto load_of = [&run](const BenchRow& row) { return run.has_load ? row.load : 0.0; };
-  const MotorSensorError motor = turned(at.motor, run.mounting.motor_sensor_turned);
+  const MotorSensorError motor = turned(errors.motor, run.mounting.motor_sensor_turned);
   Play play(shaft_angle(0.0, motor));
   const auto pulley_at = [&](double alpha, const BenchRow& row) {
-    return play.to(shaft_angle(alpha, motor), at.shaft.backlash + slack_of(at.ratio_joint, load_of(row)));
+    return play.to(shaft_angle(alpha, motor), errors.shaft.backlash + slack_of(errors.ratio_joint, load_of(row)));
   };
   const BenchRow& first = run.rows.front();
-  RubbingCable cable(at.ratio_joint, shaft_angle(0.0, motor) / ratio);
+  RubbingCable cable(errors.ratio_joint, shaft_angle(0.0, motor) / ratio);
   for (int i = 1; i < k_approach; ++i) cable.to(pulley_at(first.alpha * i / k_approach, first) / ratio, load_of(first));
   drift.hold(0, time_before(index));
   const BenchRow* last = &first;
   for (const BenchRow& row : run.rows) {
     const double load = load_of(row);
     const double driven = pulley_at(row.alpha, row) / ratio;
-    double angle = cable.to(driven, load) + at.ratio_joint.curve.added(driven, load);
-    if (at.ratio_joint.drift != 0) {
+    double angle = cable.to(driven, load) + errors.ratio_joint.curve.added(driven, load);
+    if (errors.ratio_joint.drift != 0) {
       drift.hold(0.5 * (load_of(*last) + load), row.time - last->time);
-      angle -= at.ratio_joint.drift * drift.crept();
+      angle -= errors.ratio_joint.drift * drift.crept();
     }
     last = &row;
-    if (at.ratio_joint.step != 0 && row.time + clock_[index] >= at.tendon.slip_time) angle += at.ratio_joint.step;
-    if (run.has_temperature) angle += at.ratio_joint.warmth * (row.temperature_C - first_temperature_);
+    if (errors.ratio_joint.step != 0 && row.time + clock_[index] >= errors.tendon.slip_time)
+      angle += errors.ratio_joint.step;
+    if (run.has_temperature) angle += errors.ratio_joint.warmth * (row.temperature_C - first_temperature_);
     theta.push_back(angle);
   }
   return theta;
 }
 
-void Forward::move(const Imperfections& at, const std::vector<std::size_t>& runs,
-                   const std::function<void(std::size_t, const EquilibriumPoint&)>& found) {
+void Forward::move(const Imperfections& errors, const std::vector<std::size_t>& runs,
+                   const std::function<void(std::size_t, const EquilibriumPoint&)>& on_row) {
   if (made_) {
-    const JointMotion home = at_home(at);
-    const double EA = section_stiffness(mounted(declared_, at).mechanism.tendon);
-    TendonCreep creep(at.tendon.creep, EA, home, {.torque = declared_.load.torque});
+    const JointMotion home = at_home(errors);
+    const double EA = section_stiffness(mounted(declared_, errors).mechanism.tendon);
+    TendonCreep creep(errors.tendon.creep, EA, home, {.torque = declared_.load.torque});
     for (const std::size_t i : runs)
-      elastic(i, home, at, creep, [&](const EquilibriumPoint& point) { found(i, point); });
+      move_tendon_joint(i, home, errors, creep, [&](const EquilibriumPoint& point) { on_row(i, point); });
     return;
   }
   CreepMemory drift;
   for (const std::size_t i : runs) {
-    for (const double theta : geared(i, at, drift)) {
+    for (const double theta : ratio_joint_angles(i, errors, drift)) {
       EquilibriumPoint point;
       point.theta = theta;
-      found(i, point);
+      on_row(i, point);
     }
   }
 }
 
-const Forward::Motion& Forward::mechanism(const Imperfections& imperfections) {
+const Forward::Motion& Forward::motion_of(const Imperfections& imperfections) {
   const Imperfections key = motion_key(imperfections);
-  for (const Motion& motion : latest_) {
-    if (motion.key == key && !motion.theta.empty()) return motion;
+  for (const Motion& known : latest_) {
+    if (known.key == key && !known.theta.empty()) return known;
   }
-  Motion& place = latest_[next_++ % latest_.size()];
-  place = {key, Readings(log_.size()), Readings(log_.size())};
-  const std::vector<std::size_t>& stands_for = depends_on_time(key) ? all_ : driven_;
+  Motion& motion = latest_[next_++ % latest_.size()];
+  motion = {key, Readings(log_.size()), Readings(log_.size())};
+  // Run i has the motion of run source[i].
+  const std::vector<std::size_t>& source = depends_on_time(key) ? all_ : first_alike_;
   const std::size_t first = earlier_ ? earlier_->runs : 0;
   std::vector<std::size_t> moved;
   for (const std::size_t run : all_) {
-    if (stands_for[run] == run && run >= first) moved.push_back(run);
+    if (source[run] == run && run >= first) moved.push_back(run);
   }
   move(key, moved, [&](std::size_t run, const EquilibriumPoint& point) {
-    place.theta[run].push_back(angle_or_nan(point));
-    place.loose[run].push_back(play_of(point));
+    motion.theta[run].push_back(angle_or_nan(point));
+    motion.loose[run].push_back(play_of(point));
   });
   for (const std::size_t run : all_) {
-    const Motion& of = run < first ? *earlier_motion_ : place;
-    place.theta[run] = of.theta[stands_for[run]];
-    place.loose[run] = of.loose[stands_for[run]];
+    const Motion& computed = run < first ? *earlier_motion_ : motion;
+    motion.theta[run] = computed.theta[source[run]];
+    motion.loose[run] = computed.loose[source[run]];
   }
-  return place;
+  return motion;
 }
 
 Readings Forward::operator()(const Imperfections& imperfections) {
-  const Imperfections at = whole(imperfections);
-  Readings readings = mechanism(at).theta;
+  const Imperfections errors = with_earlier_state(imperfections);
+  Readings readings = motion_of(errors).theta;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     const bool is_earlier = earlier_ && i < earlier_->runs;
-    readings[i] = sensor_readings(log_[i], std::move(readings[i]), is_earlier ? earlier_->joint : at);
+    readings[i] = sensor_readings(log_[i], std::move(readings[i]), is_earlier ? earlier_->joint : errors);
   }
   return readings;
 }
 
-std::vector<std::vector<JointState>> Forward::states(const Imperfections& at) {
+std::vector<std::vector<JointState>> Forward::states(const Imperfections& errors) {
   std::vector<std::vector<JointState>> all(log_.size());
-  move(motion_key(at), all_, [&](std::size_t run, const EquilibriumPoint& point) {
+  move(motion_key(errors), all_, [&](std::size_t run, const EquilibriumPoint& point) {
     all[run].push_back(made_ ? state_of(point) : JointState{point.status, point.theta});
   });
   for (std::size_t i = 0; i < log_.size(); ++i) {
     std::vector<double> theta;
     for (const JointState& state : all[i]) theta.push_back(state.theta);
-    theta = sensor_readings(log_[i], std::move(theta), at);
+    theta = sensor_readings(log_[i], std::move(theta), errors);
     for (std::size_t k = 0; k < theta.size(); ++k) all[i][k].shown = theta[k];
   }
   return all;

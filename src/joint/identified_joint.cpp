@@ -12,15 +12,15 @@
 namespace fusee::joint {
 namespace {
 
-bool changes_geometry(const Imperfections& at) {
-  return at.pins.left != PinPlaceError{} || at.pins.right != PinPlaceError{} || at.pins.radius != 0 ||
-         at.joint.length != 0 || at.joint.drum != DrumError{} || at.joint.end1 != AttachmentError{} ||
-         at.joint.end2 != AttachmentError{};
+bool changes_geometry(const Imperfections& errors) {
+  return errors.pins.left != PinPlaceError{} || errors.pins.right != PinPlaceError{} || errors.pins.radius != 0 ||
+         errors.joint.length != 0 || errors.joint.drum != DrumError{} || errors.joint.end1 != AttachmentError{} ||
+         errors.joint.end2 != AttachmentError{};
 }
-bool changes_statics(const Imperfections& at) {
-  return at.tendon.stretch != 0 || at.tendon.pretension != 0 || at.pins.friction != 0 ||
-         at.pins.bearing_friction != 0 || at.tendon.groove_friction != 0 || at.sheath != SheathError{} ||
-         at.joint.weight != WeightError{} || at.joint.mean_load != 0;
+bool changes_statics(const Imperfections& errors) {
+  return errors.tendon.stretch != 0 || errors.tendon.pretension != 0 || errors.pins.friction != 0 ||
+         errors.pins.bearing_friction != 0 || errors.tendon.groove_friction != 0 || errors.sheath != SheathError{} ||
+         errors.joint.weight != WeightError{} || errors.joint.mean_load != 0;
 }
 
 }  // namespace
@@ -34,23 +34,23 @@ double assembly_angle(const DeclaredMechanism& declared) {
 }
 
 IdentifiedJoint identified_joint(const DeclaredMechanism& declared, LawSearch search) {
-  const Imperfections& at = declared.identified;
-  IdentifiedJoint joint{declared, at.pulley.outline};
-  const bool nothing_to_do = !changes_geometry(at) && !changes_statics(at) && at.pulley.scale == 0;
+  const Imperfections& errors = declared.identified;
+  IdentifiedJoint joint{declared, errors.pulley.outline};
+  const bool nothing_to_do = !changes_geometry(errors) && !changes_statics(errors) && errors.pulley.scale == 0;
   if (declared.transmission || nothing_to_do) return joint;
   joint.mechanism = identified_mechanism(declared);
-  const CompensatingLaw needed = compensating_law(declared, search);
-  if ((changes_geometry(at) || needed.shifted) && !needed.rows.empty()) {
-    const RoundChoice choice = round_choice(declared, needed);
+  const CompensatingLaw compensating = compensating_law(declared, search);
+  if ((changes_geometry(errors) || compensating.shifted) && !compensating.rows.empty()) {
+    const RoundChoice choice = round_choice(declared, compensating);
     if (choice.suffices) {
       joint.mechanism.pulley.r1 = choice.r1;
-      joint.mechanism.joint.theta_min = needed.theta_min;
-      joint.mechanism.joint.theta_max = needed.theta_max;
+      joint.mechanism.joint.theta_min = compensating.theta_min;
+      joint.mechanism.joint.theta_max = compensating.theta_max;
     } else {
-      joint.mechanism = with_law(joint.mechanism, needed);
+      joint.mechanism = with_law(joint.mechanism, compensating);
     }
   }
-  joint.mechanism.material.shrinkage = 1 - (1 - joint.mechanism.material.shrinkage) * (1 + at.pulley.scale);
+  joint.mechanism.material.shrinkage = 1 - (1 - joint.mechanism.material.shrinkage) * (1 + errors.pulley.scale);
   return joint;
 }
 

@@ -12,20 +12,20 @@ namespace {
 /// Extension of the range up to which the joint may be pushed, while the moment arms exist.
 constexpr double k_reach = radians(60.0);
 
-/// The first θ from `start` towards `end` at which a moment arm vanishes; `end` if none does.
+/// The last θ from `start` towards `end` up to which both moment arms are positive.
 double last_with_arms(const std::array<transmission::PinPlace, 2>& pins, double start, double end) {
   const auto has_arms = [&](double theta) {
     return transmission::upper_span(pins[0], -theta).m > 0 && transmission::upper_span(pins[1], theta).m > 0;
   };
-  constexpr int steps = 60;
+  constexpr int k_steps = 60, k_bisections = 50;
   double good = start;
-  for (int i = 1; i <= steps; ++i) {
-    double bad = start + (end - start) * i / steps;
+  for (int i = 1; i <= k_steps; ++i) {
+    double bad = start + (end - start) * i / k_steps;
     if (has_arms(bad)) {
       good = bad;
       continue;
     }
-    for (int halving = 0; halving < 50; ++halving) {
+    for (int bisection = 0; bisection < k_bisections; ++bisection) {
       const double middle = 0.5 * (good + bad);
       (has_arms(middle) ? good : bad) = middle;
     }
@@ -34,21 +34,21 @@ double last_with_arms(const std::array<transmission::PinPlace, 2>& pins, double 
   return end;
 }
 
-/// The element of the pitch curve that touches the tendon when the declared joint is at `at`, in the image.
+/// The element of the pitch curve that touches the tendon at one point of the declared motion, in the image. mm, rad.
 struct CurveElement {
-  double normal = 0;  ///< in the pulley's frame
-  double support = 0;
-  double arc = 0;    ///< up to a constant
-  double reach = 0;  ///< w: length of the declared line from the foot of the axis' perpendicular
-  double slope = 0;  ///< d support / d declared α: p'
-  double ahead = 0;  ///< dh/dψ: distance from that foot to the element, towards the pin
+  double normal = 0;   ///< in the pulley's frame
+  double support = 0;  ///< distance of the tangent from the pulley's axis
+  double arc = 0;      ///< up to a constant
+  double reach = 0;    ///< w: length of the declared line from the foot of the axis' perpendicular
+  double slope = 0;    ///< d support / d declared α: p'
+  double ahead = 0;    ///< dh/dψ: distance from that foot to the element, towards the pin
 };
 
 // The tendon is inextensible: its lengths above the pin, between pin and pulley, and on the pulley have a constant sum
 // along the target motion. This gives the arc in closed form: s = −L_up(θ) − (w − h') + ρψ. The contact is at h n + h'
 // t, not at the foot of the axis' perpendicular. From ψ' = 1 + p'/w follows h' = p'/(1 + p'/w).
-CurveElement element(const transmission::PinPlace& place, transmission::Side side,
-                     const transmission::TransmissionPoint& at, double offset) {
+CurveElement curve_element(const transmission::PinPlace& place, transmission::Side side,
+                           const transmission::TransmissionPoint& at, double offset) {
   const double sign = transmission::mirror_sign(side);
   const transmission::TendonPoint& tendon = side == transmission::Side::right ? at.t2 : at.t1;
   const double lower_normal = side == transmission::Side::right ? tendon.lower_normal : k_pi - tendon.lower_normal;
@@ -67,17 +67,17 @@ CurveElement element(const transmission::PinPlace& place, transmission::Side sid
 std::array<double, 2> arcs_to_knots(const JointModel& model, const Mechanism& mechanism) {
   const auto least = model.lower(model.alpha_least), most = model.lower(model.alpha_most);
   std::array<double, 2> spare{};
-  bool several = false;
+  bool is_multi_turn = false;
   for (const std::size_t i : {0, 1}) {
     const double sign = i == 1 ? 1.0 : -1.0;
     const double turned = most[i].normal - least[i].normal + sign * (model.alpha_most - model.alpha_least);
-    several = several || std::abs(turned) > k_two_pi;
+    is_multi_turn = is_multi_turn || std::abs(turned) > k_two_pi;
     // Spare turns are circular.
     spare[i] = k_two_pi * mechanism.body.spare_turns * std::abs((i == 1 ? least : most)[i].p);
     if (!std::isfinite(spare[i])) return {k_arc_to_knot, k_arc_to_knot};
   }
-  const bool may = mechanism.pulley.winding != WindingChoice::one_turn;
-  return several && may ? spare : std::array{k_arc_to_knot, k_arc_to_knot};
+  const bool may_be_multi_turn = mechanism.pulley.winding != WindingChoice::one_turn;
+  return is_multi_turn && may_be_multi_turn ? spare : std::array{k_arc_to_knot, k_arc_to_knot};
 }
 
 }  // namespace
@@ -92,20 +92,22 @@ MadePulleys MadePulleys::offset_by(double by) const {
 // on the outer side when
 //   F = c cos(φ − ψ) + ρ − h(ψ_b) = 0.
 // The curve is parametrized by the declared α0 at which each element is touched: ψ_b' = 1 + h'/w0, so F' = w ψ_b' − h'
-// with w = c sin(φ − ψ). If mounted as declared, the start α0 = α is the solution.
+// with w = c sin(φ − ψ). Newton's method on F starts at α0 = α, the solution for pins as declared.
 LowerPath MadePulleys::path(transmission::Side side, const transmission::LowerGuide& mounted, double alpha,
                             const transmission::TransmissionPoint& first) const {
   const transmission::PinPlace& place = declared_.place(side);
   const double sign = transmission::mirror_sign(side);
   const double c = mounted.c();
   const double phi = mounted.phi();
+  constexpr int k_steps = 20;
+  constexpr double k_converged = 1e-12;  // of the distance c
   transmission::TransmissionPoint at = first;
-  for (int i = 0; i < 20; ++i) {
-    const CurveElement curve = element(place, side, at, offset_);
+  for (int i = 0; i < k_steps; ++i) {
+    const CurveElement curve = curve_element(place, side, at, offset_);
     const double normal = curve.normal - sign * alpha;
     const double reach = c * elementary::sin(phi - normal);
     const double miss = c * elementary::cos(phi - normal) + mounted.rho - curve.support;
-    if (std::abs(miss) <= 1e-12 * c) return {curve.support, normal, reach - curve.ahead, curve.arc};
+    if (std::abs(miss) <= k_converged * c) return {curve.support, normal, reach - curve.ahead, curve.arc};
     const double step = sign * miss / (reach * (1.0 + curve.slope / curve.reach) - curve.slope);
     // Iterates over the declared joint angle, in which the usual laws are closed formulas.
     const double theta = at.theta - step * at.g;
@@ -148,9 +150,9 @@ JointModel joint_model(const MadePulleys& made, const MountedMechanism& in) {
 
 double JointModel::dry_friction(double left, double right) const {
   if (rubbing == RubbingError{}) return bearing_friction;
-  const double first = std::max(0.0, left) / k_usual_pull, second = std::max(0.0, right) / k_usual_pull;
-  const double area = 0.5 * (elementary::pow(first, 2.0 / 3.0) + elementary::pow(second, 2.0 / 3.0));
-  return bearing_friction + rubbing.by_area * area + rubbing.by_lesser * std::min(first, second);
+  const double left_ratio = std::max(0.0, left) / k_usual_pull, right_ratio = std::max(0.0, right) / k_usual_pull;
+  const double area = 0.5 * (elementary::pow(left_ratio, 2.0 / 3.0) + elementary::pow(right_ratio, 2.0 / 3.0));
+  return bearing_friction + rubbing.by_area * area + rubbing.by_lesser * std::min(left_ratio, right_ratio);
 }
 
 void set_statics(JointModel& model, const MountedMechanism& in) {

@@ -24,7 +24,7 @@ class LowerPathTable {
  private:
   /// p, normal, reach and wound of the left tendon, of the right one, and the expected θ.
   static constexpr std::size_t k_members = 9;
-  using Knot = std::array<double, k_members>;
+  using Node = std::array<double, k_members>;
 
   /// Six neighbouring nodes: index of the first, and the interpolation weights at `alpha`.
   struct Interpolation {
@@ -32,11 +32,11 @@ class LowerPathTable {
     std::array<double, 6> weights{};
   };
   bool covers(double alpha) const;
-  Interpolation near(double alpha) const;
+  Interpolation interpolation_at(double alpha) const;
 
   double least_;
   double step_;
-  std::vector<Knot> values_;
+  std::vector<Node> values_;
   std::function<std::array<LowerPath, 2>(double)> exact_;
   std::function<double(double)> exact_expected_;
 };

@@ -26,22 +26,23 @@ void correct_wave(profile::OutlinePoint& point, const OutlineError& outline) {
   point.curvature_radius -= w.outward + w.bend;
 }
 
-/// The made position of a point whose normal is perpendicular to the line between its neighbours.
+/// The made position of a point. Its normal is perpendicular to the line between the points `before` and `after` it.
 Vec2 made_between(const Vec2& point, const Vec2& before, const Vec2& after, const OutlineError& outline) {
   const Vec2 along = (after - before).normalized(), normal(along.y(), -along.x());
   return point + Vec2(outline.runout_x, outline.runout_y) +
          outline_wave(elementary::atan2(normal.y(), normal.x()), outline).outward * normal;
 }
 
-// Inward turn above the rounding of neighbouring points.
+/// Inward turn up to which a corner counts as rounding of its neighbours.
 constexpr double k_most_inward = radians(0.5);
 
+/// Turn of a polygon at one of its corners. rad
 struct CornerTurn {
-  double turn = std::numeric_limits<double>::infinity();
-  double at = 0;  ///< direction of the normal
+  double turn = std::numeric_limits<double>::infinity();  ///< to the left positive
+  double normal = 0;                                      ///< direction of the normal there
 };
 
-// The smallest left turn of a polygon at a corner.
+/// The corner with the smallest turn to the left.
 CornerTurn least_turn(const std::vector<profile::OutlinePoint>& points) {
   CornerTurn least;
   const std::size_t n = points.size();
@@ -64,7 +65,8 @@ OutlineWave outline_wave(double psi, const OutlineError& outline) {
 }
 
 // Every outline point moves by w along its normal. The farthest point along ψ is then a neighbour: the support changes
-// by w + w'²/(2ρ), with the radius of curvature ρ approximated by the support.
+// by w + w'²/(2ρ), with the radius of curvature ρ approximated by the support. The arc changes by the integral of that
+// over ψ, for which `squares` is ∫ w'² dψ.
 SupportWave support_wave(double psi, double support, const OutlineError& outline) {
   const double n = outline.wave_order;
   const double s = outline.wave_sin;
@@ -96,7 +98,7 @@ std::vector<profile::Condition> turns_inward_as_drawn(const profile::SynthesisRe
   std::vector<profile::Condition> failed;
   if (outline.wave_sin == 0 && outline.wave_cos == 0) return failed;
   for (const profile::Outline* curve : {&drawn.p1, &drawn.p2}) {
-    const auto [turn, at] = least_turn(curve->points);
+    const auto [turn, normal] = least_turn(curve->points);
     if (turn >= -k_most_inward) continue;
     profile::Condition condition;
     condition.name = "drawn_convex_" + std::string(transmission::pulley_name(curve->side));
@@ -106,7 +108,7 @@ std::vector<profile::Condition> turns_inward_as_drawn(const profile::SynthesisRe
     condition.unit = "deg";
     condition.message = "drawn against the wave of its making (identified.profile_sin_mm, identified.profile_cos_mm) " +
                         std::string(transmission::pulley_name(curve->side)) + " turns inward by " +
-                        rounded(-degrees(turn), 2) + "° at a normal of " + fixed(degrees(at), 0) +
+                        rounded(-degrees(turn), 2) + "° at a normal of " + fixed(degrees(normal), 0) +
                         "°: it bends too sharply there for such a wave";
     failed.push_back(std::move(condition));
   }
@@ -124,8 +126,10 @@ Polygon as_made(Polygon drawn, const OutlineError& outline) {
 Polygon line_as_made(Polygon drawn, const OutlineError& outline, std::size_t beside) {
   const Polygon centred = drawn;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    const std::size_t near_end = std::min({beside, i, drawn.size() - 1 - i}), away = std::max<std::size_t>(near_end, 1);
-    const std::size_t before = i < away ? 0 : i - away, after = std::min(i + away, drawn.size() - 1);
+    // Fewer points near an end of the line, on both sides equally many, but at least one.
+    const std::size_t available = std::min({beside, i, drawn.size() - 1 - i});
+    const std::size_t distance = std::max<std::size_t>(available, 1);
+    const std::size_t before = i < distance ? 0 : i - distance, after = std::min(i + distance, drawn.size() - 1);
     drawn[i] = made_between(drawn[i], centred[before], centred[after], outline);
   }
   return drawn;

@@ -6,16 +6,16 @@
 namespace fusee::joint {
 namespace {
 
-/// Relative motion below which a motor counts as dwelling.
+/// Motion below which a motor counts as dwelling, as a fraction of the neighbouring motion.
 constexpr double k_dwell_tolerance = 0.02;
 
-/// True when α moved between dwells before row `i` without logged rows in between: the arrival time is unknown, and
-/// point-to-point logs are read after settling.
+/// True when α moved from one dwell to another between the rows i − 1 and i. The time of arrival is then unknown.
+/// Row `i` counts as settled, since logs from point to point are read after settling.
 bool has_unknown_arrival(const BenchRun& run, std::size_t i) {
   if (i == 0 || i + 1 >= run.rows.size()) return false;
-  const auto way = [&](std::size_t to) { return std::abs(run.rows[to].alpha - run.rows[to - 1].alpha); };
-  const double most = k_dwell_tolerance * way(i);
-  return way(i + 1) < most && (i == 1 || way(i - 1) < most);
+  const auto travel_to = [&](std::size_t row) { return std::abs(run.rows[row].alpha - run.rows[row - 1].alpha); };
+  const double most = k_dwell_tolerance * travel_to(i);
+  return travel_to(i + 1) < most && (i == 1 || travel_to(i - 1) < most);
 }
 
 /// θ at the time `lag` earlier, linear between samples. Before the first sample the joint rests.
@@ -28,9 +28,12 @@ std::vector<double> delayed(const BenchRun& run, const std::vector<double>& thet
     const double from = run.rows[j].time;
     const double step = j + 1 < theta.size() ? run.rows[j + 1].time - from : 0.0;
     const double share = step > 0 ? std::clamp((time - from) / step, 0.0, 1.0) : 0.0;
-    late[i] = share == 0                        ? theta[j]
-              : has_unknown_arrival(run, j + 1) ? theta[j + 1]
-                                                : theta[j] + share * (theta[j + 1] - theta[j]);
+    if (share == 0)
+      late[i] = theta[j];
+    else if (has_unknown_arrival(run, j + 1))
+      late[i] = theta[j + 1];
+    else
+      late[i] = theta[j] + share * (theta[j + 1] - theta[j]);
   }
   return late;
 }

@@ -20,6 +20,7 @@ double shaft_angle(double alpha, const MotorSensorError& error);
 class Play {
  public:
   explicit Play(double input) : output_(input) {}
+  /// The output after the input moves to `input`, with play of the full `width`. rad
   double to(double input, double width);
 
  private:

@@ -6,15 +6,12 @@
 namespace fusee::joint {
 namespace {
 
-double tension(double EA, double length, double material) {
-  return length > material ? EA * (length / material - 1.0) : 0.0;
-}
-
 /// A tendon that slides over its pin: T_up = ratio · T_low.
 struct SlidingTendon {
   const Spans& spans;
   double ratio;
 
+  /// Material of both spans, and what their path lengths exceed it by. mm
   double total() const { return spans.upper_material + spans.lower_material; }
   double stretch() const { return spans.upper_length + spans.lower_length - total(); }
 
@@ -27,12 +24,14 @@ struct SlidingTendon {
     const double root = std::sqrt(b * b + 4.0 * total() * c);
     return b >= 0 ? 2.0 * c / (b + root) : (root - b) / (2.0 * total());
   }
+  /// Derivative of the stretch by the upper tension `t`. mm/N
   double slope(double t) const {
     const double k = spans.EA;
     const double u = k / (k + t);
     const double l = k / (ratio * k + t);
     return spans.upper_length * u * u / k + ratio * spans.lower_length * l * l / k;
   }
+  /// Derivatives of the upper tension by the upper length and by the ratio.
   double per_length(double t) const { return (1.0 - t / (spans.EA + t)) / slope(t); }
   double per_ratio(double t) const {
     const double below = ratio * spans.EA + t;
@@ -52,8 +51,8 @@ TendonBalance untensioned(const Spans& spans, double upper, double lower) {
 }  // namespace
 
 TendonBalance balance(const Spans& spans) {
-  const double upper = tension(spans.EA, spans.upper_length, spans.upper_material);
-  const double lower = tension(spans.EA, spans.lower_length, spans.lower_material);
+  const double upper = tension_of(spans.EA, spans.upper_length, spans.upper_material);
+  const double lower = tension_of(spans.EA, spans.lower_length, spans.lower_material);
   if (upper <= spans.capstan * lower && lower <= spans.capstan * upper) {
     TendonBalance stuck{upper, lower, 0.0, upper > 0 ? PinContact::stick : PinContact::slack};
     stuck.per_length = stuck_rate(spans, stuck);

@@ -7,16 +7,22 @@
 
 namespace fusee::joint {
 
-/// Path lengths and unstretched material. A span of length L with material n has the tension EA (L/n − 1), or is slack.
+/// Both spans of a tendon: path lengths and unstretched material, mm. A span of length L with material n has the tension EA (L/n − 1), or is slack.
 struct Spans {
   double upper_length = 0;
   double upper_material = 0;
   double lower_length = 0;  ///< includes the part of the arc that is being wound at the resulting tension
   double lower_material = 0;
   double capstan = 1;  ///< e^{μφ} ≥ 1
-  double EA = 0;
+  double EA = 0;       ///< axial stiffness, N
 };
 
+/// Tension of a span; 0 if it is slack. N
+inline double tension_of(double EA, double length, double material) {
+  return length > material ? EA * (length / material - 1.0) : 0.0;
+}
+
+/// Tensions of both spans, and the material that crosses the pin.
 struct TendonBalance {
   double upper = 0;  ///< tensions, N
   double lower = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "joint/tendon_balance.h"
+
 namespace fusee::joint {
 namespace {
 
@@ -10,18 +12,14 @@ constexpr std::size_t k_bends = ThreadedSpans::k_bends;
 constexpr std::size_t k_spans = k_bends + 1;
 using Slides = std::array<int, k_bends>;
 
-/// The sets of holding and sliding bends are found by trial. Few sets occur, as a front runs through the sheath from
-/// one end; only rounding can repeat one.
+/// The set of sliding bends is found by trial. Few sets are tried, since sliding spreads through the sheath from one end.
+/// Only rounding can make a set recur, which the limit ends.
 constexpr int k_most_trials = 64;
 constexpr int k_most_steps = 60;
-/// Relative step after which the quadratically converging error is rounding.
-constexpr double k_squared_away = 1e-7;
+/// Relative Newton step that ends the search: convergence is quadratic, so the error left is rounding.
+constexpr double k_last_relative_step = 1e-7;
 /// Material passing a bend in the wrong direction below this fraction of a span is rounding.
 constexpr double k_rounding = 1e-14;
-
-double tension_of(double EA, double length, double material) {
-  return length > material ? EA * (length / material - 1.0) : 0.0;
-}
 
 /// Spans `first` … `last` with all bends between them sliding: their tensions have fixed ratios to that of the first.
 struct SlidingSpans {
@@ -42,9 +40,10 @@ struct SlidingSpans {
     for (std::size_t i = first; i <= last; ++i) sum += spans.length[i] - spans.material[i];
     return sum;
   }
+  /// Derivative of the stretch of span `i` by the tension `t` of the first span. mm/N
   double compliance(std::size_t i, double t) const {
-    const double share = 1.0 / (1.0 + ratio[i] * t / spans.EA);
-    return spans.length[i] * ratio[i] / spans.EA * share * share;
+    const double density = 1.0 / (1.0 + ratio[i] * t / spans.EA);
+    return spans.length[i] * ratio[i] / spans.EA * density * density;
   }
   double compliance(double t) const {
     double sum = 0;
@@ -55,9 +54,9 @@ struct SlidingSpans {
   double step_from(double t) const {
     double beyond = 0, slope = 0;
     for (std::size_t i = first; i <= last; ++i) {
-      const double share = 1.0 / (1.0 + ratio[i] * t / spans.EA);
-      beyond += spans.length[i] * share - spans.material[i];
-      slope += spans.length[i] * ratio[i] * share * share;
+      const double density = 1.0 / (1.0 + ratio[i] * t / spans.EA);
+      beyond += spans.length[i] * density - spans.material[i];
+      slope += spans.length[i] * ratio[i] * density * density;
     }
     return beyond * spans.EA / slope;
   }
@@ -66,7 +65,7 @@ struct SlidingSpans {
     if (first == last) return tension_of(spans.EA, spans.length[first], spans.material[first]);
     if (!(stretch() > 0)) return 0;
     double t = 0, by = 0;
-    for (int step = 0; step < k_most_steps && (step == 0 || std::abs(by) > k_squared_away * t); ++step) {
+    for (int step = 0; step < k_most_steps && (step == 0 || std::abs(by) > k_last_relative_step * t); ++step) {
       by = step_from(t);
       t = std::max(0.0, t + by);
     }
@@ -74,8 +73,10 @@ struct SlidingSpans {
   }
 };
 
-/// Material of spans without tension: excess material fills the missing length, and no more moves.
-void fill(const ThreadedSpans& spans, std::size_t first, std::size_t last, std::array<double, k_spans>& material) {
+/// Sets the material of spans without tension: excess material of some spans fills the missing length of others, and no
+/// more moves.
+void fill_slack(const ThreadedSpans& spans, std::size_t first, std::size_t last,
+                std::array<double, k_spans>& material) {
   double wanted = 0;
   for (std::size_t i = first; i <= last; ++i) {
     const double missing = std::max(0.0, spans.length[i] - spans.material[i]);
@@ -101,7 +102,7 @@ ThreadedBalance balance_of(const ThreadedSpans& spans, const Slides& slides) {
       now.tension[i] = sliding.ratio[i] * t;
       if (sliding.last > first) material[i] = spans.length[i] / (1.0 + now.tension[i] / spans.EA);
     }
-    if (sliding.last > first && t == 0) fill(spans, first, sliding.last, material);
+    if (sliding.last > first && t == 0) fill_slack(spans, first, sliding.last, material);
     double gained = 0;
     for (std::size_t i = first; i < sliding.last; ++i) {
       gained += material[i] - spans.material[i];
@@ -132,13 +133,15 @@ bool let_slide(const ThreadedSpans& spans, const ThreadedBalance& now, Slides& s
 }
 
 /// Stops the bend that slides most against its friction. False if there is none.
-bool hold(const ThreadedSpans& spans, const ThreadedBalance& now, Slides& slides) {
+bool stop_worst(const ThreadedSpans& spans, const ThreadedBalance& now, Slides& slides) {
   std::size_t worst = k_bends;
   double most = k_rounding;
   for (std::size_t j = 0; j < k_bends; ++j) {
     if (slides[j] == 0 || now.tension[j] == 0) continue;
     const double wrong = -slides[j] * now.crossed[j] / spans.length[j];
-    if (wrong > most) worst = j, most = wrong;
+    if (!(wrong > most)) continue;
+    worst = j;
+    most = wrong;
   }
   if (worst == k_bends) return false;
   slides[worst] = 0;
@@ -159,7 +162,7 @@ ThreadedBalance balance(const ThreadedSpans& spans, const Slides& likely) {
   Slides slides = likely;
   ThreadedBalance now = balance_of(spans, slides);
   for (int trial = 0; trial < k_most_trials; ++trial) {
-    if (!hold(spans, now, slides) && !let_slide(spans, now, slides)) break;
+    if (!stop_worst(spans, now, slides) && !let_slide(spans, now, slides)) break;
     now = balance_of(spans, slides);
   }
   now.contact = contact_of(now);
@@ -171,8 +174,8 @@ double sliding_rate(const ThreadedSpans& spans, const ThreadedBalance& now) {
   if (!(t > 0)) return 0;
   double compliance = 0;
   for (std::size_t i = 0; i < k_spans; ++i) {
-    const double share = 1.0 / (1.0 + now.tension[i] / spans.EA);
-    compliance += spans.length[i] * now.tension[i] / (t * spans.EA) * share * share;
+    const double density = 1.0 / (1.0 + now.tension[i] / spans.EA);
+    compliance += spans.length[i] * now.tension[i] / (t * spans.EA) * density * density;
   }
   return 1.0 / ((1.0 + t / spans.EA) * compliance);
 }

@@ -25,6 +25,7 @@ struct ThreadedSpans {
   double EA = 0;
 };
 
+/// Tensions of all spans, and the material that passes each bend.
 struct ThreadedBalance {
   std::array<double, ThreadedSpans::k_bends + 1> tension{};
   std::array<double, ThreadedSpans::k_bends> crossed{};  ///< material that passed each bend towards the joint, mm

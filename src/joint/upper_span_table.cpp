@@ -6,7 +6,7 @@
 namespace fusee::joint {
 namespace {
 
-constexpr std::size_t k_pieces = 160;
+constexpr std::size_t k_intervals = 160;
 
 /// Value, slope and curvature at the end of an interval, in units of the interval.
 struct End {
@@ -14,7 +14,7 @@ struct End {
 };
 
 /// The quintic with these ends on [0, 1].
-std::array<double, 6> between(const End& from, const End& to) {
+std::array<double, 6> quintic(const End& from, const End& to) {
   const double value = to.value - from.value - from.slope - 0.5 * from.bend;
   const double slope = to.slope - from.slope - from.bend;
   const double bend = to.bend - from.bend;
@@ -34,17 +34,17 @@ double slope_at(const std::array<double, 6>& c, double u) {
   return c[1] + u * (2.0 * c[2] + u * (3.0 * c[3] + u * (4.0 * c[4] + u * 5.0 * c[5])));
 }
 
-/// The tabulated quantities of a span, in units of the interval.
+/// The tabulated quantities of a span at a node, in units of the interval. Knot::length has −m as its slope.
 struct Knot {
   End length, m, normal;
 };
 
 /// Lengthens the path; the moment arm is minus its derivative by θ.
-transmission::UpperSpan made_longer(transmission::UpperSpan span, double theta, const PathError& by) {
-  span.length += (by.slope + (by.square + by.cube * theta) * theta) * theta;
-  span.m -= by.slope + (2.0 * by.square + 3.0 * by.cube * theta) * theta;
-  span.dm -= 2.0 * by.square + 6.0 * by.cube * theta;
-  span.d2m -= 6.0 * by.cube;
+transmission::UpperSpan made_longer(transmission::UpperSpan span, double theta, const PathError& added) {
+  span.length += (added.slope + (added.square + added.cube * theta) * theta) * theta;
+  span.m -= added.slope + (2.0 * added.square + 3.0 * added.cube * theta) * theta;
+  span.dm -= 2.0 * added.square + 6.0 * added.cube * theta;
+  span.d2m -= 6.0 * added.cube;
   return span;
 }
 
@@ -63,13 +63,13 @@ UpperSpanTable::UpperSpanTable(const transmission::PinPlace& place, double least
                                const PathError& longer) {
   if (const auto leaves = transmission::lift_off(place); leaves && *leaves > least) {
     // The free branch begins slightly beyond, with its own slopes.
-    constexpr double k_hair = 1e-12;
+    constexpr double k_beyond = 1e-12;  // rad
     on_drum_until_ = std::min(*leaves, most);
     on_drum_ = transmission::upper_span(place, least);
     on_drum_from_ = least;
     wound_up_ = on_drum_.on_drum + on_drum_.normal + least;
-    if (place.drum_offset != 0) over_drum_ = pieces(place, least, on_drum_until_ - k_hair, longer);
-    least = *leaves + k_hair;
+    if (place.drum_offset != 0) over_drum_ = pieces(place, least, on_drum_until_ - k_beyond, longer);
+    least = *leaves + k_beyond;
     if (least >= most) return;
   }
   free_ = pieces(place, least, most, longer);
@@ -79,12 +79,12 @@ UpperSpanTable::Pieces UpperSpanTable::pieces(const transmission::PinPlace& plac
                                               const PathError& longer) {
   Pieces all;
   all.least = least;
-  all.step = (most - least) / k_pieces;
-  all.curves.reserve(k_pieces);
+  all.step = (most - least) / k_intervals;
+  all.curves.reserve(k_intervals);
   Knot from = knot_at(place, least, all.step, longer);
-  for (std::size_t i = 1; i <= k_pieces; ++i) {
+  for (std::size_t i = 1; i <= k_intervals; ++i) {
     const Knot to = knot_at(place, least + all.step * static_cast<double>(i), all.step, longer);
-    all.curves.push_back({between(from.length, to.length), between(from.m, to.m), between(from.normal, to.normal)});
+    all.curves.push_back({quintic(from.length, to.length), quintic(from.m, to.m), quintic(from.normal, to.normal)});
     from = to;
   }
   return all;
@@ -97,18 +97,18 @@ UpperSpanTable::Values UpperSpanTable::at(double theta) const {
     return {on_drum_.length - on_drum_.m * turned, on_drum_.m, 0, on_drum_.normal, 0, on_drum_.on_drum - turned};
   }
   const Pieces& pieces = on_drum ? over_drum_ : free_;
-  const double place = std::clamp((theta - pieces.least) / pieces.step, 0.0, static_cast<double>(k_pieces));
-  const std::size_t i = std::min(static_cast<std::size_t>(place), k_pieces - 1);
-  const double u = place - static_cast<double>(i);
+  const double position = std::clamp((theta - pieces.least) / pieces.step, 0.0, static_cast<double>(k_intervals));
+  const std::size_t i = std::min(static_cast<std::size_t>(position), k_intervals - 1);
+  const double u = position - static_cast<double>(i);
   const Piece& piece = pieces.curves[i];
   const double normal = value_at(piece.normal, u);
-  const double within = pieces.least + pieces.step * (static_cast<double>(i) + u);
+  const double clamped_theta = pieces.least + pieces.step * (static_cast<double>(i) + u);
   return {value_at(piece.length, u),
           value_at(piece.m, u),
           slope_at(piece.m, u) / pieces.step,
           normal,
           slope_at(piece.normal, u) / pieces.step,
-          on_drum ? std::max(0.0, wound_up_ - within - normal) : 0.0};
+          on_drum ? std::max(0.0, wound_up_ - clamped_theta - normal) : 0.0};
 }
 
 }  // namespace fusee::joint

@@ -35,9 +35,10 @@ class UpperSpanTable {
   struct Piece {
     Quintic length, m, normal;
   };
+  /// Quintics over intervals of equal width.
   struct Pieces {
-    double least = 0;
-    double step = 1;
+    double least = 0;  ///< lower end of the first interval, rad
+    double step = 1;   ///< width of an interval, rad
     std::vector<Piece> curves;
   };
   static Pieces pieces(const transmission::PinPlace& place, double least, double most, const PathError& longer);
@@ -45,9 +46,9 @@ class UpperSpanTable {
   double on_drum_until_ = -std::numeric_limits<double>::infinity();  ///< rad; the table begins there
   double on_drum_from_ = 0;
   transmission::UpperSpan on_drum_;  ///< at on_drum_from_
-  double wound_up_ = 0;              ///< sum of wrap on the drum, normal and θ, rad
+  double wound_up_ = 0;              ///< sum of wrap on the drum, normal and θ; constant while on the drum, rad
   Pieces over_drum_;                 ///< for an eccentric drum only
-  Pieces free_;
+  Pieces free_;                      ///< clear of the drum
 };
 
 /// Tables of the left tendon's image and of the right tendon.

@@ -14,7 +14,7 @@ namespace fusee::joint {
 /// A position in the groove.
 struct GroovePlace {
   double turn = 0;  ///< turn of the curve's normal, increasing towards the take-off, rad
-  double arc = 0;   ///< mm
+  double arc = 0;   ///< arc length, increasing with `turn`, mm
 };
 
 /// Table of arc length over turn, and the position of the knot.
@@ -39,10 +39,10 @@ class GrooveArc {
   GroovePlace knot_;
 };
 
-/// Content of a segment of the groove.
+/// Tendon on a segment of the groove.
 struct WoundContent {
   double material = 0;  ///< mm
-  double energy = 0;    ///< over EA, mm
+  double energy = 0;    ///< elastic energy over EA, mm
 };
 
 /// A segment of the groove. Either it lies as it was laid, with linearly varying density (material per arc length:
@@ -54,8 +54,8 @@ struct WoundPiece {
   double density_to = 1;
   bool slid = false;
   double fall = 0;  ///< exponent of a slid segment, per rad
-  WoundContent held;
-  double swelling = 1;  ///< swelling for which `held` was computed
+  WoundContent content;
+  double swelling = 1;  ///< swelling for which `content` was computed
 };
 
 class WoundProfile;
@@ -65,7 +65,7 @@ struct TurnedPulley {
   GroovePlace take_off;
   GroovePlace before;           ///< where the part wound in this step begins; the take-off itself while paying out
   std::size_t below = 0;        ///< number of unchanged pieces below `top`
-  WoundPiece top;               ///< the highest remaining piece, cut at the take-off
+  WoundPiece top;               ///< the highest remaining piece, cut at `before`
   bool has_top = false;         ///< false: nothing is left on the pulley
   double wound_strain = 0;      ///< strain of the tendon at `before`
   double log_wound_strain = 0;  ///< logarithm of `wound_strain`
@@ -90,7 +90,7 @@ struct Slide {
   bool has_remainder = false;
 };
 
-/// Tendon on a pulley: last wound, first paid out, and sliding in between as far as friction permits. With the strain ε
+/// The tendon on a pulley: last wound, first paid out, and sliding in between as far as friction permits. With the strain ε
 /// at the take-off, an element at the wrap φ behind it has a strain between ε e^{−μφ} and ε e^{μφ}, and keeps its own
 /// within these bounds.
 ///
@@ -106,7 +106,9 @@ class WoundProfile {
   double strain(double swelling) const;
   double strain_at_knot(double swelling) const;
 
+  /// The pulley turned until the take-off is at `take_off`.
   TurnedPulley turned_to(const GroovePlace& take_off, double swelling) const;
+  /// The sliding that the strain at the take-off causes.
   Slide slide(const TurnedPulley& turned, double strain, double swelling) const;
   /// Makes a slide permanent. Returns the increase of the pulley's content.
   WoundContent accept(const TurnedPulley& turned, const Slide& slide, double swelling);
@@ -116,8 +118,8 @@ class WoundProfile {
   double friction_ = 0;
   double home_density_ = 1;
   GroovePlace take_off_;
-  double density_ = 1;  ///< density at the take-off; the adjacent tendon may differ with infinite friction
-  std::vector<WoundPiece> pieces_;
+  double density_ = 1;              ///< density at the take-off; the adjacent tendon may differ with infinite friction
+  std::vector<WoundPiece> pieces_;  ///< from the knot to the take-off
 };
 
 }  // namespace fusee::joint

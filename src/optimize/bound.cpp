@@ -37,36 +37,37 @@ constexpr double k_slack = 2e-12;
 
 struct NumberSlot {
   std::string_view key;
-  bool angle = false;
+  bool is_angle = false;  ///< in degrees in the file
 };
 
-/// All variables, in the order of FileNumbers, then of WideFileNumbers.
-constexpr std::array<NumberSlot, 26> k_slots{{{"joint.length_mm"},
-                                              {"guides.EB_mm"},
-                                              {"guides.ED_mm"},
-                                              {"guides.OE_mm"},
-                                              {"pulley.EF_mm"},
-                                              {"pulley.r1_mm"},
-                                              {"pulley.ratio"},
-                                              {"guides.friction"},
-                                              {"guides.radius_mm"},
-                                              {"tendon.diameter_mm"},
-                                              {"tendon.modulus_MPa"},
-                                              {"joint.range_deg[0]", true},
-                                              {"joint.range_deg[1]", true},
-                                              {"joint.drum_radius_mm"},
-                                              {"joint.attachment1_mm[0]"},
-                                              {"joint.attachment1_mm[1]"},
-                                              {"joint.attachment2_mm[0]"},
-                                              {"joint.attachment2_mm[1]"},
-                                              {"guides.bearing_radius_mm"},
-                                              {"guides.bearing_friction"},
-                                              {"sheath.length_mm"},
-                                              {"sheath.bend_deg", true},
-                                              {"sheath.friction"},
-                                              {"sheath.stiffness_N_per_mm"},
-                                              {"sheath.exit_across_mm"},
-                                              {"sheath.exit_above_mm"}}};
+constexpr std::size_t k_slot_count = 26;
+/// All numbers that a design can change, in the order of FileNumbers, then of WideFileNumbers.
+constexpr std::array<NumberSlot, k_slot_count> k_slots{{{"joint.length_mm"},
+                                                        {"guides.EB_mm"},
+                                                        {"guides.ED_mm"},
+                                                        {"guides.OE_mm"},
+                                                        {"pulley.EF_mm"},
+                                                        {"pulley.r1_mm"},
+                                                        {"pulley.ratio"},
+                                                        {"guides.friction"},
+                                                        {"guides.radius_mm"},
+                                                        {"tendon.diameter_mm"},
+                                                        {"tendon.modulus_MPa"},
+                                                        {"joint.range_deg[0]", true},
+                                                        {"joint.range_deg[1]", true},
+                                                        {"joint.drum_radius_mm"},
+                                                        {"joint.attachment1_mm[0]"},
+                                                        {"joint.attachment1_mm[1]"},
+                                                        {"joint.attachment2_mm[0]"},
+                                                        {"joint.attachment2_mm[1]"},
+                                                        {"guides.bearing_radius_mm"},
+                                                        {"guides.bearing_friction"},
+                                                        {"sheath.length_mm"},
+                                                        {"sheath.bend_deg", true},
+                                                        {"sheath.friction"},
+                                                        {"sheath.stiffness_N_per_mm"},
+                                                        {"sheath.exit_across_mm"},
+                                                        {"sheath.exit_above_mm"}}};
 
 double radians_of(double value) { return radians(value); }
 transmission::Jet radians_of(const transmission::Jet& value) {
@@ -75,6 +76,7 @@ transmission::Jet radians_of(const transmission::Jet& value) {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
+/// The corner of the box at the upper ends of the marked variables and the lower ends of the others.
 Box corner_of(const Box& box, const std::array<bool, k_max_variables>& at_upper) {
   Box corner = box;
   for (std::size_t i = 0; i < k_max_variables; ++i)
@@ -95,7 +97,7 @@ std::vector<double> middle_of(const Box& box, int count) {
 }
 
 /// Largest relative reduction of a width of the box.
-double narrowed(const Box& before, const Box& after, int count) {
+double largest_reduction(const Box& before, const Box& after, int count) {
   double most = 0;
   for (std::size_t i = 0; i < index(count); ++i) {
     const double width = before.upper[i] - before.lower[i];
@@ -110,10 +112,11 @@ struct Legs {
   transmission::Jet a, b;
 };
 
-Legs legs(const DesignNumbers<transmission::Jet>& d, bool of_tendon_1, const StrokeNumbers<transmission::Jet>& n) {
+Legs legs(const DesignNumbers<transmission::Jet>& d, transmission::Side side,
+          const StrokeNumbers<transmission::Jet>& n) {
   const transmission::PinOffset<transmission::Jet> to_C =
-      of_tendon_1 ? transmission::offset_from_pin_in_link(d.R, d.EB, d.OE, n.theta.mirrored())
-                  : transmission::offset_from_pin_in_link(d.R, d.ED, d.OE, n.theta);
+      side == transmission::Side::left ? transmission::offset_from_pin_in_link(d.R, d.EB, d.OE, n.theta.mirrored())
+                                       : transmission::offset_from_pin_in_link(d.R, d.ED, d.OE, n.theta);
   return {-to_C.x, to_C.y};
 }
 
@@ -121,10 +124,10 @@ Legs legs(const DesignNumbers<transmission::Jet>& d, bool of_tendon_1, const Str
 
 /// A function of the designs at one point of the stroke.
 struct BoundCalculator::Query {
-  enum class Kind { objective, cap, needed } kind = Kind::objective;
-  double place = 0;
-  DesignCondition needed = DesignCondition::wrap_B;
-  PinAngles least = {};  ///< bounds for the box
+  enum class Kind { objective, cap, condition } kind = Kind::objective;
+  double place = 0;                                     ///< 0 at the lowest, 1 at the highest joint angle
+  DesignCondition condition = DesignCondition::wrap_B;  ///< for Kind::condition
+  PinAngles least = {};                                 ///< bounds for the box
 };
 
 BoundCalculator::BoundCalculator(const Problem& problem, Objective objective)
@@ -145,48 +148,49 @@ BoundCalculator::BoundCalculator(const Problem& problem, Objective objective)
 
 // ---- values ---------------------------------------------------------------------------------------------------------
 
-/// For intervals, call only while a RoundingUp exists.
+/// The numbers of a design, or of a box of designs. For intervals, call only while a RoundingUp exists.
 template <typename S>
 DesignNumbers<S> BoundCalculator::numbers_of(const std::vector<S>& variables) const {
   const FileNumbers<double>& b = base_;
   const WideFileNumbers<double>& w = wide_base_;
-  std::array<S, 26> n{b.R,
-                      b.EB,
-                      b.ED,
-                      b.OE,
-                      b.EF,
-                      b.r1,
-                      b.ratio,
-                      b.mu,
-                      b.radius,
-                      b.diameter,
-                      b.modulus,
-                      b.theta_min,
-                      b.theta_max,
-                      w.drum_radius,
-                      w.across1,
-                      w.along1,
-                      w.across2,
-                      w.along2,
-                      w.bearing_radius,
-                      w.bearing_friction,
-                      w.sheath_length,
-                      w.sheath_bend,
-                      w.sheath_mu,
-                      w.sheath_stiffness,
-                      w.exit_across,
-                      w.exit_above};
+  std::array<S, k_slot_count> n{b.R,
+                                b.EB,
+                                b.ED,
+                                b.OE,
+                                b.EF,
+                                b.r1,
+                                b.ratio,
+                                b.mu,
+                                b.radius,
+                                b.diameter,
+                                b.modulus,
+                                b.theta_min,
+                                b.theta_max,
+                                w.drum_radius,
+                                w.across1,
+                                w.along1,
+                                w.across2,
+                                w.along2,
+                                w.bearing_radius,
+                                w.bearing_friction,
+                                w.sheath_length,
+                                w.sheath_bend,
+                                w.sheath_mu,
+                                w.sheath_stiffness,
+                                w.exit_across,
+                                w.exit_above};
   for (const Number& number : numbers_) {
     const MovingKey& moving = *number.moving;
     S value(moving.constant);
-    bool is_nothing = moving.constant == 0;
+    // A zero is not added: an interval that is one variable alone stays exact.
+    bool is_zero = moving.constant == 0;
     for (std::size_t i = 0; i < variables.size(); ++i) {
       if (moving.a[i] == 0) continue;
       const S term = moving.a[i] == 1.0 ? variables[i] : S(S(moving.a[i]) * variables[i]);
-      value = is_nothing ? term : S(value + term);
-      is_nothing = false;
+      value = is_zero ? term : S(value + term);
+      is_zero = false;
     }
-    n[number.slot] = k_slots[number.slot].angle ? S(radians_of(value)) : value;
+    n[number.slot] = k_slots[number.slot].is_angle ? S(radians_of(value)) : value;
   }
   DesignNumbers<S> d =
       design_numbers<S>({n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12]},
@@ -198,7 +202,7 @@ DesignNumbers<S> BoundCalculator::numbers_of(const std::vector<S>& variables) co
   return d;
 }
 
-/// Call only while a RoundingUp exists. A corner has no derivatives.
+/// The numbers of a box, with derivatives unless it is a single design. Call only while a RoundingUp exists.
 DesignNumbers<transmission::Jet> BoundCalculator::numbers_over(const Box& box) const {
   const int count = static_cast<int>(problem_.variables.size());
   const bool is_point = box.lower == box.upper;
@@ -213,16 +217,16 @@ DesignNumbers<transmission::Jet> BoundCalculator::numbers_over(const Box& box) c
 /// The objective, or a function that must not be positive.
 transmission::Jet BoundCalculator::value_of(const Query& query, const DesignNumbers<transmission::Jet>& numbers,
                                             transmission::Domain& domain) const {
-  if (query.kind == Query::Kind::needed) {
+  if (query.kind == Query::Kind::condition) {
     ConditionValues<transmission::Jet> values;
-    if (!conditions_at(numbers, transmission::Jet(query.place), index(static_cast<int>(query.needed)) + 1, values)) {
+    if (!conditions_at(numbers, transmission::Jet(query.place), index(static_cast<int>(query.condition)) + 1, values)) {
       domain.possible = false;
       return 0.0;
     }
-    const ConditionValue<transmission::Jet>& needed = values[static_cast<std::size_t>(query.needed)];
-    domain.whole = domain.whole && needed.domain.whole;
-    domain.possible = domain.possible && needed.domain.possible;
-    return -needed.value;
+    const ConditionValue<transmission::Jet>& condition = values[static_cast<std::size_t>(query.condition)];
+    domain.whole = domain.whole && condition.domain.whole;
+    domain.possible = domain.possible && condition.domain.possible;
+    return -condition.value;
   }
   const StrokeNumbers<transmission::Jet> stroke = stroke_numbers(numbers, transmission::Jet(query.place), domain);
   if (query.kind == Query::Kind::objective) return objective_of(objective_, numbers, stroke);
@@ -246,13 +250,15 @@ transmission::Jet BoundCalculator::value_of(const Query& query, const DesignNumb
   const transmission::Interval theta = (d.theta_min + transmission::Jet(place) * (d.theta_max - d.theta_min)).value;
   transmission::Domain of_1, upper;
   if (!d.linear) {
-    const transmission::Interval least = lower_line_of(d, d.r1, true, of_1).normal.value - theta - k_between_places;
+    const transmission::Interval least =
+        lower_line_of(d, d.r1, transmission::Side::left, of_1).normal.value - theta - k_between_places;
     if (of_1.possible) d.least.of_1 = least.lower();
   }
   const StrokeNumbers<transmission::Jet> n = upper_stroke(d, transmission::Jet(place), upper);
   transmission::Domain of_2;
   const transmission::Interval least =
-      lower_line_of(d, transmission::Jet(n.r2.value.lower()), false, of_2).normal.value + theta - k_between_places;
+      lower_line_of(d, transmission::Jet(n.r2.value.lower()), transmission::Side::right, of_2).normal.value + theta -
+      k_between_places;
   if (upper.possible && of_2.possible) d.least.of_2 = least.lower();
   // Bounds without effect are dropped, to avoid a second evaluation.
   if (!(n.upper1.gamma.value.lower() <= d.least.of_1)) d.least.of_1 = PinAngles().of_1;
@@ -272,6 +278,7 @@ transmission::Jet BoundCalculator::value_of(const Query& query, const DesignNumb
 
 // ---- lines ----------------------------------------------------------------------------------------------------------
 
+/// The linear constraints over the box, each relaxed by `slack` relative to its largest term.
 BoundCalculator::Lines BoundCalculator::lines_of_constraints(const Box& box, double slack) const {
   Lines lines;
   for (const LinearConstraint& constraint : problem_.constraints) {
@@ -290,6 +297,8 @@ BoundCalculator::Lines BoundCalculator::lines_of_constraints(const Box& box, dou
   return lines;
 }
 
+/// The linear function of 2. from a corner: the one with the lowest value, or with the highest. `over`: value and slopes
+/// over the box. `exists` is set to false if there is no such function.
 LineBelow BoundCalculator::line_from(const Box& box, const Query& query, const transmission::Jet& over,
                                      bool from_highest, bool& exists) const {
   std::array<bool, k_max_variables> at_upper{};
@@ -297,9 +306,9 @@ LineBelow BoundCalculator::line_from(const Box& box, const Query& query, const t
     at_upper[i] = (over.slope[i].lower() + over.slope[i].upper() < 0) != from_highest;
   const Box corner = corner_of(box, at_upper);
   transmission::Domain domain;
-  const transmission::Jet there = value_at(query, corner, domain);
+  const transmission::Jet at_corner = value_at(query, corner, domain);
   LineBelow line;
-  line.constant = there.value.lower();
+  line.constant = at_corner.value.lower();
   line.corner = corner.lower;
   line.of_objective = query.kind == Query::Kind::objective;
   for (std::size_t i = 0; i < problem_.variables.size(); ++i) {
@@ -322,6 +331,7 @@ void BoundCalculator::add_lines(const Box& box, Query query, Lines& lines, BoxBo
   add_lines_of(box, query, lines, result, limit);
 }
 
+/// Adds the interval value and lines of this form of the function alone.
 void BoundCalculator::add_lines_of(const Box& box, const Query& query, Lines& lines, BoxBound& result,
                                    double limit) const {
   transmission::Domain domain;
@@ -351,98 +361,109 @@ void BoundCalculator::add_lines_of(const Box& box, const Query& query, Lines& li
 
 // ---- places ---------------------------------------------------------------------------------------------------------
 
-/// Adds the maximum of f in the middle of the box, and local maxima.
+/// Adds the places of the largest maxima of f over the stroke, for the design in the middle of the box.
 void BoundCalculator::add_worst_places(Objective objective, bool of_cap, const DesignNumbers<double>& middle,
-                                       std::vector<Query>& query) const {
-  constexpr int places = 25;
+                                       std::vector<Query>& queries) const {
+  constexpr int k_samples = 25;
   constexpr std::size_t k_max_queries = 3;
   constexpr int k_steps = 16;  // to 4e-5 of the stroke; the bound's error is its square
-  std::array<double, places> values{};
+  std::array<double, k_samples> values{};
   const auto value_at_place = [&](double place) {
     transmission::Domain domain;
     const double value = objective_of(objective, middle, stroke_numbers(middle, place, domain));
     return domain.possible && value == value ? value : k_infinite;
   };
-  for (int i = 0; i < places; ++i) values[index(i)] = value_at_place(i / (places - 1.0));
-  std::vector<std::pair<double, double>> found;  // −value, place
-  for (int i = 0; i < places; ++i) {
+  for (int i = 0; i < k_samples; ++i) values[index(i)] = value_at_place(i / (k_samples - 1.0));
+  std::vector<std::pair<double, double>> maxima;  // −value, place
+  for (int i = 0; i < k_samples; ++i) {
     const std::size_t k = index(i);
-    const bool left = i == 0 || values[k] >= values[k - 1], right = i == places - 1 || values[k] >= values[k + 1];
-    if (!left || !right) continue;
-    const Bracket neighbours{std::max(0, i - 1) / (places - 1.0), std::min(places - 1, i + 1) / (places - 1.0)};
-    const double inside = golden_section(neighbours, k_steps, [&](double at) { return -value_at_place(at); }).middle();
-    const double place = value_at_place(inside) > values[k] ? inside : i / (places - 1.0);
-    found.emplace_back(-values[k], place);
+    const bool exceeds_left = i == 0 || values[k] >= values[k - 1];
+    const bool exceeds_right = i == k_samples - 1 || values[k] >= values[k + 1];
+    if (!exceeds_left || !exceeds_right) continue;
+    const Bracket neighbours{std::max(0, i - 1) / (k_samples - 1.0),
+                             std::min(k_samples - 1, i + 1) / (k_samples - 1.0)};
+    const double refined =
+        golden_section(neighbours, k_steps, [&](double place) { return -value_at_place(place); }).middle();
+    const double place = value_at_place(refined) > values[k] ? refined : i / (k_samples - 1.0);
+    maxima.emplace_back(-values[k], place);
   }
-  std::sort(found.begin(), found.end());
-  for (std::size_t i = 0; i < std::min(k_max_queries, found.size()); ++i)
-    query.push_back({of_cap ? Query::Kind::cap : Query::Kind::objective, found[i].second});
+  std::sort(maxima.begin(), maxima.end());
+  for (std::size_t i = 0; i < std::min(k_max_queries, maxima.size()); ++i)
+    queries.push_back({of_cap ? Query::Kind::cap : Query::Kind::objective, maxima[i].second});
 }
 
-/// The curvature conditions have no interval form where a tendon leaves its drum. They are omitted, which leaves a
-/// valid bound.
-std::size_t BoundCalculator::condition_queries() const {
+/// Number of conditions that the bound tests. The curvature conditions have no interval form where a tendon leaves its
+/// drum. They are omitted for other joints than the paper's, which leaves a valid bound.
+std::size_t BoundCalculator::condition_query_count() const {
   const std::size_t count = condition_count(problem_.feasible, problem_.base.pulley.method);
   return wide_kind_.is_papers() ? count : std::min(count, k_drawing_conditions);
 }
 
-/// Adds the tightest place of each condition in the middle of the box.
-void BoundCalculator::add_tightest_places(const DesignNumbers<double>& middle, std::vector<Query>& query) const {
-  const std::size_t count = condition_queries();
-  const auto value = [&](std::size_t which, int place, int places) {
+/// Adds the tightest place of each condition, for the design in the middle of the box.
+void BoundCalculator::add_tightest_places(const DesignNumbers<double>& middle, std::vector<Query>& queries) const {
+  constexpr int k_coarse_steps = 12;
+  const std::size_t count = condition_query_count();
+  const auto value = [&](std::size_t condition, int place, int places) {
     ConditionValues<double> values;
-    if (!conditions_at(middle, static_cast<double>(place) / places, which + 1, values)) return -k_infinite;
-    const double here = values[which].value;
-    return here == here ? here : -k_infinite;
+    if (!conditions_at(middle, static_cast<double>(place) / places, condition + 1, values)) return -k_infinite;
+    const double number = values[condition].value;
+    return number == number ? number : -k_infinite;
   };
-  for (std::size_t which = 0; which < count; ++which) {
-    const int places = which < k_basic_conditions ? k_places : k_places_of_drawing, step = places / 12;
+  for (std::size_t condition = 0; condition < count; ++condition) {
+    const int places = condition < k_basic_conditions ? k_places : k_places_of_drawing, step = places / k_coarse_steps;
     int tightest = 0;
     double least = k_infinite;
     const auto test_place = [&](int place) {
       if (place < 0 || place > places) return;
-      const double here = value(which, place, places);
-      if (here < least) least = here, tightest = place;
+      const double tested = value(condition, place, places);
+      if (!(tested < least)) return;
+      least = tested;
+      tightest = place;
     };
     for (int place = 0; place <= places; place += step) test_place(place);
-    for (int by = step / 2; by > 0; by /= 2) {
+    for (int distance = step / 2; distance > 0; distance /= 2) {
       const int around = tightest;
-      test_place(around - by);
-      test_place(around + by);
+      test_place(around - distance);
+      test_place(around + distance);
     }
-    query.push_back({Query::Kind::needed, static_cast<double>(tightest) / places, static_cast<DesignCondition>(which)});
+    queries.push_back(
+        {Query::Kind::condition, static_cast<double>(tightest) / places, static_cast<DesignCondition>(condition)});
   }
 }
 
+/// The functions and places to bound, for a box around this design.
 std::vector<BoundCalculator::Query> BoundCalculator::queries_around(const std::vector<double>& design) const {
-  const DesignNumbers<double> middle = numbers_of(design);
-  std::vector<Query> query;
-  add_tightest_places(middle, query);
-  if (problem_.cap) add_worst_places(problem_.cap->objective, true, middle, query);
-  add_worst_places(objective_, false, middle, query);
-  return query;
+  const DesignNumbers<double> numbers = numbers_of(design);
+  std::vector<Query> queries;
+  add_tightest_places(numbers, queries);
+  if (problem_.cap) add_worst_places(problem_.cap->objective, true, numbers, queries);
+  add_worst_places(objective_, false, numbers, queries);
+  return queries;
 }
 
 // ---- bounds ---------------------------------------------------------------------------------------------------------
 
 /// Bound 3. −infinity if it does not apply.
 [[gnu::noinline]] double BoundCalculator::quotient_bound(const Box& box, double place, const Lines& constraints) const {
+  constexpr int k_most_steps = 4;
   const bool torque = objective_ == Objective::motor_torque;
-  if (!problem_.base.has_point_pins() || !wide_kind_.is_papers() ||
-      !(torque ? problem_.base.pulley.law == Law::compensate : objective_ == Objective::max_tension))
-    return -k_infinite;
+  const bool has_round_P1 = problem_.base.pulley.law == Law::compensate;
+  const bool is_quotient = torque ? has_round_P1 : objective_ == Objective::max_tension;
+  if (!problem_.base.has_point_pins() || !wide_kind_.is_papers() || !is_quotient) return -k_infinite;
   const transmission::RoundingUp rounding;
   const int count = static_cast<int>(problem_.variables.size());
   const DesignNumbers<transmission::Jet> d = numbers_over(box);
   transmission::Domain domain;
   const StrokeNumbers<transmission::Jet> n = stroke_numbers(d, transmission::Jet(place), domain);
-  const Legs over = legs(d, torque, n);
+  // The torque depends on γ1, the tension on γ2.
+  const transmission::Side side = torque ? transmission::Side::left : transmission::Side::right;
+  const Legs over = legs(d, side, n);
   // Linear in the variables only if the angle is a number.
   if (!domain.possible || n.theta.angle.count != 0 || !(over.a.value.lower() > 0)) return -k_infinite;
-  const Legs at_lower = legs(numbers_over(corner_of(box, {})), torque, n);
-  // b − q a >= g implies b/a >= q + g/a: from any lower q, a better one.
+  const Legs at_lower = legs(numbers_over(corner_of(box, {})), side, n);
+  // Lower bound q of b/a. b − q a >= g implies b/a >= q + g/a: from any lower bound, a better one.
   double q = (over.b.value / over.a.value).lower();
-  for (int step = 0; step < 4; ++step) {
+  for (int step = 0; step < k_most_steps; ++step) {
     const transmission::Jet difference = over.b - transmission::Jet(q) * over.a;
     LineBelow line;
     line.of_objective = true;
@@ -453,9 +474,8 @@ std::vector<BoundCalculator::Query> BoundCalculator::queries_around(const std::v
     lines.push_back(line);
     Box untouched = box;
     const double least = least_of_lines(untouched, count, lines, -k_infinite, k_infinite).bound;
-    const double better = (transmission::Interval(q) +
-                           transmission::Interval(least) / (least >= 0 ? over.a.value.upper() : over.a.value.lower()))
-                              .lower();
+    const double divisor = least >= 0 ? over.a.value.upper() : over.a.value.lower();  // the one of the smaller quotient
+    const double better = (transmission::Interval(q) + transmission::Interval(least) / divisor).lower();
     if (!(better > q)) break;
     q = better;
   }
@@ -469,13 +489,13 @@ std::vector<BoundCalculator::Query> BoundCalculator::queries_around(const std::v
 /// Repeats if the box became much narrower, since its bounds are then tighter.
 BoxBound BoundCalculator::bound(Box& box, double limit) const {
   constexpr int k_passes = 3;
-  constexpr double k_much = 0.3;
+  constexpr double k_much_narrower = 0.3;
   const int count = static_cast<int>(problem_.variables.size());
   BoxBound result;
   result.bound = box.bound;
   for (int pass = 0; pass < k_passes; ++pass) {
     Lines lines = lines_of_constraints(box, k_slack);
-    const auto constraints = static_cast<std::ptrdiff_t>(lines.size());
+    const auto constraints = static_cast<std::ptrdiff_t>(lines.size());  // number of lines of constraints
     if (!cut_by_lines(box, count, lines, limit)) result.possible = false;
     if (!result.possible) return result;
     const Box before = box;
@@ -492,11 +512,11 @@ BoxBound BoundCalculator::bound(Box& box, double limit) const {
     result.bound = std::max(result.bound, least.bound);
     result.loss = least.loss;
     result.lowest.assign(least.lowest.begin(), least.lowest.begin() + count);
-    if (narrowed(before, box, count) > k_much) continue;
-    const Lines alone(lines.begin(), lines.begin() + constraints);
+    if (largest_reduction(before, box, count) > k_much_narrower) continue;
+    const Lines of_constraints(lines.begin(), lines.begin() + constraints);
     for (const Query& query : queries) {
       if (query.kind != Query::Kind::objective) continue;
-      result.bound = std::max(result.bound, quotient_bound(box, query.place, alone));
+      result.bound = std::max(result.bound, quotient_bound(box, query.place, of_constraints));
     }
     break;
   }
@@ -506,22 +526,24 @@ BoxBound BoundCalculator::bound(Box& box, double limit) const {
 
 // ---- guesses --------------------------------------------------------------------------------------------------------
 
-/// The excess in floating-point numbers.
+/// Excess of a cap's objective over its limit, or violation of a condition, for one design. In floating-point numbers,
+/// so that it proves nothing.
 double BoundCalculator::excess_of(const Query& query, const std::vector<double>& design) const {
   const DesignNumbers<double> numbers = numbers_of(design);
   transmission::Domain domain;
-  if (query.kind != Query::Kind::needed)
+  if (query.kind != Query::Kind::condition)
     return objective_of(problem_.cap->objective, numbers, stroke_numbers(numbers, query.place, domain)) -
            problem_.cap->limit;
   ConditionValues<double> values;
-  const auto which = static_cast<std::size_t>(query.needed);
-  return conditions_at(numbers, query.place, which + 1, values) ? -values[which].value : k_infinite;
+  const auto condition = static_cast<std::size_t>(query.condition);
+  return conditions_at(numbers, query.place, condition + 1, values) ? -values[condition].value : k_infinite;
 }
 
 // Linearizes at the design. The curvature is estimated from the result and subtracted from the limits of the next
 // round; otherwise designs at a convex border would never leave it.
 Design BoundCalculator::lowest_around(const Design& design, double size) const {
   constexpr int k_rounds = 4;
+  constexpr double k_excess_factor = 1.1;  // a little more than the estimated curvature
   const std::size_t count = problem_.variables.size();
   Box at, around;
   for (std::size_t i = 0; i < count; ++i) {
@@ -535,13 +557,13 @@ Design BoundCalculator::lowest_around(const Design& design, double size) const {
   std::vector<Query> of_lines(lines.size());
   for (const Query& query : queries_around(design)) {
     transmission::Domain domain;
-    const transmission::Jet here = slopes_at(query, at, domain);
+    const transmission::Jet value = slopes_at(query, at, domain);
     LineBelow line;
     line.of_objective = query.kind == Query::Kind::objective;
-    line.constant = here.value.upper();
+    line.constant = value.value.upper();
     line.corner = at.lower;
-    for (std::size_t i = 0; i < count; ++i) line.slope[i] = here.slope[i].upper();
-    if (!domain.possible || !domain.whole || here.count == 0 || !is_finite(line)) continue;
+    for (std::size_t i = 0; i < count; ++i) line.slope[i] = value.slope[i].upper();
+    if (!domain.possible || !domain.whole || value.count == 0 || !is_finite(line)) continue;
     lines.push_back(line);
     of_lines.push_back(query);
   }
@@ -551,18 +573,18 @@ Design BoundCalculator::lowest_around(const Design& design, double size) const {
     const LeastOfLines least = least_of_lines(untouched, static_cast<int>(count), lines, -k_infinite, k_infinite);
     if (!least.possible) return lowest;
     lowest.assign(least.lowest.begin(), least.lowest.begin() + static_cast<std::ptrdiff_t>(count));
-    double most = 0;
+    double largest_excess = 0;
     for (std::size_t r = problem_.constraints.size(); r < lines.size(); ++r) {
       if (lines[r].of_objective) continue;
       for (const Query& query : queries_around(lowest)) {
-        if (query.kind != of_lines[r].kind || query.needed != of_lines[r].needed) continue;
+        if (query.kind != of_lines[r].kind || query.condition != of_lines[r].condition) continue;
         const double excess = excess_of(query, lowest);
         if (!(excess > 0)) continue;
-        most = std::max(most, excess);
-        lines[r].constant += 1.1 * excess;
+        largest_excess = std::max(largest_excess, excess);
+        lines[r].constant += k_excess_factor * excess;
       }
     }
-    if (most == 0) break;
+    if (largest_excess == 0) break;
   }
   return lowest;
 }
@@ -585,7 +607,11 @@ Design BoundCalculator::lowest_around(const Design& design, double size) const {
   if (whole.count == 0) return value;
   // The mean value form starts from the end towards which the function does not decrease, or from the middle.
   const transmission::Interval slope = whole.slope[0];
-  const double from = slope.lower() >= 0 ? high : slope.upper() <= 0 ? low : 0.5 * (low + high);
+  double from = 0.5 * (low + high);
+  if (slope.lower() >= 0)
+    from = high;
+  else if (slope.upper() <= 0)
+    from = low;
   const transmission::Interval centred =
       at(transmission::Jet(from)).value + slope * (transmission::Interval(low, high) - from);
   const transmission::Interval sharper = boost::numeric::intersect(value, centred);
@@ -594,23 +620,26 @@ Design BoundCalculator::lowest_around(const Design& design, double size) const {
 
 double BoundCalculator::rounded_up_value(const Design& design) const {
   struct Piece {
-    double low, high, upper;
+    double low, high;  ///< part of the stroke
+    double upper;      ///< upper bound of the objective there
     bool operator<(const Piece& other) const { return upper < other.upper; }
   };
-  constexpr int k_most_pieces = 20000;
-  constexpr double k_sharp = 1e-10;
+  constexpr int k_first_pieces = 16, k_most_pieces = 20000;
+  constexpr double k_sharp = 1e-10;      // relative
+  constexpr double k_narrowest = 1e-12;  // of the stroke
   std::priority_queue<Piece> pieces;
-  double least = -k_infinite;
+  double least = -k_infinite;  // lower bound of the maximum
   const auto add = [&](double low, double high) {
     const transmission::Interval value = value_over_piece(design, low, high);
     pieces.push({low, high, value.upper()});
     least = std::max(least, value_over_piece(design, low, low).lower());
     least = std::max(least, value_over_piece(design, high, high).lower());
   };
-  for (int i = 0; i < 16; ++i) add(i / 16.0, (i + 1) / 16.0);
+  for (int i = 0; i < k_first_pieces; ++i)
+    add(i / static_cast<double>(k_first_pieces), (i + 1) / static_cast<double>(k_first_pieces));
   for (int i = 0; i < k_most_pieces; ++i) {
     const Piece worst = pieces.top();
-    if (worst.upper - least <= k_sharp * std::abs(least) || worst.high - worst.low < 1e-12) break;
+    if (worst.upper - least <= k_sharp * std::abs(least) || worst.high - worst.low < k_narrowest) break;
     pieces.pop();
     const double middle = 0.5 * (worst.low + worst.high);
     add(worst.low, middle);

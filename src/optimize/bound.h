@@ -11,8 +11,9 @@
 
 namespace fusee::optimize {
 
+/// Result of BoundCalculator::bound().
 struct BoxBound {
-  bool possible = true;  ///< false: no design of the box has a value of at most `limit`
+  bool possible = true;  ///< false: no possible design of the box has a value of at most `limit`
   double bound = 0;
   Design lowest;                               ///< estimated minimizer in the box, worth evaluating; empty: unknown
   std::array<double, k_max_variables> loss{};  ///< contribution of each variable's width to the error of the bound
@@ -37,7 +38,7 @@ class BoundCalculator {
  private:
   /// A number of the file that a design changes.
   struct Number {
-    std::size_t slot;
+    std::size_t slot;  ///< index in k_slots
     const MovingKey* moving;
   };
   struct Query;
@@ -56,9 +57,9 @@ class BoundCalculator {
   std::vector<Query> queries_around(const std::vector<double>& middle) const;
   double excess_of(const Query& query, const std::vector<double>& design) const;
   void add_worst_places(Objective objective, bool of_cap, const DesignNumbers<double>& middle,
-                        std::vector<Query>& query) const;
-  std::size_t condition_queries() const;
-  void add_tightest_places(const DesignNumbers<double>& middle, std::vector<Query>& query) const;
+                        std::vector<Query>& queries) const;
+  std::size_t condition_query_count() const;
+  void add_tightest_places(const DesignNumbers<double>& middle, std::vector<Query>& queries) const;
   void add_lines(const Box& box, Query query, Lines& lines, BoxBound& result, double limit) const;
   void add_lines_of(const Box& box, const Query& query, Lines& lines, BoxBound& result, double limit) const;
   LineBelow line_from(const Box& box, const Query& query, const transmission::Jet& over, bool from_highest,

@@ -14,12 +14,15 @@
 namespace fusee::optimize {
 namespace {
 
+/// Order of a queue from the lowest bound.
 struct HigherBound {
   bool operator()(const Box& a, const Box& b) const { return a.bound > b.bound; }
 };
 
+/// Value of the best design before there is one.
 constexpr double k_none = 1e300;
 
+/// Throws InputError for an optimum that cannot be certified.
 void demand_certifiable(const Problem& problem, Objective objective) {
   const std::string obstacle = cannot_certify(problem, objective);
   if (obstacle.empty()) return;
@@ -59,14 +62,14 @@ class BranchAndBound {
 
   CertifiedResult run() {
     start();
-    const bool to_the_end = branch();
+    const bool is_complete = branch();
     CertifiedResult result;
     result.found = !best_.empty();
     if (result.found) {
       finish(result);
       if (!stopped_) gather_ties(result.ties);
     } else {
-      result.proven = to_the_end;
+      result.proven = is_complete;
       result.reason = commonest_reason();
     }
     result.boxes = boxes_;
@@ -79,6 +82,7 @@ class BranchAndBound {
 
   // ---- branch and bound ---------------------------------------------------------------------------------------------
 
+  /// Evaluates given and random designs, and bounds the whole box.
   void start() {
     for (const Design& design : options_.first_tries) accept_if_better(evaluate(design));
     constexpr int k_first_tries = 200;
@@ -95,7 +99,7 @@ class BranchAndBound {
   }
 
   /// Best-first search until the smallest bound meets the best design; false if it is stopped before. The search then
-  /// goes on for at most as many boxes, to a gap a hundred times smaller, because that improves the design.
+  /// goes on for at most as many boxes again, to a gap a hundred times smaller, because that improves the design.
   bool branch() {
     const bool met = branch_until(0.5 * options_.gap, options_.most_boxes);
     if (met) branch_until(0.005 * options_.gap, std::min(options_.most_boxes, 2 * boxes_));
@@ -121,6 +125,7 @@ class BranchAndBound {
     return !best_.empty() && best_value_ - bound <= gap * std::abs(best_value_);
   }
 
+  /// Reports the progress. True on a request to stop, or if the best design is sufficient.
   bool must_stop(double bound) {
     if (stopped_) return true;
     const double gap = (best_value_ - bound) / std::abs(best_value_);
@@ -142,10 +147,11 @@ class BranchAndBound {
     return outcomes;
   }
 
+  /// Bounds boxes, accepts better designs, and keeps the boxes that may contain the optimum or a tie.
   void process(const std::vector<Box>& boxes) {
     const std::vector<Outcome> outcomes = outcomes_of(boxes);
     for (const Outcome& outcome : outcomes) {
-      for (const EvaluatedDesign& one : outcome.evaluated) accept_if_better(one);
+      for (const EvaluatedDesign& candidate : outcome.evaluated) accept_if_better(candidate);
     }
     // Among ties, every batch finds a design better by a rounding error.
     if (!best_.empty() && best_value_ < polished_ - 0.1 * options_.gap * std::abs(best_value_)) polish();
@@ -207,23 +213,24 @@ class BranchAndBound {
     return {design, evaluate_design(problem_, objective_, design)};
   }
 
-  void accept_if_better(const EvaluatedDesign& one) {
-    if (!one.evaluation.possible) {
-      if (best_.empty()) ++reasons_[one.evaluation.reason.substr(0, one.evaluation.reason.find(" at "))];
-    } else if (one.evaluation.value < best_value_ || best_.empty()) {
-      best_ = one.design;
-      best_value_ = one.evaluation.value;
-      best_theta_ = one.evaluation.theta;
+  void accept_if_better(const EvaluatedDesign& candidate) {
+    if (!candidate.evaluation.possible) {
+      if (best_.empty()) ++reasons_[candidate.evaluation.reason.substr(0, candidate.evaluation.reason.find(" at "))];
+    } else if (candidate.evaluation.value < best_value_ || best_.empty()) {
+      best_ = candidate.design;
+      best_value_ = candidate.evaluation.value;
+      best_theta_ = candidate.evaluation.theta;
     }
   }
 
   /// Improves the best design by linear programs in shrinking boxes around it. An early good design reduces the number
   /// of boxes.
   void polish() {
-    constexpr double k_least = 1e-8, k_smaller = 0.25, k_larger = 2.0;
+    constexpr double k_first_size = 0.05, k_least_size = 1e-8;  // relative to the range of each variable
+    constexpr double k_smaller = 0.25, k_larger = 2.0;
     constexpr int k_steps = 40;
-    double size = 0.05;
-    for (int step = 0; step < k_steps && size > k_least && !best_.empty() && !must_stop(-k_none); ++step) {
+    double size = k_first_size;
+    for (int step = 0; step < k_steps && size > k_least_size && !best_.empty() && !must_stop(-k_none); ++step) {
       const double before = best_value_;
       const Design lowest = bounds_.lowest_around(best_, size);
       if (!lowest.empty()) accept_if_better(evaluate(constrained(lowest, root_)));
@@ -232,6 +239,7 @@ class BranchAndBound {
     polished_ = best_value_;
   }
 
+  /// The variable to halve.
   int best_cut(const Box& box, const BoxBound& bound) const {
     int cut = 0;
     double most = -1;
@@ -241,7 +249,9 @@ class BranchAndBound {
       // Halves the variable with the largest error of the bound, or the widest one if slopes are missing or
       // uninformative.
       const double gain = bound.lowest.empty() ? relative : bound.loss[i] + 1e-3 * relative * std::abs(bound.bound);
-      if (relative > 0 && gain > most) most = gain, cut = static_cast<int>(i);
+      if (!(relative > 0 && gain > most)) continue;
+      most = gain;
+      cut = static_cast<int>(i);
     }
     return cut;
   }
@@ -279,6 +289,7 @@ class BranchAndBound {
     return most == reasons_.end() ? "no design was possible" : most->first;
   }
 
+  /// Largest width of the box relative to its variable's range.
   double relative_size(const Box& box) const {
     double size = 0;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -317,6 +328,7 @@ class BranchAndBound {
     describe(ties, by_size);
   }
 
+  /// Widens `known` to a design, if it ties.
   void widen_known(DesignBox& known, const Design& design) {
     const Evaluation evaluation = evaluate_design(problem_, objective_, design);
     if (!evaluation.possible || evaluation.value > tie_limit()) return;
@@ -365,14 +377,15 @@ class BranchAndBound {
   double best_theta_ = 0;
   double polished_ = k_none;  ///< result of the last polishing
   std::priority_queue<Box, std::vector<Box>, HigherBound> queue_;
-  std::vector<Box> tie_boxes_;  ///< boxes above the best value, within the tie
-  std::map<std::string, long> reasons_;
+  std::vector<Box> tie_boxes_;           ///< boxes above the best value, within the tie
+  std::map<std::string, long> reasons_;  ///< why designs are impossible, and how often; until the first possible one
   long boxes_ = 0;
   long evaluations_ = 0;
   bool stopped_ = false;
 };
 
-double least_of(const MovingKey& moving, const std::vector<Variable>& variables) {
+/// The smallest value of a key over the variables' ranges.
+double least_value(const MovingKey& moving, const std::vector<Variable>& variables) {
   double least = moving.constant;
   for (std::size_t i = 0; i < variables.size(); ++i)
     least += std::min(moving.a[i] * variables[i].lower, moving.a[i] * variables[i].upper);
@@ -389,12 +402,12 @@ std::string cannot_certify(const Problem& problem, Objective objective) {
   if (problem.base.pulley.law == Law::torque)
     return "law = \"torque\" has no interval form: its optimum cannot be certified";
   const bool begins_without_drum = std::any_of(problem.moving.begin(), problem.moving.end(), [&](const MovingKey& key) {
-    return key.key == "joint.drum_radius_mm" && !(least_of(key, problem.variables) > 0);
+    return key.key == "joint.drum_radius_mm" && !(least_value(key, problem.variables) > 0);
   });
   if (begins_without_drum)
     return "joint.drum_radius_mm with a lower bound of 0 has no interval form: a tiny drum differs from none";
   const bool begins_rigid = std::any_of(problem.moving.begin(), problem.moving.end(), [&](const MovingKey& key) {
-    return key.key == "sheath.stiffness_N_per_mm" && !(least_of(key, problem.variables) > 0);
+    return key.key == "sheath.stiffness_N_per_mm" && !(least_value(key, problem.variables) > 0);
   });
   if (begins_rigid)
     return "sheath.stiffness_N_per_mm with a lower bound of 0 has no interval form: 0 is a rigid sheath, a tiny "

@@ -14,6 +14,7 @@ enum class EvolutionKind {
   nsga2,    ///< two or three costs
 };
 
+/// Algorithm, bounds of the variables, number of costs, and seed.
 struct EvolutionSettings {
   EvolutionKind kind = EvolutionKind::genetic;
   std::vector<double> lower, upper;
@@ -21,6 +22,7 @@ struct EvolutionSettings {
   unsigned seed = 1;
 };
 
+/// Costs by design.
 using CostsOfDesigns = std::map<std::vector<double>, std::vector<double>>;
 
 /// A sequence of generations, reproducible on every machine. The designs that a generation evaluates depend only on the
@@ -28,10 +30,13 @@ using CostsOfDesigns = std::map<std::vector<double>, std::vector<double>>;
 class Evolution {
  public:
   virtual ~Evolution() = default;
+  /// Sets the first generation, of which `known` has the costs.
   virtual void begin(const std::vector<std::vector<double>>& designs, const CostsOfDesigns& known) = 0;
+  /// The designs that the next generation evaluates.
   virtual std::vector<std::vector<double>> next_designs() = 0;
   /// Requires the costs of all of next_designs().
   virtual void advance(const CostsOfDesigns& known) = 0;
+  /// The present generation, and its costs in the same order.
   virtual std::vector<std::vector<double>> designs() const = 0;
   virtual std::vector<std::vector<double>> costs() const = 0;
   /// For one cost: the best design so far.

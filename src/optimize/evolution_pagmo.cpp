@@ -18,11 +18,11 @@ namespace {
 struct CostRecorder {
   EvolutionSettings settings;
   const CostsOfDesigns* known = nullptr;
-  std::vector<std::vector<double>> asked;
+  std::vector<std::vector<double>> requested;
 
   pagmo::vector_double fitness(const pagmo::vector_double& design) {
     if (known == nullptr) {
-      asked.push_back(design);
+      requested.push_back(design);
       return pagmo::vector_double(settings.costs, 0.0);
     }
     const auto found = known->find(design);
@@ -33,46 +33,52 @@ struct CostRecorder {
 
 /// The problem that pagmo copies; the costs are shared.
 struct PagmoProblem {
-  CostRecorder* costing = nullptr;
+  CostRecorder* recorder = nullptr;
 
-  pagmo::vector_double fitness(const pagmo::vector_double& design) const { return costing->fitness(design); }
+  pagmo::vector_double fitness(const pagmo::vector_double& design) const { return recorder->fitness(design); }
   std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
-    return {costing->settings.lower, costing->settings.upper};
+    return {recorder->settings.lower, recorder->settings.upper};
   }
-  pagmo::vector_double::size_type get_nobj() const { return costing->settings.costs; }
+  pagmo::vector_double::size_type get_nobj() const { return recorder->settings.costs; }
 };
 
 /// One generation per call, so that each can be inspected.
 pagmo::algorithm algorithm_of(const EvolutionSettings& settings) {
-  if (settings.kind == EvolutionKind::nsga2)
-    return pagmo::algorithm(pagmo::nsga2(1u, 0.95, 10.0, 0.02, 50.0, settings.seed));
-  return pagmo::algorithm(pagmo::sga(1u, 0.9, 1.0, 0.1, 1.0, 2u, "sbx", "polynomial", "tournament", settings.seed));
+  constexpr unsigned k_generations = 1, k_tournament_size = 2;
+  if (settings.kind == EvolutionKind::nsga2) {
+    constexpr double k_crossover = 0.95, k_crossover_index = 10.0, k_mutation = 0.02, k_mutation_index = 50.0;
+    return pagmo::algorithm(
+        pagmo::nsga2(k_generations, k_crossover, k_crossover_index, k_mutation, k_mutation_index, settings.seed));
+  }
+  constexpr double k_crossover = 0.9, k_crossover_index = 1.0, k_mutation = 0.1, k_mutation_index = 1.0;
+  return pagmo::algorithm(pagmo::sga(k_generations, k_crossover, k_crossover_index, k_mutation, k_mutation_index,
+                                     k_tournament_size, "sbx", "polynomial", "tournament", settings.seed));
 }
 
 class PagmoEvolution final : public Evolution {
  public:
   explicit PagmoEvolution(const EvolutionSettings& settings)
-      : costing_{settings, nullptr, {}},
+      : recorder_{settings, nullptr, {}},
         algorithm_(algorithm_of(settings)),
-        population_(pagmo::problem(PagmoProblem{&costing_}), 0u, settings.seed) {}
+        population_(pagmo::problem(PagmoProblem{&recorder_}), 0u, settings.seed) {}
   PagmoEvolution(const PagmoEvolution&) = delete;
   PagmoEvolution& operator=(const PagmoEvolution&) = delete;
 
   void begin(const std::vector<std::vector<double>>& designs, const CostsOfDesigns& known) override {
-    costing_.known = &known;
+    recorder_.known = &known;
     for (const auto& design : designs) population_.push_back(design);
-    costing_.known = nullptr;
+    recorder_.known = nullptr;
   }
   /// Runs a generation on a copy to record its designs; advance() repeats it with their costs.
   std::vector<std::vector<double>> next_designs() override {
-    costing_.asked.clear();
+    recorder_.requested.clear();
     (void)pagmo::algorithm(algorithm_).evolve(population_);
-    return std::move(costing_.asked);
+    return std::move(recorder_.requested);
   }
   void advance(const CostsOfDesigns& known) override {
-    costing_.known = &known;
+    recorder_.known = &known;
     population_ = algorithm_.evolve(population_);
-    costing_.known = nullptr;
+    recorder_.known = nullptr;
   }
   std::vector<std::vector<double>> designs() const override { return population_.get_x(); }
   std::vector<std::vector<double>> costs() const override { return population_.get_f(); }
@@ -83,7 +89,7 @@ class PagmoEvolution final : public Evolution {
   }
 
  private:
-  CostRecorder costing_;
+  CostRecorder recorder_;
   pagmo::algorithm algorithm_;
   pagmo::population population_;
 };

@@ -20,7 +20,7 @@ namespace {
 
 /// Cost of a design that violates a constraint: above any possible one, and increasing with the violation.
 constexpr double k_penalty = 1e12;
-/// The best value before any design was possible.
+/// Magnitude of the best value before any design was possible.
 constexpr double k_no_value = 1e300;
 
 /// Costs of a design, and the reason why it is not possible.
@@ -30,17 +30,18 @@ struct Costs {
 };
 
 /// A reason without its numbers, so that there are few kinds.
-std::string kind_of(std::string reason) {
+std::string without_numbers(std::string reason) {
   reason.erase(std::remove_if(reason.begin(), reason.end(), [](char c) { return (c >= '0' && c <= '9') || c == '.'; }),
                reason.end());
   return reason;
 }
 
+/// Counts why designs are not possible.
 class ReasonCounter {
  public:
   void add(const std::string& reason) {
     if (reason.empty()) return;
-    Kind& kind = kinds_[kind_of(reason)];
+    Kind& kind = kinds_[without_numbers(reason)];
     if (kind.count++ == 0) kind.example = reason;
   }
   std::string commonest() const {
@@ -69,12 +70,12 @@ struct GenerationEvaluator {
   double done = 0;             ///< share of the generations
   std::optional<double> best;  ///< value of the best design so far; null for a front
   long evaluations = 0;
-  CostsOfDesigns known;
+  CostsOfDesigns known;  ///< of the designs evaluated last
   ReasonCounter reasons;
 
-  GenerationEvaluator(const Problem& of, std::vector<Objective> by, const GeneticOptions& options,
+  GenerationEvaluator(const Problem& evaluated, std::vector<Objective> by, const GeneticOptions& options,
                       const RunContext& run)
-      : problem(of), objectives(std::move(by)), threads(options.threads), context(run) {}
+      : problem(evaluated), objectives(std::move(by)), threads(options.threads), context(run) {}
 
   Costs costs_of(const Design& design) const {
     Costs result;
@@ -128,6 +129,7 @@ std::unique_ptr<Evolution> evolution_of(const GenerationEvaluator& evaluator, Ev
   return evolution_maker().make(settings);
 }
 
+/// Proceeds by one generation.
 void advance(Evolution& evolution, GenerationEvaluator& evaluator) {
   evaluator.evaluate(evolution.next_designs());
   evolution.advance(evaluator.known);

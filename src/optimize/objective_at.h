@@ -5,6 +5,7 @@
 
 #include "fusee/mechanism.h"
 #include "fusee/optimize.h"
+#include "fusee/transmission.h"
 #include "optimize/sharp.h"
 #include "optimize/wide_path.h"
 #include "transmission/equations.h"
@@ -75,13 +76,14 @@ struct UpperNumbers {
   S free;   ///< C to the pin, mm
 };
 
+/// Both tendons at one point of the stroke.
 template <typename S>
 struct StrokeNumbers {
   transmission::RotationAngle<S> theta;
   UpperNumbers<S> upper1, upper2;  ///< of both tendons
-  S r1, r2;
-  S reach;  ///< pin D to the foot of G's perpendicular, mm
-  S phi;    ///< wrap on pin D [8]
+  S r1, r2;                        ///< mm
+  S reach;                         ///< pin D to the foot of G's perpendicular, mm
+  S phi;                           ///< wrap on pin D [8]
 };
 
 /// The tendon's line above the pin, in the frame of the link; for intervals by sharp.h.
@@ -102,20 +104,22 @@ const SheathNumbers<S>* sheath_of(const DesignNumbers<S>& d) {
   return d.wide && d.wide->sheath ? &*d.wide->sheath : nullptr;
 }
 
+/// The line of tendon 1 (left) or 2 from its pin, or its sheath's exit, to a pulley of the radius `p`.
 template <typename S>
-transmission::LowerLine<S> lower_line_of(const DesignNumbers<S>& d, const S& p, bool of_B,
+transmission::LowerLine<S> lower_line_of(const DesignNumbers<S>& d, const S& p, transmission::Side side,
                                          transmission::Domain& domain) {
   if (const auto* sheath = sheath_of(d))
     return transmission::lower_line(p, S(0.0), sheath->to_exit, sheath->angle, domain);
-  return transmission::lower_line(p, d.rho, of_B ? d.to_B : d.to_D, of_B ? d.angle_B : d.angle_D, domain);
+  const bool left = side == transmission::Side::left;
+  return transmission::lower_line(p, d.rho, left ? d.to_B : d.to_D, left ? d.angle_B : d.angle_D, domain);
 }
 inline transmission::LowerLine<transmission::Jet> lower_line_of(const DesignNumbers<transmission::Jet>& d,
-                                                                const transmission::Jet& p, bool of_B,
+                                                                const transmission::Jet& p, transmission::Side side,
                                                                 transmission::Domain& domain) {
   const SheathNumbers<transmission::Jet>* sheath = sheath_of(d);
   const SharpLine line = sheath != nullptr
                              ? sharp_lower_line(p, transmission::Jet(0.0), sheath->across, sheath->above, domain)
-                             : sharp_lower_line(p, d.rho, of_B ? d.EB : d.ED, d.EF, domain);
+                             : sharp_lower_line(p, d.rho, side == transmission::Side::left ? d.EB : d.ED, d.EF, domain);
   return {line.normal, line.reach};
 }
 
@@ -125,11 +129,11 @@ S off_pin(const DesignNumbers<S>& d, const S& lower_normal) {
   return sheath_of(d) != nullptr ? S(0.0) : lower_normal;
 }
 
-/// Distance of a pulley's radius from the limit set by its tendon's pin or sheath exit.
+/// Distance of the radius of P1 (left) or P2 from the limit set by its tendon's pin or sheath exit. mm
 template <typename S>
-S clear_of_guide(const DesignNumbers<S>& d, const S& radius, bool of_B) {
+S clear_of_guide(const DesignNumbers<S>& d, const S& radius, transmission::Side side) {
   if (const auto* sheath = sheath_of(d)) return sheath->to_exit - radius;
-  return (of_B ? d.to_B : d.to_D) - (radius - d.rho);
+  return (side == transmission::Side::left ? d.to_B : d.to_D) - (radius - d.rho);
 }
 
 /// Numbers of a tendon with a moment arm, of a joint that is not the paper's.
@@ -180,7 +184,7 @@ StrokeNumbers<S> upper_stroke(const DesignNumbers<S>& d, const S& place, transmi
 template <typename S>
 StrokeNumbers<S> stroke_numbers(const DesignNumbers<S>& d, const S& place, transmission::Domain& domain) {
   StrokeNumbers<S> n = upper_stroke(d, place, domain);
-  const transmission::LowerLine<S> lower = lower_line_of(d, n.r2, false, domain);
+  const transmission::LowerLine<S> lower = lower_line_of(d, n.r2, transmission::Side::right, domain);
   n.reach = lower.reach;
   n.phi = n.upper2.gamma - n.theta.angle - off_pin(d, lower.normal);
   return n;
@@ -189,7 +193,8 @@ StrokeNumbers<S> stroke_numbers(const DesignNumbers<S>& d, const S& place, trans
 /// Wrap of tendon 1 on pin B.
 template <typename S>
 S wrap_over_B(const DesignNumbers<S>& d, const StrokeNumbers<S>& n, transmission::Domain& domain) {
-  return S(n.upper1.gamma + n.theta.angle) - off_pin(d, lower_line_of(d, n.r1, true, domain).normal);
+  return S(n.upper1.gamma + n.theta.angle) -
+         off_pin(d, lower_line_of(d, n.r1, transmission::Side::left, domain).normal);
 }
 
 /// Area of the rectangle around link, pins and pulley in this pose. mm²

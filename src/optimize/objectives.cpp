@@ -27,6 +27,7 @@ constexpr std::array<ObjectiveInfo, 5> k_objectives{{
 
 /// Sampled places of the stroke; a maximum between two of them is searched.
 constexpr int k_sampled_places = 61;
+/// Cost of an impossible design. Twice this value marks an impossible place.
 constexpr double k_impossible = 1e300;
 /// A larger value counts as impossible: a moment arm is practically zero.
 constexpr double k_largest = 1e12;
@@ -37,8 +38,9 @@ Evaluation impossible(std::string reason) {
   return evaluation;
 }
 
+/// A place of the stroke and the value there.
 struct PlaceValue {
-  double place = 0;
+  double place = 0;  ///< 0 … 1
   double value = -k_impossible;
 };
 
@@ -49,7 +51,7 @@ double place_of(int i) { return static_cast<double>(i) / (k_sampled_places - 1);
 template <typename Value>
 bool peaks_near(const std::array<double, k_sampled_places>& values, int i, Value value) {
   const auto k = static_cast<std::size_t>(i);
-  constexpr double k_inward = 0.25 / (k_sampled_places - 1);
+  constexpr double k_inward = 0.25 / (k_sampled_places - 1);  // a quarter of a step
   if (i == 0) return values[k] >= values[k + 1] && value(k_inward) > values[k];
   if (i == k_sampled_places - 1) return values[k] >= values[k - 1] && value(1.0 - k_inward) > values[k];
   return values[k] >= values[k - 1] && values[k] >= values[k + 1];
@@ -60,22 +62,23 @@ bool peaks_near(const std::array<double, k_sampled_places>& values, int i, Value
 template <typename Value>
 Evaluation largest_over_range(const Mechanism& mechanism, Value value) {
   constexpr double k_near = 1e-2;  // a step of a sixtieth misses less of a peak
+  constexpr int k_sections = 24;
   std::array<double, k_sampled_places> values{};
   PlaceValue worst;
   for (int i = 0; i < k_sampled_places; ++i) {
-    const double here = value(place_of(i));
-    if (!(std::abs(here) < k_largest)) return impossible("");
-    values[static_cast<std::size_t>(i)] = here;
-    if (here > worst.value) worst = {place_of(i), here};
+    const double sample = value(place_of(i));
+    if (!(std::abs(sample) < k_largest)) return impossible("");
+    values[static_cast<std::size_t>(i)] = sample;
+    if (sample > worst.value) worst = {place_of(i), sample};
   }
   const double at_least = worst.value - k_near * std::abs(worst.value);
   for (int i = 0; i < k_sampled_places; ++i) {
     if (!(values[static_cast<std::size_t>(i)] >= at_least) || !peaks_near(values, i, value)) continue;
     const Bracket neighbours = {std::max(0, i - 1) / (k_sampled_places - 1.0),
                                 std::min(i + 1, k_sampled_places - 1) / (k_sampled_places - 1.0)};
-    const double refined = golden_section(neighbours, 24, [&](double at) { return -value(at); }).middle();
-    const double there = value(refined);
-    if (there > worst.value) worst = {refined, there};
+    const double place = golden_section(neighbours, k_sections, [&](double inner) { return -value(inner); }).middle();
+    const double refined = value(place);
+    if (refined > worst.value) worst = {place, refined};
   }
   Evaluation evaluation;
   evaluation.possible = true;

@@ -22,6 +22,7 @@ struct Affine {
   double constant = 0;
 };
 
+/// The expression as a function of the variables x.
 Affine affine(const Problem& problem, const LinearExpression& expression) {
   Affine sum{std::vector<double>(problem.variables.size(), 0.0), expression.constant};
   for (const LinearTerm& term : expression.terms) {
@@ -93,7 +94,7 @@ std::vector<Variable> variables_of(const Optimization& table) {
   return variables;
 }
 
-/// Values of the conditions for feasibility_values a pulley.
+/// Values of the conditions of a pulley.
 std::vector<double> feasibility_values(const Mechanism& mechanism) {
   const transmission::Transmission transmission(mechanism);
   std::vector<double> values;
@@ -106,8 +107,9 @@ std::vector<double> feasibility_values(const Mechanism& mechanism) {
 /// pulley.
 bool has_effect(const Problem& problem, std::size_t variable) {
   Random random(1);
+  constexpr int k_trials = 12;
   bool nothing_is_possible = true;  // then effects are unknown as well
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < k_trials; ++trial) {
     Design a = random_design(problem, random);
     Design b = a;
     a[variable] = problem.variables[variable].lower;
@@ -123,6 +125,7 @@ bool has_effect(const Problem& problem, std::size_t variable) {
   return nothing_is_possible;
 }
 
+/// Throws InputError for variables without effect.
 void demand_effects(const Problem& problem, const std::string& file) {
   std::vector<Diagnostic> errors;
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
@@ -194,25 +197,25 @@ std::optional<std::string> obstacle_to_pulleys(const Problem& problem, const Mec
 }  // namespace
 
 Evaluation evaluate_design(const Problem& problem, Objective objective, const Design& design) {
-  Evaluation none;
+  Evaluation impossible;
   if (constraint_violation(problem, design) > 0) {
-    none.reason = "a constraint is violated";
-    return none;
+    impossible.reason = "a constraint is violated";
+    return impossible;
   }
   const Mechanism mechanism = judged(problem, mechanism_at(problem, design));
   if (problem.cap) {
-    const Evaluation first = evaluate(problem.cap->objective, mechanism);
-    if (!first.possible) return first;
-    if (!(first.cost(problem.cap->objective) <= problem.cap->limit)) {
-      none.reason = std::string(info(problem.cap->objective).name) + " is beyond its limit";
-      return none;
+    const Evaluation capped = evaluate(problem.cap->objective, mechanism);
+    if (!capped.possible) return capped;
+    if (!(capped.cost(problem.cap->objective) <= problem.cap->limit)) {
+      impossible.reason = std::string(info(problem.cap->objective).name) + " is beyond its limit";
+      return impossible;
     }
   }
   Evaluation evaluation = evaluate(objective, mechanism);
   if (evaluation.possible && problem.feasible) {
     if (const auto obstacle = obstacle_to_pulleys(problem, mechanism)) {
-      none.reason = "no pulley can be made: " + *obstacle;
-      return none;
+      impossible.reason = "no pulley can be made: " + *obstacle;
+      return impossible;
     }
   }
   return evaluation;

@@ -25,6 +25,7 @@ class Random {
   std::uint64_t state_;
 };
 
+/// A design with each variable uniform in its range.
 inline Design random_design(const Problem& problem, Random& random) {
   Design design;
   for (const Variable& variable : problem.variables)

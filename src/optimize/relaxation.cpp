@@ -27,6 +27,7 @@ double least_over(const WeightedSum& sum, const Box& box, int count) {
   return least.lower();
 }
 
+/// The sum of the lines with these weights.
 WeightedSum weighted(const Box& box, int count, const std::vector<LineBelow>& lines,
                      const std::vector<double>& weights) {
   WeightedSum sum;
@@ -44,7 +45,7 @@ WeightedSum weighted(const Box& box, int count, const std::vector<LineBelow>& li
   return sum;
 }
 
-/// Shrinks the box to contain the designs for which the sum is <= `most`.
+/// Shrinks the box to contain the designs for which the sum is <= `most`. False if there are none.
 bool cut(Box& box, int count, const WeightedSum& sum, double most) {
   const double least = least_over(sum, box, count);
   if (least > most) return false;
@@ -53,12 +54,12 @@ bool cut(Box& box, int count, const WeightedSum& sum, double most) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     const transmission::Interval width = transmission::Interval(whole.upper[i]) - whole.lower[i];
     const double slope = sum.slope[i].lower();
-    // The sum has its minimum at one end of the variable and increases from there by at least |slope| · way.
+    // The sum has its minimum at one end of the variable and increases from there by at least |slope| · distance.
     if (slope == 0) continue;
-    const double way = ((transmission::Interval(most) - least) / std::abs(slope)).upper();
-    if (!(way < width.lower())) continue;
-    if (slope > 0) box.upper[i] = std::max(box.lower[i], (transmission::Interval(whole.lower[i]) + way).upper());
-    if (slope < 0) box.lower[i] = std::min(box.upper[i], (transmission::Interval(whole.upper[i]) - way).lower());
+    const double distance = ((transmission::Interval(most) - least) / std::abs(slope)).upper();
+    if (!(distance < width.lower())) continue;
+    if (slope > 0) box.upper[i] = std::max(box.lower[i], (transmission::Interval(whole.lower[i]) + distance).upper());
+    if (slope < 0) box.lower[i] = std::min(box.upper[i], (transmission::Interval(whole.upper[i]) - distance).lower());
   }
   return true;
 }
@@ -84,8 +85,8 @@ bool cut(Box& box, int count, const WeightedSum& sum, double most) {
 /// The lines over the unit cube, each scaled to size 1.
 struct ScaledProgram {
   LinearProgram program;
-  std::vector<double> scale;
-  double objective_scale = 1;
+  std::vector<double> scale;   ///< one per line, by which it was divided
+  double objective_scale = 1;  ///< common scale of the objective's lines
 };
 
 ScaledProgram scaled(const Box& box, int count, const std::vector<LineBelow>& lines, double least) {
@@ -140,13 +141,13 @@ bool cut_by_lines(Box& box, int count, const std::vector<LineBelow>& lines, doub
 LeastOfLines least_of_lines(Box& box, int count, const std::vector<LineBelow>& lines, double least, double limit) {
   LeastOfLines result;
   result.bound = least;
-  const ScaledProgram scale = scaled(box, count, lines, least);
-  const LinearAnswer answer = solve(scale.program, limit / scale.objective_scale);
+  const ScaledProgram scaled_lines = scaled(box, count, lines, least);
+  const LinearAnswer answer = solve(scaled_lines.program, limit / scaled_lines.objective_scale);
   std::vector<double> weights(lines.size(), 0.0);
-  double sum_of_weights = 0;
+  double objective_weights = 0;
   for (std::size_t r = 0; r < lines.size(); ++r) {
-    weights[r] = answer.weights[r] / scale.scale[r] * scale.objective_scale;
-    if (lines[r].of_objective) sum_of_weights += weights[r];
+    weights[r] = answer.weights[r] / scaled_lines.scale[r] * scaled_lines.objective_scale;
+    if (lines[r].of_objective) objective_weights += weights[r];
   }
   const double bound = bound_by(box, count, lines, weights);
   if (bound > limit) {
@@ -158,7 +159,7 @@ LeastOfLines least_of_lines(Box& box, int count, const std::vector<LineBelow>& l
     result.lowest[i] =
         std::clamp(box.lower[i] + answer.y[i] * (box.upper[i] - box.lower[i]), box.lower[i], box.upper[i]);
     for (std::size_t r = 0; r < lines.size(); ++r) {
-      const double share = sum_of_weights > 0 ? weights[r] / sum_of_weights : weights[r];
+      const double share = objective_weights > 0 ? weights[r] / objective_weights : weights[r];
       result.loss[i] += share * lines[r].loss[i];
     }
   }

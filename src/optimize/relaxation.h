@@ -13,6 +13,7 @@ namespace fusee::optimize {
 
 static_assert(transmission::Jet::k_most == k_max_variables);
 
+/// A box of designs.
 struct Box {
   std::array<double, k_max_variables> lower{};
   std::array<double, k_max_variables> upper{};
@@ -29,6 +30,7 @@ struct LineBelow {
   std::array<double, k_max_variables> loss{};  ///< possible distance below F due to each variable's width
 };
 
+/// Minimum of the objective that lines prove together.
 struct LeastOfLines {
   bool possible = true;                          ///< false: no design of the box satisfies all of them
   double bound = 0;                              ///< lower bound of the objective

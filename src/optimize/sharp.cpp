@@ -12,8 +12,9 @@ namespace {
 
 using Arguments = std::array<transmission::Interval, 4>;
 
-/// The arguments at which a function with these slopes has its minimum or maximum.
-Arguments at_end(const Arguments& arguments, const Arguments& slopes, bool largest) {
+/// The arguments at which a function with these slopes has its minimum or maximum. An argument whose slope has no
+/// constant sign stays an interval.
+Arguments at_extreme(const Arguments& arguments, const Arguments& slopes, bool largest) {
   Arguments ends = arguments;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     if (slopes[i].lower() >= 0) ends[i] = largest ? arguments[i].upper() : arguments[i].lower();
@@ -31,8 +32,8 @@ transmission::Interval between_ends(const Arguments& arguments, transmission::In
   if (std::all_of(arguments.begin(), arguments.end(), is_number)) return value;
   for (int round = 0; round < k_rounds; ++round) {
     const Arguments slopes = slopes_of(value);
-    const transmission::Interval least = value_of(at_end(arguments, slopes, false)),
-                                 largest = value_of(at_end(arguments, slopes, true));
+    const transmission::Interval least = value_of(at_extreme(arguments, slopes, false)),
+                                 largest = value_of(at_extreme(arguments, slopes, true));
     const double low = std::max(value.lower(), least.lower()), high = std::min(value.upper(), largest.upper());
     if (!(low <= high) || (low == value.lower() && high == value.upper())) break;
     value = {low, high};
@@ -48,25 +49,25 @@ struct TangentLine {
 
 TangentLine upper_of(const transmission::Interval& x, const transmission::Interval& y,
                      const transmission::Interval& rho) {
-  TangentLine seen;
+  TangentLine line;
   const transmission::Interval distance = transmission::sqrt(transmission::squared(x) + transmission::squared(y));
   const transmission::Interval towards =
-      transmission::direction(transmission::Jet(x), transmission::Jet(y), seen.domain).value;
-  seen.normal = towards - transmission::acos(transmission::unit_part(rho / distance, seen.domain));
-  seen.reach = transmission::sqrt(transmission::positive_part(
-      transmission::squared(x) + transmission::squared(y) - transmission::squared(rho), seen.domain));
-  return seen;
+      transmission::direction(transmission::Jet(x), transmission::Jet(y), line.domain).value;
+  line.normal = towards - transmission::acos(transmission::unit_part(rho / distance, line.domain));
+  line.reach = transmission::sqrt(transmission::positive_part(
+      transmission::squared(x) + transmission::squared(y) - transmission::squared(rho), line.domain));
+  return line;
 }
 
 TangentLine lower_of(const transmission::Interval& p, const transmission::Interval& rho,
                      const transmission::Interval& e, const transmission::Interval& ef) {
-  TangentLine seen;
+  TangentLine line;
   const transmission::Interval beyond = p - rho, square = transmission::squared(e) + transmission::squared(ef);
   const transmission::Interval towards =
-      transmission::direction(transmission::Jet(e), transmission::Jet(ef), seen.domain).value;
-  seen.normal = towards - transmission::acos(transmission::unit_part(beyond / transmission::sqrt(square), seen.domain));
-  seen.reach = transmission::sqrt(transmission::positive_part(square - transmission::squared(beyond), seen.domain));
-  return seen;
+      transmission::direction(transmission::Jet(e), transmission::Jet(ef), line.domain).value;
+  line.normal = towards - transmission::acos(transmission::unit_part(beyond / transmission::sqrt(square), line.domain));
+  line.reach = transmission::sqrt(transmission::positive_part(square - transmission::squared(beyond), line.domain));
+  return line;
 }
 
 int count_of(std::initializer_list<const transmission::Jet*> jets) {
@@ -81,11 +82,11 @@ SharpLine sharp_upper_line(const transmission::Jet& R, const transmission::Jet& 
                            const transmission::Jet& rho, const transmission::RotationAngle<transmission::Jet>& theta,
                            transmission::Domain& domain) {
   const transmission::Interval sine = theta.sine.value, cosine = theta.cosine.value, angle = theta.angle.value;
-  const auto seen_from = [&](const Arguments& a) {
+  const auto line_at = [&](const Arguments& a) {
     return upper_of(-(a[1] * cosine + a[2] * sine), a[0] + a[2] * cosine - a[1] * sine, a[3]);
   };
   const Arguments arguments{R.value, e.value, oe.value, rho.value};
-  const TangentLine crude = seen_from(arguments);
+  const TangentLine crude = line_at(arguments);
   domain.possible = domain.possible && crude.domain.possible;
   domain.whole = domain.whole && crude.domain.whole;
   if (!crude.domain.possible || !crude.domain.whole)
@@ -96,7 +97,7 @@ SharpLine sharp_upper_line(const transmission::Jet& R, const transmission::Jet& 
                      transmission::Interval(1.0)};
   };
   const transmission::Interval gamma = between_ends(
-      arguments, crude.normal, [&](const Arguments& a) { return seen_from(a).normal; }, slopes_at);
+      arguments, crude.normal, [&](const Arguments& a) { return line_at(a).normal; }, slopes_at);
   const int count = count_of({&R, &e, &oe, &rho, &theta.angle});
   if (count == 0) return {transmission::Jet(gamma), transmission::Jet(crude.reach)};
   const Arguments slopes = slopes_at(gamma);
@@ -119,9 +120,9 @@ SharpLine sharp_upper_line(const transmission::Jet& R, const transmission::Jet& 
 
 SharpLine sharp_lower_line(const transmission::Jet& p, const transmission::Jet& rho, const transmission::Jet& e,
                            const transmission::Jet& ef, transmission::Domain& domain) {
-  const auto seen_from = [](const Arguments& a) { return lower_of(a[0], a[1], a[2], a[3]); };
+  const auto line_at = [](const Arguments& a) { return lower_of(a[0], a[1], a[2], a[3]); };
   const Arguments arguments{p.value, rho.value, e.value, ef.value};
-  const TangentLine crude = seen_from(arguments);
+  const TangentLine crude = line_at(arguments);
   domain.possible = domain.possible && crude.domain.possible;
   domain.whole = domain.whole && crude.domain.whole;
   if (!crude.domain.possible || !crude.domain.whole)
@@ -131,7 +132,7 @@ SharpLine sharp_lower_line(const transmission::Jet& p, const transmission::Jet& 
                      -transmission::sin(normal)};
   };
   const transmission::Interval normal = between_ends(
-      arguments, crude.normal, [&](const Arguments& a) { return seen_from(a).normal; }, slopes_at);
+      arguments, crude.normal, [&](const Arguments& a) { return line_at(a).normal; }, slopes_at);
   const int count = count_of({&p, &rho, &e, &ef});
   if (count == 0) return {transmission::Jet(normal), transmission::Jet(crude.reach)};
   const Arguments slopes = slopes_at(normal);

@@ -10,6 +10,7 @@
 
 namespace fusee::optimize {
 
+/// A straight line of a tendon, with derivatives by the variables.
 struct SharpLine {
   transmission::Jet normal;
   transmission::Jet reach;  ///< from C or the foot of the perpendicular to the pin's tangent point

@@ -13,10 +13,12 @@ namespace {
 
 constexpr double k_tolerance = 1e-10;  ///< tolerance of violations: rows have size 1
 constexpr double k_pivot = 1e-9;       ///< smaller pivots only spread rounding errors
+constexpr double k_equal_ratios = 1e-14;
 constexpr int k_max_steps = 100;
 /// Small cost of each y: where t does not determine the best y, equal steps would cycle.
 constexpr double k_cost_of_place = 1e-9;
 
+/// The state of the iteration: basic variables as linear functions of the nonbasic ones.
 class Tableau {
  public:
   explicit Tableau(const LinearProgram& program)
@@ -71,14 +73,18 @@ class Tableau {
   /// Violation of the lower (< 0) or upper (> 0) bound.
   double excess(std::size_t row) const {
     const double low = lower(basic_[row]), high = upper(basic_[row]);
-    return value_[row] < low ? value_[row] - low : value_[row] > high ? value_[row] - high : 0.0;
+    if (value_[row] < low) return value_[row] - low;
+    return value_[row] > high ? value_[row] - high : 0.0;
   }
 
+  /// The row with the largest violation; the number of rows if there is none.
   std::size_t most_violated() const {
     std::size_t most = basic_.size();
     double largest = k_tolerance;
     for (std::size_t i = 0; i < basic_.size(); ++i) {
-      if (std::abs(excess(i)) > largest) largest = std::abs(excess(i)), most = i;
+      if (!(std::abs(excess(i)) > largest)) continue;
+      largest = std::abs(excess(i));
+      most = i;
     }
     return most;
   }
@@ -86,18 +92,24 @@ class Tableau {
   /// The column that moves the row's variable towards its bound and has the smallest cost ratio; among equals, the
   /// largest pivot.
   std::size_t entering(std::size_t row) {
-    const double wanted = excess(row) < 0 ? 1.0 : -1.0;
+    const double direction = excess(row) < 0 ? 1.0 : -1.0;
     std::size_t best = columns_;
     double least = k_infinite, pivot = 0;
     for (std::size_t j = 0; j < columns_; ++j) {
-      const double entry = at(row, j) * wanted * (nonbasic_[j].at_upper ? -1.0 : 1.0);
+      const double entry = at(row, j) * direction * (nonbasic_[j].at_upper ? -1.0 : 1.0);
       if (!(entry > k_pivot)) continue;
       const double ratio = std::abs(cost_[j]) / entry;
-      if (ratio < least - 1e-14 || (ratio <= least + 1e-14 && entry > pivot)) least = ratio, pivot = entry, best = j;
+      const bool is_smaller = ratio < least - k_equal_ratios;
+      const bool is_equal_with_larger_pivot = ratio <= least + k_equal_ratios && entry > pivot;
+      if (!is_smaller && !is_equal_with_larger_pivot) continue;
+      least = ratio;
+      pivot = entry;
+      best = j;
     }
     return best;
   }
 
+  /// Exchanges a basic variable, which goes to its violated bound, with a nonbasic one.
   void pivot(std::size_t row, std::size_t column) {
     const double entry = at(row, column), over = excess(row);
     const double move = -over / entry;
@@ -131,6 +143,7 @@ class Tableau {
     return weights;
   }
 
+  /// The present y.
   std::array<double, k_max_variables> point() const {
     std::array<double, k_max_variables> y{};
     for (const Nonbasic& variable : nonbasic_) {

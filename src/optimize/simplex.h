@@ -24,6 +24,7 @@ struct LinearProgram {
   std::vector<Row> rows;
 };
 
+/// Minimum of a linear program.
 struct LinearAnswer {
   bool possible = true;  ///< false: no y satisfies all rows, as `weights` prove
   double t = 0;

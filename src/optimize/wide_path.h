@@ -30,7 +30,9 @@ constexpr bool k_may_be_wide = std::is_same_v<S, double> || std::is_same_v<S, tr
 
 /// Features of a mechanism that the paper's joint lacks.
 struct WideKind {
-  bool drum = false, own1 = false, own2 = false, idlers = false, sheath = false;
+  bool drum = false;
+  bool own1 = false, own2 = false;  ///< tendon 1 or 2 has an attachment of its own
+  bool idlers = false, sheath = false;
   bool sheath_is_compliant = false;
 
   bool is_papers() const { return !drum && !own1 && !own2 && !idlers && !sheath; }
@@ -65,6 +67,7 @@ struct SheathNumbers {
   S angle;          ///< φ, rad
 };
 
+/// Numbers of a mechanism that the paper's joint lacks.
 template <typename S>
 struct WideNumbers {
   TendonEnd<S> end1, end2;
@@ -80,6 +83,7 @@ double twist_of(double across, double along, transmission::Domain& domain);
 transmission::Jet twist_of(const transmission::Jet& across, const transmission::Jet& along,
                            transmission::Domain& domain);
 
+/// True if a <= b in the whole box.
 inline bool is_at_most(double a, double b) { return a <= b; }
 inline bool is_at_most(const transmission::Jet& a, const transmission::Jet& b) {
   return a.value.upper() <= b.value.lower();

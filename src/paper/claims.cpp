@@ -12,14 +12,16 @@ namespace {
 
 using Holds = std::function<bool(const PaperAssumptions&)>;
 
-/// Tolerances of "the same": values, and positions in the stroke.
+/// Relative difference up to which two values are equal.
 constexpr double k_same_value = 1e-6;
+/// Difference up to which two positions in a range are equal, as a fraction of the range.
 constexpr double k_same_place = 1e-3;
 /// Deviation from a straight line up to which a joint counts as linear. deg
 constexpr double k_linear = 0.1;
 
 // ---- predicates -----------------------------------------------------------------------------------------------------
 
+/// Position of the largest value in the stroke, 0 … 1.
 template <typename Value>
 double place_of_largest(const std::vector<StrokePlace>& stroke, Value value) {
   const auto most = std::max_element(stroke.begin(), stroke.end(),
@@ -27,6 +29,7 @@ double place_of_largest(const std::vector<StrokePlace>& stroke, Value value) {
   return static_cast<double>(most - stroke.begin()) / static_cast<double>(stroke.size() - 1);
 }
 
+/// The predicate that the largest value lies at the negative limit of α.
 template <typename Value>
 Holds largest_at_negative_limit(Value value) {
   return [value](const PaperAssumptions& assumptions) {
@@ -39,6 +42,7 @@ double tension(const StrokePlace& place) { return place.forces.Tb; }
 double elongation(const StrokePlace& place) { return place.forces.elongation; }
 double joint_error(const StrokePlace& place) { return degrees(place.forces.theta_error); }
 
+/// The certified optimum of the paper's problem with this objective. The search ends at a value below `sufficient`.
 optimize::CertifiedResult optimum_of(const PaperAssumptions& assumptions, optimize::Objective objective, double gap,
                                      std::optional<double> sufficient = std::nullopt) {
   MechanismFile file = paper_problem_file(assumptions);
@@ -47,7 +51,7 @@ optimize::CertifiedResult optimum_of(const PaperAssumptions& assumptions, optimi
   optimize::CertifiedOptions options;
   options.gap = gap;
   options.most_tie_boxes = 1;  // ties are not needed
-  options.most_boxes = 60000;
+  options.most_boxes = 60000;  // limits the time; an optimum that is not proven by then does not count
   options.sufficient = sufficient;
   options.first_tries = {{file.mechanism.joint.R, file.mechanism.guides.ED, file.mechanism.guides.OE}};
   return optimize::certified_optimum(problem, objective, options);
@@ -64,21 +68,23 @@ Lengths table_4_lengths(const PaperAssumptions& assumptions) {
 }
 
 /// True if no design of the box is better in this objective than these lengths by more than a millionth.
-bool is_optimal(const PaperAssumptions& assumptions, optimize::Objective objective, const Lengths& at) {
-  const optimize::Evaluation here = optimize::evaluate(objective, paper_mechanism(assumptions, at.R, at.ED, at.OE));
-  if (!here.possible) return false;
-  const double enough = here.value * (1.0 - k_same_value);
+bool is_optimal(const PaperAssumptions& assumptions, optimize::Objective objective, const Lengths& lengths) {
+  const optimize::Evaluation evaluation =
+      optimize::evaluate(objective, paper_mechanism(assumptions, lengths.R, lengths.ED, lengths.OE));
+  if (!evaluation.possible) return false;
+  const double better = evaluation.value * (1.0 - k_same_value);
   // A better neighbour avoids the search, and any better design ends it.
   const Optimization box = paper_problem_file(assumptions).mechanism.optimize;
   const double step = 1e-3 * assumptions.unit;
-  for (const auto& [ED, OE] : {std::pair{-step, 0.0}, {0.0, step}, {-step, step}}) {
-    const Lengths near{at.R, std::max(at.ED + ED, box.lower[1]), std::min(at.OE + OE, box.upper[2])};
-    const optimize::Evaluation there =
-        optimize::evaluate(objective, paper_mechanism(assumptions, near.R, near.ED, near.OE));
-    if (there.possible && there.value < enough) return false;
+  for (const auto& [ED_step, OE_step] : {std::pair{-step, 0.0}, {0.0, step}, {-step, step}}) {
+    const Lengths neighbour{lengths.R, std::max(lengths.ED + ED_step, box.lower[1]),
+                            std::min(lengths.OE + OE_step, box.upper[2])};
+    const optimize::Evaluation other =
+        optimize::evaluate(objective, paper_mechanism(assumptions, neighbour.R, neighbour.ED, neighbour.OE));
+    if (other.possible && other.value < better) return false;
   }
-  return optimum_of(assumptions, objective, k_same_value, enough).lower_bound >=
-         here.value * (1.0 - 2.0 * k_same_value);
+  return optimum_of(assumptions, objective, k_same_value, better).lower_bound >=
+         evaluation.value * (1.0 - 2.0 * k_same_value);
 }
 
 // ---- windows --------------------------------------------------------------------------------------------------------
@@ -92,33 +98,38 @@ std::vector<ParameterWindows> windows_of(const PaperAssumptions& assumptions, co
   };
   // μ = 0 is excluded, because whole surfaces tie there. r1 begins where P2 turns once; EF where the pulley touches the
   // line of the pins.
+  constexpr int k_steps = 40;
   constexpr SearchedParameter searched[] = {{"mu", "", &PaperAssumptions::mu, 0.01, 0.51},
                                             {"r1", "mm", &PaperAssumptions::r1, 2.0, 42.0},
                                             {"EF", "mm", &PaperAssumptions::EF, 20.0, 220.0}};
   std::vector<ParameterWindows> all;
-  for (const SearchedParameter& one : searched) {
+  for (const auto& [parameter, unit, member, low, high] : searched) {
     PaperAssumptions changed = assumptions;
-    const auto holds_at = [&](double value) {
-      changed.*one.member = value;
+    const auto holds_at = [&, number = member](double value) {
+      changed.*number = value;
       return holds(changed);
     };
-    all.push_back({one.parameter, one.unit, one.low, one.high, windows_where(holds_at, one.low, one.high, 40)});
+    all.push_back({parameter, unit, low, high, windows_where(holds_at, low, high, k_steps)});
   }
   return all;
 }
 
-bool is_everywhere(const ParameterWindows& of) {
-  return of.windows.size() == 1 && of.windows[0].open_low && of.windows[0].open_high;
+bool is_everywhere(const ParameterWindows& parameter) {
+  return parameter.windows.size() == 1 && parameter.windows[0].open_low && parameter.windows[0].open_high;
 }
 
-/// Verdict from the windows of the assumed numbers: everywhere, somewhere, nowhere.
+/// The claim with its windows and the verdict that follows from them.
 Claim with_verdict(Claim claim, const PaperAssumptions& assumptions, const Holds& holds) {
   claim.windows = windows_of(assumptions, holds);
   const bool here = holds(assumptions);
   const bool everywhere = here && std::all_of(claim.windows.begin(), claim.windows.end(), is_everywhere);
-  const bool somewhere = here || std::any_of(claim.windows.begin(), claim.windows.end(),
-                                             [](const ParameterWindows& of) { return !of.windows.empty(); });
-  claim.verdict = everywhere ? Verdict::holds : somewhere ? Verdict::holds_only_if : Verdict::does_not_hold;
+  const bool somewhere =
+      here || std::any_of(claim.windows.begin(), claim.windows.end(),
+                          [](const ParameterWindows& parameter) { return !parameter.windows.empty(); });
+  if (everywhere)
+    claim.verdict = Verdict::holds;
+  else
+    claim.verdict = somewhere ? Verdict::holds_only_if : Verdict::does_not_hold;
   return claim;
 }
 
@@ -147,10 +158,10 @@ bool all_at_bounds(const PaperAssumptions& assumptions) {
   for (const double R : {table.lower[0], table.upper[0]}) {
     for (const double ED : {table.lower[1], std::min(0.5 * R, table.upper[1])}) {
       for (const double OE : {table.lower[2], table.upper[2]}) {
-        const optimize::Evaluation there =
+        const optimize::Evaluation corner =
             optimize::evaluate(optimize::Objective::max_tension, paper_mechanism(assumptions, R, ED, OE));
-        if (!there.possible || there.value >= least) continue;
-        least = there.value;
+        if (!corner.possible || corner.value >= least) continue;
+        least = corner.value;
         best = {R, ED, OE};
       }
     }
@@ -164,26 +175,27 @@ Claim bounds_claim(const Reproduction& so_far) {
   claim.paper_says = "R, EB = ED and OE of the optimum all lie at bounds";
   for (const OptimumRow& row : so_far.table_4) {
     const double range = row.upper - row.lower;
-    const bool at = std::min(row.computed - row.lower, row.upper - row.computed) < k_same_place * range;
-    const bool at_half =
-        std::abs(row.computed - 0.5 * so_far.table_4[0].computed) < k_same_place * range && &row == &so_far.table_4[1];
-    claim.equations_give += (claim.equations_give.empty() ? "" : ", ") + row.symbol +
-                            (at_half ? " at EB <= R/2"
-                             : at    ? " at its bound"
-                                     : " inside");
+    const bool is_at_bound = std::min(row.computed - row.lower, row.upper - row.computed) < k_same_place * range;
+    const bool is_EB = &row == &so_far.table_4[1];
+    const bool is_at_half_R = is_EB && std::abs(row.computed - 0.5 * so_far.table_4[0].computed) < k_same_place * range;
+    claim.equations_give += (claim.equations_give.empty() ? "" : ", ") + row.symbol;
+    if (is_at_half_R)
+      claim.equations_give += " at EB <= R/2";
+    else
+      claim.equations_give += is_at_bound ? " at its bound" : " inside";
   }
   return with_verdict(std::move(claim), so_far.assumptions, all_at_bounds);
 }
 
 template <typename Value>
-Claim place_claim(const Reproduction& so_far, const std::string& name, const std::string& what, const std::string& unit,
-                  Value value) {
+Claim place_claim(const Reproduction& so_far, const std::string& name, const std::string& quantity,
+                  const std::string& unit, Value value) {
   Claim claim;
   claim.name = name;
-  claim.paper_says = "the largest " + what + " is at the negative limit of α";
+  claim.paper_says = "the largest " + quantity + " is at the negative limit of α";
   const auto stroke = paper_stroke(table_4_mechanism(so_far.assumptions));
   const double place = place_of_largest(stroke, value);
-  const auto& worst = stroke[static_cast<std::size_t>(std::lround(place * 60))];
+  const auto& worst = stroke[static_cast<std::size_t>(std::lround(place * static_cast<double>(stroke.size() - 1)))];
   claim.equations_give = "largest " + rounded(value(worst), 4) + " " + unit +
                          " at θ = " + rounded(degrees(worst.point.theta), 3) + "°; at the limits " +
                          rounded(value(stroke.front()), 4) + " and " + rounded(value(stroke.back()), 4) + " " + unit;
@@ -195,16 +207,17 @@ Claim same_optimum_claim(const Reproduction& so_far) {
   claim.name = "least_tension_is_least_error";
   claim.paper_says = "the joint with the least tension also has the least error";
   const optimize::CertifiedResult least = optimum_of(so_far.assumptions, optimize::Objective::max_error, k_same_value);
-  const double here = optimize::evaluate(optimize::Objective::max_error, table_4_mechanism(so_far.assumptions)).value;
+  const double of_table_4 =
+      optimize::evaluate(optimize::Objective::max_error, table_4_mechanism(so_far.assumptions)).value;
   const double force = so_far.assumptions.tip_force;
-  claim.equations_give = "largest error " + rounded(here * force, 5) + "° at Table 4; the least is " +
+  claim.equations_give = "largest error " + rounded(of_table_4 * force, 5) + "° at Table 4; the least is " +
                          rounded(least.value * force, 5) + "° at R " + in_mm(least.best[0]) + ", ED " +
                          in_mm(least.best[1]) + ", OE " + in_mm(least.best[2]) + " mm, " +
-                         rounded(100.0 * (1.0 - least.value / here), 2) + " % less";
+                         rounded(100.0 * (1.0 - least.value / of_table_4), 2) + " % less";
   return with_verdict(std::move(claim), so_far.assumptions, [](const PaperAssumptions& assumptions) {
-    const Lengths at = table_4_lengths(assumptions);
-    return is_optimal(assumptions, optimize::Objective::max_error, at) &&
-           is_optimal(assumptions, optimize::Objective::max_tension, at);
+    const Lengths lengths = table_4_lengths(assumptions);
+    return is_optimal(assumptions, optimize::Objective::max_error, lengths) &&
+           is_optimal(assumptions, optimize::Objective::max_tension, lengths);
   });
 }
 
@@ -212,7 +225,8 @@ Claim linear_claim(const Reproduction& so_far) {
   Claim claim;
   claim.name = "the_pulley_linearizes";
   claim.paper_says = "the non-circular P2 linearizes the joint";
-  const auto table_4_stroke = paper_stroke(table_4_mechanism(so_far.assumptions), 2000);
+  constexpr int k_steps = 2000;
+  const auto table_4_stroke = paper_stroke(table_4_mechanism(so_far.assumptions), k_steps);
   claim.equations_give = "θ(α) deviates from the best line by ±" + fixed(nonlinearity(table_4_stroke), 2) +
                          "°, and from the least-squares line over α by up to " +
                          fixed(least_squares_nonlinearity(table_4_stroke), 2) +
@@ -237,9 +251,9 @@ Claim drawing_claim(const Reproduction& so_far) {
     claim.equations_give = "with these numbers it cannot be drawn: " + drawn.brief();
     return claim;
   }
-  const double half = 0.5 * mechanism.tendon.diameter;
+  const double to_floor = -0.5 * mechanism.tendon.diameter;
   const profile::RewindResult wound =
-      profile::rewind(mechanism, profile::parallel(drawn.p1, -half), profile::parallel(drawn.p2, -half));
+      profile::rewind(mechanism, profile::parallel(drawn.p1, to_floor), profile::parallel(drawn.p2, to_floor));
   const auto [low, high] = std::minmax_element(wound.points.begin(), wound.points.end(),
                                                [](const auto& a, const auto& b) { return a.excess < b.excess; });
   claim.equations_give = "a string wound on that drawing is off by " + rounded(low->excess, 2) + " to " +

@@ -13,7 +13,8 @@
 namespace fusee::paper {
 namespace {
 
-constexpr double k_table_4[] = {1.0, 0.5, -0.4};  // R, EB = ED, OE
+// The paper's optimum and its bounds: R, EB = ED and OE, in its unit of length.
+constexpr double k_table_4[] = {1.0, 0.5, -0.4};
 constexpr double k_lower[] = {1.0, 0.3, -0.4};
 constexpr double k_upper[] = {3.0, 1.5, 0.5};
 
@@ -27,7 +28,8 @@ double same_stroke_ratio(const Mechanism& mechanism) {
 LawCost law_cost(const Mechanism& mechanism, const std::string& name) {
   LawCost cost;
   cost.law = name;
-  const std::vector<StrokePlace> stroke = paper_stroke(mechanism, 180);
+  constexpr int k_steps = 180;
+  const std::vector<StrokePlace> stroke = paper_stroke(mechanism, k_steps);
   cost.nonlinearity = nonlinearity(stroke);
   cost.r1_least = cost.r1_most = stroke.front().point.t1.p;
   cost.r2_least = cost.r2_most = stroke.front().point.t2.p;
@@ -49,6 +51,8 @@ LawCost law_cost(const Mechanism& mechanism, const std::string& name) {
 }
 
 std::vector<MuWindow> mu_windows(const PaperAssumptions& assumptions) {
+  constexpr double k_lowest = 0.01, k_highest = 0.51;
+  constexpr int k_steps = 20;
   std::vector<MuWindow> all;
   for (const double r1 : {10.0, 15.0, 20.0}) {
     for (const double EF : {40.0, 60.0, 100.0, 150.0}) {
@@ -59,7 +63,7 @@ std::vector<MuWindow> mu_windows(const PaperAssumptions& assumptions) {
         changed.mu = mu;
         return table_4_is_optimal(changed);
       };
-      all.push_back({r1, EF, windows_where(holds, 0.01, 0.51, 20)});
+      all.push_back({r1, EF, windows_where(holds, k_lowest, k_highest, k_steps)});
     }
   }
   return all;
@@ -125,22 +129,23 @@ std::vector<StrokePlace> paper_stroke(const Mechanism& mechanism, int steps) {
   return stroke;
 }
 
-/// The best line in the sense of the largest distance: with curves as plain as these it is found by ternary search over
-/// its slope.
+/// The best line minimises the largest distance (Chebyshev). That distance is convex in the line's slope, so ternary
+/// search finds the minimum.
 double nonlinearity(const std::vector<StrokePlace>& stroke) {
   const auto deviation = [&stroke](double slope) {
     double low = 1e300, high = -1e300;
     for (const StrokePlace& place : stroke) {
-      const double rest = place.point.theta - slope * place.point.alpha;
-      low = std::min(low, rest);
-      high = std::max(high, rest);
+      const double residual = place.point.theta - slope * place.point.alpha;
+      low = std::min(low, residual);
+      high = std::max(high, residual);
     }
     return 0.5 * (high - low);
   };
   const double mean = (stroke.back().point.theta - stroke.front().point.theta) /
                       (stroke.back().point.alpha - stroke.front().point.alpha);
+  constexpr int k_steps = 100;
   double low = 0.5 * mean, high = 1.5 * mean;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < k_steps; ++i) {
     const double a = low + (high - low) / 3, b = high - (high - low) / 3;
     (deviation(a) < deviation(b) ? high : low) = deviation(a) < deviation(b) ? b : a;
   }
@@ -148,12 +153,17 @@ double nonlinearity(const std::vector<StrokePlace>& stroke) {
 }
 
 double least_squares_nonlinearity(const std::vector<StrokePlace>& stroke) {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  double n = 0, sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;
   for (const StrokePlace& place : stroke) {
-    const double a = place.point.alpha, t = place.point.theta;
-    n += 1, x += a, y += t, xx += a * a, xy += a * t;
+    const double x = place.point.alpha, y = place.point.theta;
+    n += 1;
+    sum_x += x;
+    sum_y += y;
+    sum_xx += x * x;
+    sum_xy += x * y;
   }
-  const double slope = (n * xy - x * y) / (n * xx - x * x), offset = (y - slope * x) / n;
+  const double slope = (n * sum_xy - sum_x * sum_y) / (n * sum_xx - sum_x * sum_x);
+  const double offset = (sum_y - slope * sum_x) / n;
   double most = 0;
   for (const StrokePlace& place : stroke)
     most = std::max(most, std::abs(place.point.theta - offset - slope * place.point.alpha));

@@ -14,11 +14,12 @@
 
 namespace fusee::paper {
 
+/// Numbers that the paper does not state.
 struct PaperAssumptions {
-  double unit = 100;  ///< length of the paper's unit, mm
-  double r1 = 20;     ///< mm
-  double EF = 60;     ///< mm
-  double mu = 0.2;
+  double unit = 100;      ///< length of the paper's unit, mm
+  double r1 = 20;         ///< mm
+  double EF = 60;         ///< mm
+  double mu = 0.2;        ///< between tendon and pin
   double tip_force = 20;  ///< F_c, N
   double diameter = 4;    ///< the paper's tendon, mm
   double modulus = 3000;  ///< the paper's tendon, MPa
@@ -32,9 +33,10 @@ MechanismFile paper_problem_file(const PaperAssumptions& assumptions);
 struct Window {
   double low = 0;
   double high = 0;
-  bool open_low = false;  ///< the claim holds at the end of the searched range
+  bool open_low = false;  ///< `low` is the end of the searched range, where the claim still holds
   bool open_high = false;
 };
+/// Windows of one assumed number.
 struct ParameterWindows {
   std::string parameter;  ///< "mu", "r1", "EF"
   std::string unit;
@@ -43,9 +45,11 @@ struct ParameterWindows {
   std::vector<Window> windows;
 };
 
+/// A claim holds for all searched numbers, for some, or for none.
 enum class Verdict { holds, holds_only_if, does_not_hold };
 std::string_view verdict_text(Verdict verdict);
 
+/// A statement of the paper, beside the results of its equations.
 struct Claim {
   std::string name;  ///< snake_case
   std::string paper_says;
@@ -63,10 +67,12 @@ struct OptimumRow {
   double computed = 0;  ///< the certified optimum
 };
 
+/// A curve of a figure.
 struct Curve {
   std::string name;
   std::vector<Vec2> points;
 };
+/// One figure of the paper, computed.
 struct PaperFigure {
   int number = 0;
   std::string title;
@@ -94,6 +100,7 @@ struct MuWindow {
   std::vector<Window> windows;
 };
 
+/// Result of reproduce_paper().
 struct Reproduction {
   PaperAssumptions assumptions;
   std::vector<OptimumRow> table_4;

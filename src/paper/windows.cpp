@@ -19,26 +19,27 @@ double border(const std::function<bool(double)>& holds, double good, double bad)
 
 std::vector<Window> windows_where(const std::function<bool(double)>& holds, double low, double high, int steps) {
   std::vector<Window> windows;
-  bool before = false;
+  bool held_before = false;
   double last = low;
   for (int i = 0; i <= steps; ++i) {
     const double value = low + (high - low) * i / steps;
-    const bool here = holds(value);
-    if (here && !before) windows.push_back({i == 0 ? low : border(holds, value, last), value, i == 0, false});
-    if (!here && before) windows.back().high = border(holds, last, value);
-    if (here && i == steps) {
+    const bool holds_here = holds(value);
+    if (holds_here && !held_before)
+      windows.push_back({i == 0 ? low : border(holds, value, last), value, i == 0, false});
+    if (!holds_here && held_before) windows.back().high = border(holds, last, value);
+    if (holds_here && i == steps) {
       windows.back().high = high;
       windows.back().open_high = true;
     }
-    before = here;
+    held_before = holds_here;
     last = value;
   }
   return windows;
 }
 
-std::string windows_text(const ParameterWindows& of) {
+std::string windows_text(const ParameterWindows& parameter) {
   std::string text;
-  for (const Window& window : of.windows) {
+  for (const Window& window : parameter.windows) {
     text += text.empty() ? "" : " and ";
     if (window.open_low && window.open_high)
       text += "all of " + rounded(window.low, 3) + " to " + rounded(window.high, 3);
@@ -50,9 +51,9 @@ std::string windows_text(const ParameterWindows& of) {
       text += rounded(window.low, 3) + " to " + rounded(window.high, 3);
   }
   if (text.empty())
-    return "nowhere in " + rounded(of.searched_low, 3) + " to " + rounded(of.searched_high, 3) +
-           (of.unit.empty() ? "" : " " + of.unit);
-  return text + (of.unit.empty() ? "" : " " + of.unit);
+    return "nowhere in " + rounded(parameter.searched_low, 3) + " to " + rounded(parameter.searched_high, 3) +
+           (parameter.unit.empty() ? "" : " " + parameter.unit);
+  return text + (parameter.unit.empty() ? "" : " " + parameter.unit);
 }
 
 }  // namespace fusee::paper

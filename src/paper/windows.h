@@ -14,6 +14,6 @@ namespace fusee::paper {
 std::vector<Window> windows_where(const std::function<bool(double)>& holds, double low, double high, int steps);
 
 /// "0.132 to 0.249", "up to 0.21", "nowhere".
-std::string windows_text(const ParameterWindows& windows);
+std::string windows_text(const ParameterWindows& parameter);
 
 }  // namespace fusee::paper

@@ -28,7 +28,8 @@ struct DesignVariable {
   LengthUnit units = LengthUnit::mm;  ///< of the file, for a length: its new number has few digits in them
 };
 
-// Numbers of the pulley or its body are easier to change than those of the joint.
+/// Numbers of the pulley or its body are easier to change than those of the joint, and change by this multiple of their
+/// magnitude in a step of 100 %.
 constexpr double k_easier = 3.0;
 
 std::optional<DesignVariable> number_variable(const Mechanism& mechanism, const std::string& key) {
@@ -41,8 +42,9 @@ std::optional<DesignVariable> number_variable(const Mechanism& mechanism, const 
   variable.value = number_of(mechanism, *field);
   variable.least = field->least;
   variable.most = field->most;
-  variable.scale =
-      std::max(std::abs(variable.value), field->unit == "mm" && field->least < 0 ? 0.1 * mechanism.joint.R : 0.0);
+  // A coordinate may be zero, and then has no magnitude of its own.
+  const bool is_coordinate = field->unit == "mm" && field->least < 0;
+  variable.scale = std::max(std::abs(variable.value), is_coordinate ? 0.1 * mechanism.joint.R : 0.0);
   variable.set = [field](Mechanism& changed, double value) { set_number(changed, *field, 0, value); };
   if (is_length(key)) variable.units = mechanism.units;
   return variable;
@@ -54,16 +56,23 @@ std::vector<DesignVariable> attachment_variables(const Mechanism& mechanism) {
   for (const char* key : {"joint.attachment1_mm", "joint.attachment2_mm"}) {
     const Field* field = find_field(key);
     if (!field->is_set(DeclaredMechanism{mechanism})) continue;
-    for (const int end : {0, 1}) {
-      const std::string name = std::string(key) + (end == 0 ? "[0]" : "[1]");
-      const double value = number_of(mechanism, *field, end);
-      const auto set = [field, end](Mechanism& changed, double to) { set_number(changed, *field, end, to); };
+    for (const int coordinate : {0, 1}) {
+      const std::string name = std::string(key) + (coordinate == 0 ? "[0]" : "[1]");
+      const double value = number_of(mechanism, *field, coordinate);
+      const auto set = [field, coordinate](Mechanism& changed, double to) {
+        set_number(changed, *field, coordinate, to);
+      };
       all.push_back({name, name, "mm", value, field->least, field->most,
                      std::max(std::abs(value), 0.1 * mechanism.joint.R), set, mechanism.units});
     }
   }
   return all;
 }
+
+/// Smallest half of a symmetric range that is proposed. deg
+constexpr double k_least_half_range = 0.5;
+/// Difference of its ends up to which a range is symmetric. deg
+constexpr double k_symmetric = 1e-9;
 
 /// One variable for a symmetric range, otherwise one per end.
 std::vector<DesignVariable> range_variables(const Mechanism& mechanism) {
@@ -81,12 +90,13 @@ std::vector<DesignVariable> range_variables(const Mechanism& mechanism) {
     least = std::max(least, degrees(mechanism.pulley.torque_rows.front().theta));
     most = std::min(most, degrees(mechanism.pulley.torque_rows.back().theta));
   }
-  DesignVariable both{"joint.range_deg", "the range", "deg", high, 0.5, std::min(most, -least), high, {}, {}};
-  both.set = [field](Mechanism& changed, double value) {
+  DesignVariable half_range{"joint.range_deg",      "the range", "deg", high, k_least_half_range,
+                            std::min(most, -least), high,        {},    {}};
+  half_range.set = [field](Mechanism& changed, double value) {
     set_number(changed, *field, 0, -value);
     set_number(changed, *field, 1, value);
   };
-  if (std::abs(low + high) < 1e-9) return {both};
+  if (std::abs(low + high) < k_symmetric) return {half_range};
   DesignVariable lower{"joint.range_deg[0]", "the range's lower end", "deg", low, least, 0.0, std::abs(low), {}, {}};
   lower.set = [field](Mechanism& changed, double value) { set_number(changed, *field, 0, value); };
   DesignVariable upper{"joint.range_deg[1]", "the range's upper end", "deg", high, 0.0, most, std::abs(high), {}, {}};
@@ -94,16 +104,21 @@ std::vector<DesignVariable> range_variables(const Mechanism& mechanism) {
   return {lower, upper};
 }
 
+/// The number that defines the pulley's law; null for a table, and for torque rows.
+std::optional<DesignVariable> law_variable(const Mechanism& mechanism) {
+  if (mechanism.pulley.law == Law::compensate) return number_variable(mechanism, "pulley.r1_mm");
+  if (mechanism.pulley.law == Law::linear) return number_variable(mechanism, "pulley.ratio");
+  if (mechanism.pulley.motor_torque != 0) return number_variable(mechanism, "pulley.motor_torque_Nmm");
+  return std::nullopt;
+}
+
+/// All variables of the search. find_advice() has their list.
 std::vector<DesignVariable> design_variables(const Mechanism& mechanism, const std::vector<std::string>& more_keys) {
-  std::vector<std::string> keys{"joint.length_mm",  "guides.EB_mm", "guides.ED_mm",      "guides.OE_mm",
-                                "guides.radius_mm", "pulley.EF_mm", "tendon.diameter_mm"};
+  const std::vector<std::string> keys{"joint.length_mm",  "guides.EB_mm", "guides.ED_mm",      "guides.OE_mm",
+                                      "guides.radius_mm", "pulley.EF_mm", "tendon.diameter_mm"};
   std::vector<DesignVariable> all;
-  const auto own = mechanism.pulley.law == Law::compensate ? number_variable(mechanism, "pulley.r1_mm")
-                   : mechanism.pulley.law == Law::linear   ? number_variable(mechanism, "pulley.ratio")
-                   : mechanism.pulley.motor_torque != 0    ? number_variable(mechanism, "pulley.motor_torque_Nmm")
-                                                           : std::nullopt;
-  if (own) {
-    all.push_back(*own);
+  if (const auto of_law = law_variable(mechanism)) {
+    all.push_back(*of_law);
     all.back().scale *= k_easier;
   }
   for (const std::string& key : keys) {
@@ -112,6 +127,7 @@ std::vector<DesignVariable> design_variables(const Mechanism& mechanism, const s
   for (const std::string& key : more_keys) {
     auto variable = number_variable(mechanism, key);
     if (!variable) continue;
+    // 0 means "automatic" for these keys.
     variable->least = std::max(variable->least, 1e-3 * variable->value);
     variable->scale *= k_easier;
     all.push_back(*variable);
@@ -131,12 +147,15 @@ std::vector<DesignVariable> design_variables(const Mechanism& mechanism, const s
 std::string change_text(const DesignVariable& variable, double to) {
   const std::string amount = rounded(from_mm(to, variable.units), 3);
   if (variable.symbol == "the range") return "the range ±" + amount + "°";
-  const std::string word = variable.units == LengthUnit::mm ? variable.unit : std::string(unit_word(variable.units));
-  const std::string unit = word == "deg" ? "°" : word.empty() ? "" : " " + word;
+  std::string unit = variable.units == LengthUnit::mm ? variable.unit : std::string(unit_word(variable.units));
+  if (unit == "deg")
+    unit = "°";
+  else if (!unit.empty())
+    unit = " " + unit;
   return variable.symbol + (to > variable.value ? " ≥ " : " ≤ ") + amount + unit;
 }
 
-/// `value` rounded to three digits in the file's unit: to the nearest, and towards `direction`.
+/// A number rounded to three digits in the file's unit: [0] to the nearest, [1] towards `direction`.
 std::array<double, 2> in_three_digits(double value_in_key_unit, double direction, LengthUnit units) {
   if (value_in_key_unit == 0) return {0, 0};
   const double value = from_mm(value_in_key_unit, units);
@@ -163,23 +182,25 @@ struct SearchDirection {
   bool ends_before(double step, double before) const { return at(step) == at(before); }
 };
 
-// Steps begin at 2 % of the number and grow. Five times its magnitude would be another joint: further values are
-// tried only if no near one suffices, or for a number that was just typed, in smaller steps up to its bounds.
+// Steps are multiples of DesignVariable::scale. The first search begins at 2 % and ends below 400 %: five times its
+// magnitude would be another joint.
 constexpr double k_first_step = 0.02;
 constexpr double k_step_ratio = 2.4;
 constexpr double k_last_step = 4.0;
+// A search over the whole range of a number has smaller steps, up to its bounds. It follows if no near value suffices,
+// and precedes for a number that was just typed.
 constexpr double k_sweep_ratio = 1.3;
-// Bisection ends at this fraction of the number's magnitude: three digits.
-constexpr double k_border = 5e-4;
+// Bisection ends at this width of the step: three digits of the number.
+constexpr double k_border_width = 5e-4;
 // Sufficient number of changes, with the fast test only and with full builds.
 constexpr std::size_t k_sufficient = 3;
 constexpr std::size_t k_sufficient_builds = 2;
 // Upper bounds on full builds and fast tests.
 constexpr int k_max_builds = 4;
 constexpr int k_max_evaluations = 400;
-// Most values of a search over whole ranges fail at the first condition.
+// A search over whole ranges may evaluate more: most of its values fail at the first condition, which is cheap.
 constexpr int k_max_sweep_evaluations = 5000;
-// Reserve for pairs.
+// Evaluations that are reserved for changes in pairs.
 constexpr int k_pair_evaluations = 150;
 // Number of the most helpful changes that are combined in pairs.
 constexpr std::size_t k_helpful = 4;
@@ -187,10 +208,10 @@ constexpr std::size_t k_helpful = 4;
 /// Search for one mechanism.
 class AdviceSearch {
  public:
-  AdviceSearch(const Mechanism& mechanism, const FeasibilityOracle& judge, const std::vector<std::string>& more_keys,
+  AdviceSearch(const Mechanism& mechanism, const FeasibilityOracle& oracle, const std::vector<std::string>& more_keys,
                std::size_t sufficient)
       : mechanism_(mechanism),
-        judge_(judge),
+        oracle_(oracle),
         variables_(design_variables(mechanism, more_keys)),
         sufficient_(sufficient) {
     for (const DesignVariable& variable : variables_) {
@@ -207,7 +228,7 @@ class AdviceSearch {
     search(found, {k_sweep_ratio, HUGE_VAL, true});
     search(found, {k_step_ratio, k_last_step, false});
     if (!found.empty()) return found;
-    max_evaluations_ = judge_.is_expensive ? k_max_evaluations - k_pair_evaluations : k_max_sweep_evaluations;
+    max_evaluations_ = oracle_.is_expensive ? k_max_evaluations - k_pair_evaluations : k_max_sweep_evaluations;
     search(found, {k_sweep_ratio, HUGE_VAL, false});
     return found;
   }
@@ -226,10 +247,10 @@ class AdviceSearch {
     double before = 0;
     for (double step = 2 * k_first_step; step < k_last_step; before = step, step *= k_step_ratio) {
       const std::vector<std::vector<SearchDirection>> pairs = pairs_of(helpful);
-      std::vector<Mechanism> there;
-      for (const std::vector<SearchDirection>& both : pairs)
-        there.push_back(changed_mechanism(both, values(both, step)));
-      const std::vector<std::vector<Condition>> obstacles = evaluate(there);
+      std::vector<Mechanism> changed;
+      for (const std::vector<SearchDirection>& pair : pairs)
+        changed.push_back(changed_mechanism(pair, values(pair, step)));
+      const std::vector<std::vector<Condition>> obstacles = evaluate(changed);
       for (std::size_t i = 0; i < pairs.size(); ++i) {
         if (!obstacles[i].empty()) continue;
         const std::vector<Candidate> proven = built({Candidate{pairs[i], before, step, step, 0, {}}}, 1);
@@ -241,18 +262,20 @@ class AdviceSearch {
   }
 
  private:
-  /// A change with an infeasible and a feasible step, narrowed by bisection.
+  /// A change of one or two variables by equal steps, whose border of feasibility is narrowed by bisection.
   struct Candidate {
     std::vector<SearchDirection> directions;
-    double bad = 0, good = 0, far = 0;
-    int trials = 0;          ///< number of trials: first near the border, then at the original step
+    double bad = 0;          ///< largest known infeasible step
+    double good = 0;         ///< smallest known feasible step
+    double far = 0;          ///< the feasible step at which the candidate was found
+    int trials = 0;          ///< number of trials: first at the step `good`, then at `far`
     std::vector<double> to;  ///< the trial values, current or last
 
     double distance(double step) const {
       const SearchDirection& search = directions.front();
       return std::abs(search.at(step) - search.variable->value) / search.variable->scale;
     }
-    bool is_at_border() const { return good - bad <= k_border; }
+    bool is_at_border() const { return good - bad <= k_border_width; }
     std::vector<Change> changes() const {
       std::vector<Change> all;
       for (std::size_t i = 0; i < directions.size(); ++i) all.push_back(change(*directions[i].variable, to[i]));
@@ -274,8 +297,9 @@ class AdviceSearch {
     bool is_first_only;  ///< only the numbers of FeasibilityOracle::first
   };
 
+  /// False for a variable that these steps leave out.
   bool is_searched(const SearchDirection& search, const Steps& steps) const {
-    return !steps.is_first_only || std::any_of(judge_.first.begin(), judge_.first.end(), [&](const std::string& key) {
+    return !steps.is_first_only || std::any_of(oracle_.first.begin(), oracle_.first.end(), [&](const std::string& key) {
       return search.variable->key == key || search.variable->key.starts_with(key + "[");
     });
   }
@@ -291,9 +315,9 @@ class AdviceSearch {
       for (std::size_t t = 0; t < directions_.size(); ++t)
         is_at_bounds = is_at_bounds && (!is_searched(directions_[t], steps) || is_finished(t, step));
       const std::vector<std::size_t> due = due_at(step, steps);
-      std::vector<Mechanism> there;
-      for (const std::size_t t : due) there.push_back(changed_mechanism({directions_[t]}, {directions_[t].at(step)}));
-      const std::vector<std::vector<Condition>> obstacles = evaluate(there);
+      std::vector<Mechanism> changed;
+      for (const std::size_t t : due) changed.push_back(changed_mechanism({directions_[t]}, {directions_[t].at(step)}));
+      const std::vector<std::vector<Condition>> obstacles = evaluate(changed);
       std::vector<Candidate> here;
       for (std::size_t i = 0; i < due.size(); ++i) {
         SearchRecord& record = records_[due[i]];
@@ -302,7 +326,7 @@ class AdviceSearch {
         if (!obstacles[i].empty()) {
           record_effect(record, obstacles[i]);
         } else if (!is_done(search)) {
-          // Each confirmation is a full build, so that a variable is confirmed only once.
+          // Each confirmation is a full build, so a variable is confirmed only once.
           done_.push_back(search.variable);
           here.push_back(Candidate{{search}, before, step, step, 0, {}});
         }
@@ -339,8 +363,8 @@ class AdviceSearch {
     std::vector<std::vector<Condition>> obstacles(changed.size());
     evaluations_ += static_cast<int>(changed.size());
     ThreadPool::shared().each(
-        changed.size(), [&](std::size_t i, std::size_t) { obstacles[i] = judge_.obstacles(changed[i]); },
-        judge_.made ? 2 : 1);
+        changed.size(), [&](std::size_t i, std::size_t) { obstacles[i] = oracle_.obstacles(changed[i]); },
+        oracle_.made ? 2 : 1);
     return obstacles;
   }
 
@@ -373,18 +397,18 @@ class AdviceSearch {
   /// Records the effect of a change that is not sufficient. With an expensive test, a change without effect is
   /// evaluated at growing intervals.
   void record_effect(SearchRecord& record, const std::vector<Condition>& obstacles) {
-    if (first_.empty()) first_ = judge_.obstacles(mechanism_);
-    record.gain = std::max(record.gain, weight(first_) - weight(obstacles));
-    if (!judge_.is_expensive) return;
-    std::vector<Condition> as_before = obstacles;
-    std::erase_if(as_before, [this](const Condition& condition) {
-      return std::none_of(first_.begin(), first_.end(),
-                          [&condition](const Condition& first) { return first.name == condition.name; });
+    if (unchanged_.empty()) unchanged_ = oracle_.obstacles(mechanism_);
+    record.gain = std::max(record.gain, weight(unchanged_) - weight(obstacles));
+    if (!oracle_.is_expensive) return;
+    std::vector<Condition> remaining = obstacles;
+    std::erase_if(remaining, [this](const Condition& condition) {
+      return std::none_of(unchanged_.begin(), unchanged_.end(),
+                          [&condition](const Condition& before) { return before.name == condition.name; });
     });
-    record.skips = weight(as_before) < weight(first_) ? 0 : record.skips + 1;
+    record.skips = weight(remaining) < weight(unchanged_) ? 0 : record.skips + 1;
     record.skips_left = record.skips;
   }
-  /// Sum over failed conditions of 1 plus the violation relative to the limit.
+  /// Sum over failed conditions of 1 plus the violation relative to the limit, which counts at most 1.
   static double weight(const std::vector<Condition>& obstacles) {
     double sum = 0;
     for (const Condition& condition : obstacles) {
@@ -429,15 +453,15 @@ class AdviceSearch {
     while (!candidate.is_at_border() && has_evaluations_left()) halve({&candidate});
     while (candidate.trials < 2) {
       const double step = candidate.trials++ == 0 ? candidate.good : candidate.far;
-      for (const std::size_t digit : {std::size_t{0}, std::size_t{1}}) {
+      for (const std::size_t rounding : {std::size_t{0}, std::size_t{1}}) {
         std::vector<double> to;
         bool is_new = true;
         for (const SearchDirection& search : candidate.directions) {
-          to.push_back(in_three_digits(search.at(step), search.direction, search.variable->units)[digit]);
+          to.push_back(in_three_digits(search.at(step), search.direction, search.variable->units)[rounding]);
           is_new = is_new && to.back() != search.variable->value && to.back() >= search.variable->least &&
                    to.back() <= search.variable->most;
         }
-        if (!is_new || !judge_.obstacles(changed_mechanism(candidate.directions, to)).empty()) continue;
+        if (!is_new || !oracle_.obstacles(changed_mechanism(candidate.directions, to)).empty()) continue;
         if (to == candidate.to) break;  // the other rounding differs too little to justify a full build
         candidate.to = to;
         return true;
@@ -470,18 +494,19 @@ class AdviceSearch {
   }
 
   std::size_t builds_left() const {
-    if (!judge_.made) return k_sufficient;
+    if (!oracle_.made) return k_sufficient;
     const int remaining = k_max_builds - builds_;
     return static_cast<std::size_t>(
-        std::max(0, judge_.builds_left ? std::min(remaining, judge_.builds_left()) : remaining));
+        std::max(0, oracle_.builds_left ? std::min(remaining, oracle_.builds_left()) : remaining));
   }
 
+  /// Full builds; true for the candidates that pass.
   std::vector<bool> make(const std::vector<Candidate>& candidates) {
-    if (!judge_.made) return std::vector<bool>(candidates.size(), true);
+    if (!oracle_.made) return std::vector<bool>(candidates.size(), true);
     builds_ += static_cast<int>(candidates.size());
-    std::vector<char> made(candidates.size());  // not of bool, whose neighbours share a byte
+    std::vector<char> made(candidates.size());  // vector<bool> packs neighbours into one byte: a race of both threads
     ThreadPool::shared().each(candidates.size(), [&](std::size_t i, std::size_t) {
-      made[i] = judge_.made(changed_mechanism(candidates[i].directions, candidates[i].to)) ? 1 : 0;
+      made[i] = oracle_.made(changed_mechanism(candidates[i].directions, candidates[i].to)) ? 1 : 0;
     });
     return {made.begin(), made.end()};
   }
@@ -491,11 +516,11 @@ class AdviceSearch {
   }
 
   const Mechanism& mechanism_;
-  const FeasibilityOracle& judge_;
+  const FeasibilityOracle& oracle_;
   std::vector<DesignVariable> variables_;
   std::vector<SearchDirection> directions_;
-  std::vector<SearchRecord> records_;  ///< one per direction
-  std::vector<Condition> first_;
+  std::vector<SearchRecord> records_;        ///< one per direction
+  std::vector<Condition> unchanged_;         ///< failed conditions of the mechanism without a change
   std::vector<const DesignVariable*> done_;  ///< with a change that was found or failed to build
   std::size_t sufficient_;
   int max_evaluations_ = k_max_evaluations;
@@ -508,21 +533,22 @@ class AdviceSearch {
 
 std::vector<Change> nearest_changes(const Mechanism& mechanism, const std::function<bool(const Mechanism&)>& possible,
                                     const std::vector<std::string>& more_keys) {
-  const FeasibilityOracle judge{[&possible](const Mechanism& changed) {
+  // A default condition stands for the reason of infeasibility, which is not known.
+  const FeasibilityOracle oracle{[&possible](const Mechanism& changed) {
     return possible(changed) ? std::vector<Condition>{} : std::vector<Condition>(1);
   }};
-  return AdviceSearch(mechanism, judge, more_keys, k_sufficient).alone();
+  return AdviceSearch(mechanism, oracle, more_keys, k_sufficient).alone();
 }
 
-Advice find_advice(const Mechanism& mechanism, const FeasibilityOracle& judge,
+Advice find_advice(const Mechanism& mechanism, const FeasibilityOracle& oracle,
                    const std::vector<std::string>& more_keys, std::size_t known) {
-  const std::size_t sufficient = judge.made ? k_sufficient_builds : k_sufficient;
+  const std::size_t sufficient = oracle.made ? k_sufficient_builds : k_sufficient;
   if (known >= sufficient) return {};
-  AdviceSearch adviser(mechanism, judge, more_keys, sufficient - known);
+  AdviceSearch search(mechanism, oracle, more_keys, sufficient - known);
   Advice advice;
-  advice.alone = adviser.alone();
-  advice.is_exhausted = adviser.is_exhausted();
-  if (advice.alone.empty()) advice.together = adviser.together();
+  advice.alone = search.alone();
+  advice.is_exhausted = search.is_exhausted();
+  if (advice.alone.empty()) advice.together = search.together();
   return advice;
 }
 

@@ -24,36 +24,37 @@ struct Knots {
   std::vector<double> psi;
   std::vector<Vec2> normal;            ///< unit(psi)
   std::vector<Vec2> hat_displacement;  ///< displacement due to a radius that is 1 at the knot and 0 at its neighbours
-  std::vector<double> rest;    ///< preferred radius: that of the ends, in between that of a curve about the axis
-  std::vector<double> window;  ///< weight of deviations from the preferred radius: zero at the ends
-  std::vector<double> least;
+  std::vector<double> preferred;  ///< preferred radius: that of the ends, in between that of a curve about the axis
+  std::vector<double> window;     ///< weight of deviations from the preferred radius: zero at the ends
+  std::vector<double> least;      ///< lower bound of the radius
 
   double radius(std::size_t i, const Vec2& multipliers) const {
-    return std::max(least[i], rest[i] + window[i] * multipliers.dot(turned_left(normal[i])));
+    return std::max(least[i], preferred[i] + window[i] * multipliers.dot(turned_left(normal[i])));
   }
 };
 
 /// Weight of an end's curvature at `turn` from it: 1 at the end, 0 after a sixth of a turn. For a flat end the interval
-/// is shorter, as a sixth of a turn would lead too far away.
-double end_weight(const CurvePoint& end, double turn, double whole) {
-  const double ramp = std::min(0.4 * whole, radians(60.0) * std::min(1.0, end.h / end.radius));
-  const double displacement = std::min(1.0, turn / ramp);
-  return 1.0 - displacement * displacement * (3.0 - 2.0 * displacement);
+/// is shorter, as a sixth of a turn would lead too far away. The intervals of both ends do not overlap in the turn
+/// `arc_turn` of the arc.
+double end_weight(const CurvePoint& end, double turn, double arc_turn) {
+  const double interval = std::min(0.4 * arc_turn, radians(60.0) * std::min(1.0, end.h / end.radius));
+  const double x = std::min(1.0, turn / interval);
+  return 1.0 - x * x * (3.0 - 2.0 * x);
 }
 
 Knots make_knots(const CurvePoint& begin, const CurvePoint& end, double least_radius) {
   Knots knots;
-  const double whole = end.psi - begin.psi;
+  const double arc_turn = end.psi - begin.psi;
   for (int i = 0; i <= k_segments; ++i) {
     const double u = static_cast<double>(i) / k_segments;
-    const double of_begin = end_weight(begin, whole * u, whole);
-    const double of_end = end_weight(end, whole * (1.0 - u), whole);
+    const double of_begin = end_weight(begin, arc_turn * u, arc_turn);
+    const double of_end = end_weight(end, arc_turn * (1.0 - u), arc_turn);
     const double about_axis = begin.h + (end.h - begin.h) * u;
-    knots.psi.push_back(begin.psi + whole * u);
+    knots.psi.push_back(begin.psi + arc_turn * u);
     knots.normal.push_back(unit(knots.psi.back()));
-    knots.rest.push_back(of_begin * begin.radius + of_end * end.radius + (1.0 - of_begin - of_end) * about_axis);
+    knots.preferred.push_back(of_begin * begin.radius + of_end * end.radius + (1.0 - of_begin - of_end) * about_axis);
     knots.window.push_back((1.0 - of_begin) * (1.0 - of_end));
-    knots.least.push_back(std::min(least_radius, knots.rest.back()));
+    knots.least.push_back(std::min(least_radius, knots.preferred.back()));
   }
   const double step = knots.psi[1] - knots.psi[0];
   for (const double psi : knots.psi)
@@ -126,19 +127,19 @@ std::optional<ClosingArc> ClosingArc::between(const CurvePoint& begin, const Cur
   return arc;
 }
 
-ClosingArc::Place ClosingArc::place(double psi) const {
-  const double place = std::clamp((psi - begin_) / step_, 0.0, static_cast<double>(k_segments));
-  const auto knot = std::min(static_cast<std::size_t>(place), static_cast<std::size_t>(k_segments - 1));
-  return {knot, place - static_cast<double>(knot)};
+ClosingArc::KnotFraction ClosingArc::knot_fraction(double psi) const {
+  const double steps = std::clamp((psi - begin_) / step_, 0.0, static_cast<double>(k_segments));
+  const auto knot = std::min(static_cast<std::size_t>(steps), static_cast<std::size_t>(k_segments - 1));
+  return {knot, steps - static_cast<double>(knot)};
 }
 
-double ClosingArc::radius(const Place& place) const {
-  return radii_[place.knot] + (radii_[place.knot + 1] - radii_[place.knot]) * place.share;
+double ClosingArc::radius(const KnotFraction& here) const {
+  return radii_[here.knot] + (radii_[here.knot + 1] - radii_[here.knot]) * here.fraction;
 }
-double ClosingArc::radius(double psi) const { return radius(place(psi)); }
+double ClosingArc::radius(double psi) const { return radius(knot_fraction(psi)); }
 
 CurvePoint ClosingArc::at(double psi) const {
-  const Place here = place(psi);
+  const KnotFraction here = knot_fraction(psi);
   const std::size_t i = here.knot;
   const double psi0 = begin_ + static_cast<double>(i) * step_;
   const double radius = this->radius(here);

@@ -25,13 +25,13 @@ class ClosingArc {
   double least_support() const;
 
  private:
-  /// The preceding knot, and the fraction of the way to the next one.
-  struct Place {
+  /// A direction ψ by the preceding knot and the fraction of the way to the next one.
+  struct KnotFraction {
     std::size_t knot;
-    double share;
+    double fraction;
   };
-  Place place(double psi) const;
-  double radius(const Place& place) const;
+  KnotFraction knot_fraction(double psi) const;
+  double radius(const KnotFraction& here) const;
 
   double begin_ = 0;
   double step_ = 0;

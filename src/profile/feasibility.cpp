@@ -17,11 +17,9 @@ constexpr int k_samples = 192;
 /// Arc reserved on the closing arc for the tendon's lap and tie-off at the wound end, in tendon diameters.
 constexpr double k_anchor_lap = 5.0;
 
-std::string number(transmission::Side side) { return side == transmission::Side::left ? "1" : "2"; }
-std::string pin_name(transmission::Side side) { return side == transmission::Side::left ? "B" : "D"; }
-std::string exit_name(transmission::Side side) { return "the exit of sheath " + number(side); }
+std::string exit_name(transmission::Side side) { return "the exit of sheath " + side_digit(side); }
 /// "r1" or "r2".
-std::string radius_name(transmission::Side side) { return "r" + number(side); }
+std::string radius_name(transmission::Side side) { return "r" + side_digit(side); }
 
 /// A quantity along the stroke that must exceed a limit.
 struct Probe {
@@ -45,7 +43,8 @@ TakeOff tightest(const TakeOffs& take_offs, const std::vector<TakeOff>& samples,
   const Bracket neighbours = {sign * samples[smallest == 0 ? 0 : smallest - 1].stroke.theta,
                               sign * samples[std::min(smallest + 1, samples.size() - 1)].stroke.theta};
   const auto value_at = [&](double theta) { return probe.value(take_offs.at(theta)); };
-  const TakeOff refined = take_offs.at(golden_section(neighbours, 24, value_at).middle());
+  constexpr int k_sections = 24;  // 0.618^24: to 1e-5 of the bracket
+  const TakeOff refined = take_offs.at(golden_section(neighbours, k_sections, value_at).middle());
   return probe.value(refined) < probe.value(samples[smallest]) ? refined : samples[smallest];
 }
 
@@ -69,31 +68,32 @@ Probe clear_of_other_pin(const TakeOffs& take_offs) {
   const transmission::PinPlace place = take_offs.place();
   const Vec2 other = other_pin(take_offs.transmission(), side);
   const double sign = transmission::mirror_sign(side);
-  return {"tendon_" + number(side) + "_clear_of_pin_" + pin, "mm", 0.0,
+  return {"tendon_" + side_digit(side) + "_clear_of_pin_" + pin, "mm", 0.0,
           [=](const TakeOff& t) { return upper_clearance(place, sign * t.stroke.theta, other) - place.rho; },
           [=](const std::string& where, double value) {
-            return "tendon " + number(side) + " cuts " + rounded(-value, 3) + " mm into pin " + pin + " at " + where +
-                   ", which is the other tendon's";
+            return "tendon " + side_digit(side) + " cuts " + rounded(-value, 3) + " mm into pin " + pin + " at " +
+                   where + ", which is the other tendon's";
           }};
 }
 
 /// Probes ordered so that a failure makes the later ones meaningless.
 std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_offs) {
   const transmission::Side side = take_offs.side();
-  const double half = 0.5 * mechanism.tendon.diameter;
+  const double tendon_radius = 0.5 * mechanism.tendon.diameter;
   const transmission::PinPlace place = take_offs.place();
   const auto tendon = [&take_offs](const TakeOff& t) -> const transmission::TendonPoint& {
     return take_offs.tendon(t);
   };
   const std::string pin = pin_name(side);
   std::vector<Probe> probes;
-  probes.push_back({"radius_P" + number(side), "mm", 0.0, [=](const TakeOff& t) { return tendon(t).p - half; },
+  probes.push_back({"radius_P" + side_digit(side), "mm", 0.0,
+                    [=](const TakeOff& t) { return tendon(t).p - tendon_radius; },
                     [=](const std::string& where, double value) {
-                      return radius_name(side) + " falls to " + rounded(value + half) + " mm at " + where +
+                      return radius_name(side) + " falls to " + rounded(value + tendon_radius) + " mm at " + where +
                              ": less than half the tendon's diameter, the groove floor would cross the axis";
                     }});
   const transmission::LowerGuide lower = place.lower();
-  const std::string from = place.sheath_exit ? "mouth_" + number(side) : "pin_" + pin;
+  const std::string from = place.sheath_exit ? "mouth_" + side_digit(side) : "pin_" + pin;
   probes.push_back({"line_reaches_" + from, "mm", 0.0,
                     [=](const TakeOff& t) { return lower.c() - std::abs(tendon(t).p - lower.rho); },
                     [=](const std::string& where, double value) {
@@ -103,7 +103,7 @@ std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_
                     }});
   probes.push_back({"tendon_on_pin_" + pin, "deg", 0.0, [=](const TakeOff& t) { return degrees(tendon(t).wrap); },
                     [=](const std::string& where, double value) {
-                      return "tendon " + number(side) + " leaves pin " + pin + " at " + where + ": its wrap there" +
+                      return "tendon " + side_digit(side) + " leaves pin " + pin + " at " + where + ": its wrap there" +
                              (place.sheath_exit ? ", down into its sheath," : "") + " is " + rounded(value, 3) +
                              "° and must stay above 0°";
                     }});
@@ -113,29 +113,29 @@ std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_
 
 std::vector<Probe> curve_probes(const Mechanism& mechanism, const TakeOffs& take_offs) {
   const transmission::Side side = take_offs.side();
-  const double half = 0.5 * mechanism.tendon.diameter;
+  const double tendon_radius = 0.5 * mechanism.tendon.diameter;
   const bool sheathed = mechanism.sheath.is_there();
   const auto tendon = [&take_offs](const TakeOff& t) -> const transmission::TendonPoint& {
     return take_offs.tendon(t);
   };
   std::vector<Probe> probes;
-  probes.push_back({"take_off_advances_P" + number(side), "deg/deg", 0.0, [](const TakeOff& t) { return t.dpsi; },
+  probes.push_back({"take_off_advances_P" + side_digit(side), "deg/deg", 0.0, [](const TakeOff& t) { return t.dpsi; },
                     [=](const std::string& where, double) {
                       return radius_name(side) + " changes so fast at " + where +
                              " that the take-off point moves backwards";
                     }});
-  probes.push_back({"convex_floor_P" + number(side), "mm", k_least_floor_radius,
-                    [=](const TakeOff& t) { return t.curve.radius - half; },
+  probes.push_back({"convex_floor_P" + side_digit(side), "mm", k_least_floor_radius,
+                    [=](const TakeOff& t) { return t.curve.radius - tendon_radius; },
                     [=](const std::string& where, double value) {
                       const std::string radius = " (radius of curvature " + rounded(std::abs(value), 3) + " mm)";
-                      return "P" + number(side) + " would be " + (value > 0 ? "too sharp" : "concave") + " at " +
+                      return "P" + side_digit(side) + " would be " + (value > 0 ? "too sharp" : "concave") + " at " +
                              where + radius + ": a tendon requires a convex groove floor with a radius above " +
                              rounded(k_least_floor_radius) + " mm";
                     }});
-  probes.push_back({"free_span_" + number(side), "mm", 0.0,
+  probes.push_back({"free_span_" + side_digit(side), "mm", 0.0,
                     [=](const TakeOff& t) { return tendon(t).lower_reach - t.curve.dh; },
                     [=](const std::string& where, double value) {
-                      return "tendon " + number(side) + " has no free span between " +
+                      return "tendon " + side_digit(side) + " has no free span between " +
                              (sheathed ? "its sheath" : "pin") + " and pulley at " + where + " (" + rounded(value, 3) +
                              " mm): the " + (sheathed ? "sheath exit" : "pin") + " lies inside the pulley";
                     }});
@@ -143,8 +143,8 @@ std::vector<Probe> curve_probes(const Mechanism& mechanism, const TakeOffs& take
 }
 
 /// Appends the conditions up to the first failure; true when all hold.
-bool judge(std::vector<Condition>& conditions, const std::vector<Probe>& probes, const TakeOffs& take_offs,
-           const std::vector<TakeOff>& samples) {
+bool add_probe_conditions(std::vector<Condition>& conditions, const std::vector<Probe>& probes,
+                          const TakeOffs& take_offs, const std::vector<TakeOff>& samples) {
   for (const Probe& probe : probes) {
     conditions.push_back(condition_of_probe(probe, tightest(take_offs, samples, probe)));
     if (!conditions.back().ok) return false;
@@ -170,38 +170,43 @@ std::vector<TakeOff> take_samples(const Mechanism& mechanism, const TakeOffs& ta
   const std::vector<double> kinks = lift_offs(mechanism, take_offs.transmission(), take_offs.side());
   auto kink = kinks.begin();
   double last = stroke.begin;
+  const auto add = [&](double theta) {
+    samples.push_back(take_offs.at(theta));
+    last = theta;
+  };
   for (int i = 0; i <= k_samples; ++i) {
     const double theta = stroke.theta(i);
     for (; kink != kinks.end() && *kink < theta; ++kink) {
       for (const double beside : {*kink - k_beside_lift_off, *kink + k_beside_lift_off}) {
-        if (beside > last && beside < theta) samples.push_back(take_offs.at(last = beside));
+        if (beside > last && beside < theta) add(beside);
       }
     }
-    samples.push_back(take_offs.at(last = theta));
+    add(theta);
   }
   return samples;
 }
 
-/// A tendon's arm has a kink upwards where it leaves its drum. A curve drawn with that arm is straight there; a curve
-/// drawn with its inverse, as P2 with the arm of tendon 1 for a round P1, would need a hollow.
-bool judge_lift_offs(std::vector<Condition>& conditions, const Mechanism& mechanism, const TakeOffs& take_offs,
-                     SideAttempt& attempt) {
+/// Tests the pitch curve at each angle at which a tendon leaves its drum. The slope of that tendon's moment arm m jumps
+/// up there. A curve with a radius proportional to m is straight there. A curve with a radius proportional to 1/m would
+/// need a hollow: P2 beside a round P1, since r2 = r1 m2/m1. False at the first hollow.
+bool add_lift_off_conditions(std::vector<Condition>& conditions, const Mechanism& mechanism, const TakeOffs& take_offs,
+                             SideAttempt& attempt) {
   const transmission::Side side = take_offs.side();
   const double sign = transmission::mirror_sign(side);
   for (const double theta : lift_offs(mechanism, take_offs.transmission(), side)) {
-    const double piece = straight_piece(take_offs, theta);
-    if (piece > k_least_straight) attempt.straight.push_back(take_offs.at(theta).curve.psi);
+    const double straight = straight_length(take_offs, theta);
+    if (straight > k_least_straight) attempt.straight.push_back(take_offs.at(theta).curve.psi);
     Condition condition;
-    condition.name = "convex_at_lift_off_P" + number(side);
+    condition.name = "convex_at_lift_off_P" + side_digit(side);
     condition.alpha = take_offs.transmission().alpha(sign * theta);
-    condition.value = piece;
+    condition.value = straight;
     condition.unit = "mm";
-    condition.ok = piece > -k_least_straight;
+    condition.ok = straight > -k_least_straight;
     if (!condition.ok) {
       const std::string other =
-          number(side == transmission::Side::left ? transmission::Side::right : transmission::Side::left);
+          side_digit(side == transmission::Side::left ? transmission::Side::right : transmission::Side::left);
       condition.message = "tendon " + other + " leaves the drum at " + at_alpha_text(condition.alpha) + ", and P" +
-                          number(side) + " would need a hollow there of " + rounded(-piece, 3) +
+                          side_digit(side) + " would need a hollow there of " + rounded(-straight, 3) +
                           " mm: beside a round P" + other + " it stays on the drum, or off it, over the whole range";
     }
     conditions.push_back(condition);
@@ -212,21 +217,21 @@ bool judge_lift_offs(std::vector<Condition>& conditions, const Mechanism& mechan
 
 /// The condition that active arc and anchor lap fit into one turn. The tendon stays wound at the beginning of the
 /// image's stroke.
-Condition one_turn(const Mechanism& mechanism, transmission::Side side, const std::vector<TakeOff>& samples) {
+Condition one_turn_condition(const Mechanism& mechanism, transmission::Side side, const std::vector<TakeOff>& samples) {
   // A polar drawing spans the motor's own turn.
   const double active = mechanism.pulley.method == Method::exact
                             ? samples.back().curve.psi - samples.front().curve.psi
                             : std::abs(samples.back().stroke.alpha - samples.front().stroke.alpha);
   const double lap = k_anchor_lap * mechanism.tendon.diameter / samples.front().curve.h;
   Condition condition;
-  condition.name = "one_turn_P" + number(side);
+  condition.name = "one_turn_P" + side_digit(side);
   condition.alpha = samples.front().stroke.alpha;
   condition.value = degrees(k_two_pi - active - lap);
   condition.limit = 0;
   condition.unit = "deg";
   condition.ok = condition.value > 0;
   if (!condition.ok) {
-    condition.message = "P" + number(side) + " would need " + rounded(degrees(active), 4) + "° of active arc and " +
+    condition.message = "P" + side_digit(side) + " would need " + rounded(degrees(active), 4) + "° of active arc and " +
                         rounded(degrees(lap), 3) + "° for the anchor: more than one turn" +
                         (mechanism.pulley.winding == WindingChoice::automatic &&
                                  mechanism.pulley.method == Method::exact && !mechanism.sheath.is_there()
@@ -236,20 +241,20 @@ Condition one_turn(const Mechanism& mechanism, transmission::Side side, const st
   return condition;
 }
 
-Condition closes(const Mechanism& mechanism, transmission::Side side, const SideAttempt& attempt) {
-  const double half = 0.5 * mechanism.tendon.diameter;
+Condition closing_condition(const Mechanism& mechanism, transmission::Side side, const SideAttempt& attempt) {
+  const double tendon_radius = 0.5 * mechanism.tendon.diameter;
   Condition condition;
-  condition.name = "closing_arc_P" + number(side);
+  condition.name = "closing_arc_P" + side_digit(side);
   condition.alpha = attempt.samples.back().stroke.alpha;
-  condition.value = attempt.closing ? attempt.closing->least_support() - half : 0.0;
+  condition.value = attempt.closing ? attempt.closing->least_support() - tendon_radius : 0.0;
   condition.unit = "mm";
   condition.ok = attempt.closing && condition.value > 0;
   if (attempt.closing && !condition.ok) {
-    condition.message = "the arc that closes P" + number(side) + " would pass the axis at " +
+    condition.message = "the arc that closes P" + side_digit(side) + " would pass the axis at " +
                         rounded(-condition.value, 3) + " mm on the wrong side";
   } else if (!condition.ok) {
     condition.message =
-        "the ends of P" + number(side) + "'s active arc (" + radius_name(side) + " " +
+        "the ends of P" + side_digit(side) + "'s active arc (" + radius_name(side) + " " +
         rounded(attempt.samples.front().curve.h) + " and " + rounded(attempt.samples.back().curve.h) +
         " mm) cannot be joined by a convex arc over the " +
         rounded(360.0 - degrees(attempt.samples.back().curve.psi - attempt.samples.front().curve.psi), 3) + "° left";
@@ -258,19 +263,21 @@ Condition closes(const Mechanism& mechanism, transmission::Side side, const Side
 }
 
 /// The condition that both tendons have a moment arm over the whole range.
-Condition dead_centre(const transmission::Transmission& transmission) {
+Condition moment_arm_condition(const transmission::Transmission& transmission) {
   Condition condition;
   condition.name = "moment_arms";
   condition.unit = "deg";
   condition.ok = !transmission.dead_centre();
   if (condition.ok) return condition;
+  constexpr double k_least_arm = 1e-6;  // mm
   const double theta = *transmission.dead_centre();
-  const bool left = !(transmission::upper_span(transmission.place(transmission::Side::left), -theta).m > 1e-6);
-  const transmission::Side side = left ? transmission::Side::left : transmission::Side::right;
+  const bool left_fails =
+      !(transmission::upper_span(transmission.place(transmission::Side::left), -theta).m > k_least_arm);
+  const transmission::Side side = left_fails ? transmission::Side::left : transmission::Side::right;
   condition.value = degrees(theta);
   condition.alpha = transmission.alpha(theta);
   if (!std::isfinite(condition.alpha)) condition.alpha = 0;  // C lies within a pin
-  condition.message = "tendon " + number(side) + " passes through the joint axis (dead centre), or C meets pin " +
+  condition.message = "tendon " + side_digit(side) + " passes through the joint axis (dead centre), or C meets pin " +
                       pin_name(side) + ", at θ = " + rounded(degrees(theta), 4) + "°, " +
                       at_alpha_text(condition.alpha) + ": the range must end before it";
   return condition;
@@ -278,8 +285,9 @@ Condition dead_centre(const transmission::Transmission& transmission) {
 
 /// The condition that the smooth curve through the table increases between its rows too. Tested along α, because the
 /// ends of the stroke are defined only if it holds.
-Condition law_grows(const Mechanism& mechanism, const transmission::Transmission& transmission) {
-  constexpr int steps = 1024;
+Condition growth_condition(const Mechanism& mechanism, const transmission::Transmission& transmission) {
+  constexpr int k_steps = 1024;
+  // The innermost rows that enclose the range.
   const std::vector<LawRow>& rows = mechanism.pulley.rows;
   std::size_t first = 0;
   while (first + 1 < rows.size() && rows[first + 1].theta <= mechanism.joint.theta_min) ++first;
@@ -289,8 +297,8 @@ Condition law_grows(const Mechanism& mechanism, const transmission::Transmission
   condition.name = "law_grows";
   condition.unit = "deg/deg";
   condition.value = 1e300;
-  for (int i = 0; i <= steps; ++i) {
-    const double alpha = rows[first].alpha + (rows[last].alpha - rows[first].alpha) * i / steps;
+  for (int i = 0; i <= k_steps; ++i) {
+    const double alpha = rows[first].alpha + (rows[last].alpha - rows[first].alpha) * i / k_steps;
     const double g = transmission.at_alpha(alpha).g;
     if (g < condition.value) {
       condition.value = g;
@@ -306,7 +314,7 @@ Condition law_grows(const Mechanism& mechanism, const transmission::Transmission
 }
 
 /// The condition that load and wanted torque have the same sign at every angle, so that motor and joint turn together.
-Condition torque_holds(const Mechanism& mechanism) {
+Condition torque_condition(const Mechanism& mechanism) {
   const transmission::TorqueMatch worst = transmission::tightest_torque(mechanism);
   Condition condition;
   condition.name = "torque_holds";
@@ -326,13 +334,14 @@ Condition torque_holds(const Mechanism& mechanism) {
 }
 
 /// The closing arc with the largest minimum radius of a few candidates; sharper bends where necessary.
-std::optional<ClosingArc> close(const Mechanism& mechanism, const std::vector<TakeOff>& samples) {
+std::optional<ClosingArc> closing_arc_of(const Mechanism& mechanism, const std::vector<TakeOff>& samples) {
   const CurvePoint& end = samples.back().curve;
   CurvePoint next_turn = samples.front().curve;
   next_turn.psi += k_two_pi;
   const double diameter = mechanism.tendon.diameter;
-  const double around = 0.5 * (end.h + next_turn.h);
-  for (const double least : {0.5 * around, 0.25 * around, 2.5 * diameter, 0.5 * diameter + k_least_floor_radius}) {
+  const double mean_support = 0.5 * (end.h + next_turn.h);
+  for (const double least :
+       {0.5 * mean_support, 0.25 * mean_support, 2.5 * diameter, 0.5 * diameter + k_least_floor_radius}) {
     if (auto closing = ClosingArc::between(end, next_turn, least)) return closing;
   }
   return std::nullopt;
@@ -341,16 +350,17 @@ std::optional<ClosingArc> close(const Mechanism& mechanism, const std::vector<Ta
 SideAttempt attempt_side(std::vector<Condition>& conditions, const Mechanism& mechanism, const TakeOffs& take_offs,
                          Turns turns) {
   SideAttempt side{take_offs, take_samples(mechanism, take_offs), std::nullopt, {}};
-  if (!judge(conditions, path_probes(mechanism, take_offs), take_offs, side.samples)) return side;
+  if (!add_probe_conditions(conditions, path_probes(mechanism, take_offs), take_offs, side.samples)) return side;
   const bool exact = mechanism.pulley.method == Method::exact;
   // A polar drawing need not be an envelope: it is drawn as it is, and its error is measured.
-  if (exact && !judge(conditions, curve_probes(mechanism, take_offs), take_offs, side.samples)) return side;
-  if (exact && !judge_lift_offs(conditions, mechanism, take_offs, side)) return side;
+  if (exact && !add_probe_conditions(conditions, curve_probes(mechanism, take_offs), take_offs, side.samples))
+    return side;
+  if (exact && !add_lift_off_conditions(conditions, mechanism, take_offs, side)) return side;
   if (turns == Turns::many) return side;
-  conditions.push_back(one_turn(mechanism, take_offs.side(), side.samples));
+  conditions.push_back(one_turn_condition(mechanism, take_offs.side(), side.samples));
   if (!exact || !conditions.back().ok) return side;
-  side.closing = close(mechanism, side.samples);
-  conditions.push_back(closes(mechanism, take_offs.side(), side));
+  side.closing = closing_arc_of(mechanism, side.samples);
+  conditions.push_back(closing_condition(mechanism, take_offs.side(), side));
   return side;
 }
 
@@ -366,13 +376,13 @@ Attempt attempt(const Mechanism& mechanism, const transmission::Transmission& tr
   Attempt attempt{place_conditions(mechanism), {}};
   if (!attempt.feasible()) return attempt;
   if (mechanism.pulley.law == Law::torque) {
-    attempt.conditions.push_back(torque_holds(mechanism));
+    attempt.conditions.push_back(torque_condition(mechanism));
     if (!attempt.conditions.back().ok) return attempt;
   }
-  attempt.conditions.push_back(dead_centre(transmission));
+  attempt.conditions.push_back(moment_arm_condition(transmission));
   if (!attempt.conditions.back().ok) return attempt;
   if (mechanism.pulley.law == Law::table) {
-    attempt.conditions.push_back(law_grows(mechanism, transmission));
+    attempt.conditions.push_back(growth_condition(mechanism, transmission));
     if (!attempt.conditions.back().ok) return attempt;
   }
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
@@ -401,7 +411,8 @@ std::optional<Condition> failure_at_few_places(const Mechanism& mechanism, const
   return std::nullopt;
 }
 
-std::optional<Condition> first_of(const std::vector<Condition>& conditions) {
+/// The first failed condition; null when all hold.
+std::optional<Condition> first_failed(const std::vector<Condition>& conditions) {
   const auto failed =
       std::find_if(conditions.begin(), conditions.end(), [](const Condition& condition) { return !condition.ok; });
   return failed == conditions.end() ? std::nullopt : std::optional<Condition>(*failed);
@@ -411,20 +422,20 @@ std::optional<Condition> first_of(const std::vector<Condition>& conditions) {
 
 std::optional<Condition> first_failure(const Mechanism& mechanism, const transmission::Transmission& transmission) {
   std::vector<Condition> conditions = place_conditions(mechanism);
-  if (auto failed = first_of(conditions)) return failed;
-  if (mechanism.pulley.law == Law::torque) conditions.push_back(torque_holds(mechanism));
-  if (auto failed = first_of(conditions)) return failed;
-  conditions.push_back(dead_centre(transmission));
+  if (auto failed = first_failed(conditions)) return failed;
+  if (mechanism.pulley.law == Law::torque) conditions.push_back(torque_condition(mechanism));
+  if (auto failed = first_failed(conditions)) return failed;
+  conditions.push_back(moment_arm_condition(transmission));
   if (mechanism.pulley.law == Law::table && conditions.back().ok)
-    conditions.push_back(law_grows(mechanism, transmission));
-  if (auto failed = first_of(conditions)) return failed;
+    conditions.push_back(growth_condition(mechanism, transmission));
+  if (auto failed = first_failed(conditions)) return failed;
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     if (auto failed = failure_at_few_places(mechanism, TakeOffs(transmission, side))) return failed;
   }
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     conditions.clear();
     attempt_side(conditions, mechanism, TakeOffs(transmission, side), Turns::one);
-    if (auto failed = first_of(conditions)) return failed;
+    if (auto failed = first_failed(conditions)) return failed;
   }
   return std::nullopt;
 }
@@ -440,7 +451,7 @@ std::vector<std::string> bend_warnings(const Mechanism& mechanism, const Attempt
     });
     if (tightest->curve.radius >= least) continue;
     warnings.push_back(
-        "P" + number(side) + " bends the tendon to a radius of " + rounded(tightest->curve.radius, 3) + " mm at " +
+        "P" + side_digit(side) + " bends the tendon to a radius of " + rounded(tightest->curve.radius, 3) + " mm at " +
         at_alpha_text(tightest->stroke.alpha) + "; this tendon requires " + rounded(least, 3) +
         " mm or more (tendon.bend_ratio, D/d = " + rounded(mechanism.tendon.bend_ratio, 3) + "): expect wear there");
   }

@@ -21,6 +21,7 @@ struct SideAttempt {
   std::vector<double> straight = {};  ///< ψ at which the active arc is straight because a tendon leaves its drum
 };
 
+/// Outcome of attempt().
 struct Attempt {
   std::vector<Condition> conditions;
   std::array<std::optional<SideAttempt>, 2> sides;  ///< absent when the law itself fails
@@ -28,7 +29,7 @@ struct Attempt {
   bool feasible() const;
 };
 
-/// many: the curves do not close and may have any length.
+/// Limit of turns on a pulley. many: the curves do not close and may have any length.
 enum class Turns { one, many };
 
 /// Tests all conditions, except those that an earlier failure makes meaningless. The result refers to `transmission`.

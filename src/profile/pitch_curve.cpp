@@ -31,6 +31,7 @@ double EnvelopeCurve::radius(double psi) const {
   return is_active(here) ? active_at(here).radius : closing_.radius(here);
 }
 
+// Newton's method for the joint angle with this ψ, within the bracket of both neighbouring samples: dψ/dθ = (dψ/dα)/g.
 CurvePoint EnvelopeCurve::active_at(double psi) const {
   const auto above = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, psi,
                                       [](double value, const TakeOff& sample) { return value < sample.curve.psi; });

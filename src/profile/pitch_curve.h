@@ -43,6 +43,7 @@ class EnvelopeCurve : public PitchCurve {
   std::vector<double> straight_directions() const override { return straight_; }
 
  private:
+  /// `psi` shifted by full turns to the active arc, or the closing arc that follows it.
   double turned(double psi) const;
   bool is_active(double turned) const;
   CurvePoint active_at(double psi) const;

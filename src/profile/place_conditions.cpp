@@ -8,13 +8,10 @@
 namespace fusee::profile {
 namespace {
 
-std::string digit_of(transmission::Side side) { return side == transmission::Side::left ? "1" : "2"; }
-std::string name_of_pin(transmission::Side side) { return side == transmission::Side::left ? "B" : "D"; }
-
 Condition attachment_outside_drum(const Mechanism& mechanism, transmission::Side side) {
   const Joint& joint = mechanism.joint;
   const auto& own = side == transmission::Side::left ? joint.attachment1 : joint.attachment2;
-  const std::string tendon = digit_of(side);
+  const std::string tendon = side_digit(side);
   const std::string key = own ? "joint.attachment" + tendon + "_mm" : "joint.length_mm";
   // Tolerates rounding of a place on the drum in the last digits of a double.
   constexpr double rounding = 1e-9;
@@ -35,18 +32,21 @@ Condition attachment_outside_drum(const Mechanism& mechanism, transmission::Side
 Condition drum_clear_of_pin(const Mechanism& mechanism, transmission::Side side) {
   const transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.seen_pitch_radius());
   Condition condition;
-  condition.name = "drum_clear_of_pin_" + name_of_pin(side);
+  condition.name = "drum_clear_of_pin_" + pin_name(side);
   condition.value = place.pin().norm() - place.drum_offset - mechanism.joint.drum_radius - mechanism.guides.radius;
   condition.unit = "mm";
   condition.ok = condition.value > 0;
   if (!condition.ok) {
-    condition.message = "pin " + name_of_pin(side) + " lies " + rounded(-condition.value, 3) +
+    condition.message = "pin " + pin_name(side) + " lies " + rounded(-condition.value, 3) +
                         " mm inside the drum (joint.drum_radius_mm, guides.radius_mm)";
   }
   return condition;
 }
 
 }  // namespace
+
+std::string side_digit(transmission::Side side) { return side == transmission::Side::left ? "1" : "2"; }
+std::string pin_name(transmission::Side side) { return side == transmission::Side::left ? "B" : "D"; }
 
 std::vector<Condition> place_conditions(const Mechanism& mechanism) {
   std::vector<Condition> conditions;
@@ -64,12 +64,13 @@ double upper_clearance(const transmission::PinPlace& place, double theta, const 
   const Vec2 end = place.R * Vec2(elementary::sin(turned), elementary::cos(turned)),
              at_pin = place.pin() + place.rho * unit(span.normal);
   if (span.on_drum == 0) return distance_to_segment(point, end, at_pin);
-  const Vec2 centre = transmission::drum_centre(place, theta), seen = point - centre;
+  const Vec2 centre = transmission::drum_centre(place, theta), from_centre = point - centre;
   const double clearance = std::min(distance_to_segment(point, end, centre + place.drum * unit(span.end_normal)),
                                     distance_to_segment(point, centre + place.drum * unit(span.normal), at_pin));
-  const double beyond = elementary::atan2(seen.y(), seen.x()) - span.normal;
-  if (beyond - k_two_pi * std::floor(beyond / k_two_pi) > span.on_drum) return clearance;
-  return std::min(clearance, std::abs(seen.norm() - place.drum));
+  // The arc on the drum runs counter-clockwise from the normal of the span to the pin, over the angle `on_drum`.
+  const double from_arc = elementary::atan2(from_centre.y(), from_centre.x()) - span.normal;
+  const bool is_beside_arc = from_arc - k_two_pi * std::floor(from_arc / k_two_pi) <= span.on_drum;
+  return is_beside_arc ? std::min(clearance, std::abs(from_centre.norm() - place.drum)) : clearance;
 }
 
 Vec2 other_pin(const transmission::Transmission& transmission, transmission::Side side) {
@@ -80,19 +81,19 @@ Vec2 other_pin(const transmission::Transmission& transmission, transmission::Sid
 
 std::vector<double> lift_offs(const Mechanism& mechanism, const transmission::Transmission& transmission,
                               transmission::Side side) {
-  std::vector<double> places;
-  for (const transmission::Side of : {transmission::Side::left, transmission::Side::right}) {
-    const auto own = transmission::lift_off(transmission.place(of));
-    if (!own) continue;
-    const double theta = transmission::mirror_sign(of) * *own;
+  std::vector<double> angles;
+  for (const transmission::Side leaving : {transmission::Side::left, transmission::Side::right}) {
+    const auto image_theta = transmission::lift_off(transmission.place(leaving));
+    if (!image_theta) continue;
+    const double theta = transmission::mirror_sign(leaving) * *image_theta;
     if (theta > mechanism.joint.theta_min + k_beside_lift_off && theta < mechanism.joint.theta_max - k_beside_lift_off)
-      places.push_back(transmission::mirror_sign(side) * theta);
+      angles.push_back(transmission::mirror_sign(side) * theta);
   }
-  std::sort(places.begin(), places.end());
-  return places;
+  std::sort(angles.begin(), angles.end());
+  return angles;
 }
 
-double straight_piece(const TakeOffs& take_offs, double image_theta) {
+double straight_length(const TakeOffs& take_offs, double image_theta) {
   return take_offs.at(image_theta + k_beside_lift_off).curve.dh -
          take_offs.at(image_theta - k_beside_lift_off).curve.dh;
 }

@@ -16,11 +16,12 @@ struct PolarPoint {
   double slope = 0;  ///< dr/dangle
 };
 
+/// Direction of the outward normal of a curve r(angle).
 double normal_of(const PolarPoint& point) { return point.angle - elementary::atan2(point.slope, point.r); }
 Vec2 position_of(const PolarPoint& point) { return point.r * unit(point.angle); }
 
-/// The radius at the fraction u of the closing side: a cubic with the radii and slopes of both ends, bounded by the
-/// larger radius.
+/// The radius at the fraction u of the closing side: a cubic with the radii and slopes of both ends. It is bounded by
+/// the larger radius and by 0.8 of the smaller one.
 double closing_radius(const PolarPoint& begin, const PolarPoint& end, double u) {
   const double span = end.angle - begin.angle;
   const double v = 1.0 - u;
@@ -29,7 +30,7 @@ double closing_radius(const PolarPoint& begin, const PolarPoint& end, double u) 
   return std::clamp(cubic, 0.8 * std::min(begin.r, end.r), std::max(begin.r, end.r));
 }
 
-/// The stroke in the image, evenly spaced in the pulley's angle, which is the angle of the drawing.
+/// The active arc of the drawing: the stroke in the image, evenly spaced in the pulley's angle, which is the angle of the drawing.
 std::vector<PolarPoint> active_points(const TakeOffs& take_offs) {
   const transmission::Transmission& transmission = take_offs.transmission();
   const double sign = transmission::mirror_sign(take_offs.side());
@@ -85,9 +86,10 @@ std::vector<HalfPlane> half_planes(const Polygon& hull) {
   return planes;
 }
 
+/// Intersection of the borders of two half planes.
 Vec2 corner_of(const HalfPlane& a, const HalfPlane& b) {
-  const double area = cross(a.normal, b.normal);
-  return (a.limit * -turned_left(b.normal) + b.limit * turned_left(a.normal)) / area;
+  const double sine = cross(a.normal, b.normal);
+  return (a.limit * -turned_left(b.normal) + b.limit * turned_left(a.normal)) / sine;
 }
 
 /// A convex polygon with all edges moved inward. The half planes are sorted by direction; redundant ones are dropped.
@@ -100,9 +102,9 @@ Polygon shrunk(const Polygon& hull, double distance) {
     kept.push_back(plane);
   }
   while (kept.size() > 2 && kept.front().outside(corner_of(kept[kept.size() - 2], kept.back())) >= 0) kept.pop_back();
-  Polygon rest;
-  for (std::size_t i = 0; i < kept.size(); ++i) rest.push_back(corner_of(kept[i], kept[(i + 1) % kept.size()]));
-  return convex_hull(rest);
+  Polygon corners;
+  for (std::size_t i = 0; i < kept.size(); ++i) corners.push_back(corner_of(kept[i], kept[(i + 1) % kept.size()]));
+  return convex_hull(corners);
 }
 
 /// Maximum depth of `points` inside their convex `hull`. Most points are corners of the hull and are skipped.
@@ -146,13 +148,15 @@ Vec2 PolarCurve::position(double psi) const {
 CurvePoint PolarCurve::at(double psi) const {
   constexpr double probe = radians(1.0);
   const Vec2 x = position(psi);
-  // Next to a bridge, the side without it has the curvature.
+  // Difference quotients to both sides, since ρ = |dX/dψ|. One that crosses a bridge is too large, so the smaller
+  // counts.
   const double radius = std::min((position(psi + probe) - x).norm(), (x - position(psi - probe)).norm()) / probe;
   return {psi, x.dot(unit(psi)), x.dot(turned_left(unit(psi))), radius};
 }
 
 std::vector<double> PolarCurve::straight_directions() const {
   std::vector<double> directions;
+  // Edges much longer than the spacing of the drawn points are bridges.
   const double long_edge = 20.0 * perimeter(core_) / k_points;
   for (std::size_t i = 0; i < core_.size(); ++i) {
     const double length = (core_[(i + 1) % core_.size()] - core_[i]).norm();

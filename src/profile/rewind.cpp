@@ -101,24 +101,26 @@ class String {
   double girth_ = 0;
   double home_length_ = 0;
   double hand_;
-  double half_;
+  double half_;  ///< half the string's thickness, mm
   StringAbove above_;
 
   double alpha_ = 0;
-  std::size_t corner_ = 0;
-  double normal_ = 0;  ///< normal of the lower span in the pulley's frame, turns counted
-  double span_ = 0;
+  std::size_t corner_ = 0;  ///< that the lower span touches
+  double normal_ = 0;       ///< normal of the lower span in the pulley's frame, turns counted
+  double span_ = 0;         ///< length of the lower span, mm
   bool started_ = false;
 };
 
 /// The joint angle at which the string has its length at home. The length increases with θ on the left and decreases on
 /// the right up to the dead centre, so the bracket starts narrow.
 double taut_theta(const String& string, double alpha, double guess) {
+  constexpr double k_first_reach = 0.005, k_last_reach = 0.7;  // rad
+  constexpr int k_bisections = 52;                             // to the last bit of a double
   const auto growing = [&string](double theta) { return -string.hand() * string.excess(theta); };
-  double reach = 0.005;
+  double reach = k_first_reach;
   while (!(growing(guess - reach) < 0 && growing(guess + reach) > 0)) {
     reach *= 2;
-    if (reach > 0.7) {
+    if (reach > k_last_reach) {
       throw InputError("",
                        "no joint angle near the declared one makes " + string.name() +
                            " taut at α = " + rounded(degrees(alpha), 4) + "°",
@@ -127,13 +129,14 @@ double taut_theta(const String& string, double alpha, double guess) {
   }
   double low = guess - reach;
   double high = guess + reach;
-  for (int i = 0; i < 52; ++i) {
+  for (int i = 0; i < k_bisections; ++i) {
     const double middle = 0.5 * (low + high);
     (growing(middle) < 0 ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
 
+/// The target motion. Throws InputError when it has a dead centre within the range.
 transmission::Transmission law_without_dead_centre(const Mechanism& mechanism) {
   transmission::Transmission declared(mechanism);
   if (const auto dead = declared.dead_centre()) {

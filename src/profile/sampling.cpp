@@ -36,7 +36,8 @@ double allowed_turn(const PitchCurve& left, const PitchCurve& right, double psi,
   return std::min(options.largest_turn, std::max(of_an_arc, of_a_straight));
 }
 
-/// Upper bound on the chords of both curves and their parallels.
+/// Upper bound on the length of all chords of both curves and their parallels, with room for points between the sampled
+/// ones.
 double longest_chord(const PitchCurve& left, const PitchCurve& right, const SamplingOptions& options) {
   constexpr int k_directions = 64;
   double furthest = 0;
@@ -47,11 +48,12 @@ double longest_chord(const PitchCurve& left, const PitchCurve& right, const Samp
   return 4.0 * furthest + 2.0 * options.reach;
 }
 
-/// Loss of tolerance by rounding to a mesh's floats at distance `reach`. Within a quarter of a metre it is below a
-/// reserve.
+/// Part of the tolerance that is kept for rounding to a mesh's floats at distance `reach` from the axis. Rounding moves
+/// x and y by up to reach · 2⁻²⁴ each. The first 1e-5 mm of it, all on a pulley of up to a quarter of a metre, need no
+/// reduction.
 double tolerance_lost_to_floats(double reach, double chord_error_mm) {
-  constexpr double k_left_for_it = 1e-5;
-  return std::clamp(reach * 0x1p-24 * std::sqrt(2.0) - k_left_for_it, 0.0, 0.5 * chord_error_mm);
+  constexpr double k_ignored = 1e-5;
+  return std::clamp(reach * 0x1p-24 * std::sqrt(2.0) - k_ignored, 0.0, 0.5 * chord_error_mm);
 }
 
 /// Appends directions from `begin` to `end` (exclusive) with the density that the tolerance requires.
@@ -104,6 +106,7 @@ Pair pair_at(const PitchCurve& left, const PitchCurve& right, double psi) {
   return {outline_point(mirrored(left, psi)), outline_point(right.at(psi))};
 }
 
+/// Index of the point whose direction is nearest to ψ.
 std::size_t nearest(const std::vector<Pair>& points, double psi) {
   const double first = points.front().psi(), wanted = turned_into(first, psi);
   const auto above = std::lower_bound(points.begin(), points.end(), wanted,
@@ -119,6 +122,7 @@ std::size_t nearest(const std::vector<Pair>& points, double psi) {
 void halve_coarse_chords(std::vector<Pair>& points, const PitchCurve& left, const PitchCurve& right, double longest,
                          const SamplingOptions& options) {
   constexpr int k_halvings = 12;
+  // longest_chord() is about four times the distance of the outermost point from the axis.
   const double reach = 0.25 * longest, finest = std::min(k_finest_turn, 2.0 * k_shortest_half / reach);
   const Pair end = pair_at(left, right, points.front().psi() + k_two_pi);
   for (int pass = 0; pass < k_halvings; ++pass) {
@@ -141,9 +145,9 @@ void halve_coarse_chords(std::vector<Pair>& points, const PitchCurve& left, cons
 }  // namespace
 
 std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, const SamplingOptions& requested) {
-  const std::array<double, 4> ends{right.active_begin(), right.active_end(), k_pi - left.active_end(),
-                                   k_pi - left.active_begin()};
-  std::vector<double> wanted(ends.begin(), ends.end());
+  const double right_first = right.active_begin(), right_last = right.active_end();
+  const double left_first = k_pi - left.active_end(), left_last = k_pi - left.active_begin();
+  std::vector<double> wanted{right_first, right_last, left_first, left_last};
   for (const double psi : right.straight_directions())
     wanted.insert(wanted.end(), {psi - k_smallest_turn, psi + k_smallest_turn});
   for (const double psi : left.straight_directions()) {
@@ -166,8 +170,8 @@ std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, c
   halve_coarse_chords(points, left, right, longest, options);
 
   std::array<Outline, 2> outlines;
-  outlines[0] = {transmission::Side::left, {}, nearest(points, ends[2]), nearest(points, ends[3])};
-  outlines[1] = {transmission::Side::right, {}, nearest(points, ends[0]), nearest(points, ends[1])};
+  outlines[0] = {transmission::Side::left, {}, nearest(points, left_first), nearest(points, left_last)};
+  outlines[1] = {transmission::Side::right, {}, nearest(points, right_first), nearest(points, right_last)};
   for (const Pair& point : points) {
     outlines[0].points.push_back(point.left);
     outlines[1].points.push_back(point.right);

@@ -16,7 +16,7 @@ struct SamplingOptions {
   double largest_turn = radians(2.0);
 };
 
-/// P1 (from its right-hand image `left`) and P2.
+/// Outlines of P1 and P2. `left` is P1's curve in its right-hand image.
 std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, const SamplingOptions& options);
 
 }  // namespace fusee::profile

@@ -69,7 +69,7 @@ double StringAbove::lower_span(const Vec2& guide, const Vec2& corner) const {
 }
 
 /// The line that touches two discs, or a disc and a point, with the string on their outer side.
-StringAbove::Piece StringAbove::from_pin_to(const Vec2& centre, double radius) const {
+StringAbove::Span StringAbove::from_pin_to(const Vec2& centre, double radius) const {
   const Vec2 away = centre - pin_;
   const double distance = away.norm(), larger = rho_ - radius;
   return {direction(away) - hand_ * elementary::acos(std::clamp(larger / distance, -1.0, 1.0)),
@@ -78,7 +78,7 @@ StringAbove::Piece StringAbove::from_pin_to(const Vec2& centre, double radius) c
 
 double StringAbove::length(double theta, double lower_normal) const {
   const Vec2 end = with_link(end_, theta);
-  Piece up = from_pin_to(end, 0.0);
+  Span up = from_pin_to(end, 0.0);
   const double wound = drum_ > 0 ? wound_on_drum(theta) : 0.0;
   if (wound > 0) {
     const Vec2 centre = with_link(drum_centre_, theta);
@@ -87,7 +87,8 @@ double StringAbove::length(double theta, double lower_normal) const {
     up.length += drum_ * wound + std::sqrt(std::max(0.0, (away - drum_) * (away + drum_)));
   }
   // The string enters a sheath straight down from the pin's outer side; its length inside is constant.
-  const double below = !sheathed_ ? lower_normal : hand_ > 0 ? 0.0 : k_pi;
+  const double normal_into_sheath = hand_ > 0 ? 0.0 : k_pi;
+  const double below = sheathed_ ? normal_into_sheath : lower_normal;
   const double wrap = turned_near(hand_ * (up.normal - below), 0.5 * k_pi);
   return rho_ * wrap + up.length;
 }
@@ -96,8 +97,8 @@ double StringAbove::length(double theta, double lower_normal) const {
 /// counted from straight below O in the winding sense, since at home the string lies on the drum's outer side.
 double StringAbove::wound_on_drum(double theta) const {
   const auto counted = [this](double angle) {
-    const double own = hand_ > 0 ? angle : k_pi - angle;
-    return turned_near(own, 0.5 * k_pi);
+    const double mirrored = hand_ > 0 ? angle : k_pi - angle;
+    return turned_near(mirrored, 0.5 * k_pi);
   };
   const Vec2 from_centre = end_ - drum_centre_;
   const double tangent =

@@ -35,16 +35,17 @@ class StringAbove {
   bool is_sheathed() const { return sheathed_; }
 
  private:
-  struct Piece {
+  /// A straight span between two points of tangency.
+  struct Span {
     double normal = 0;  ///< outward, rad
     double length = 0;
   };
-  Piece from_pin_to(const Vec2& centre, double radius) const;
+  Span from_pin_to(const Vec2& centre, double radius) const;
   double wound_on_drum(double theta) const;
 
   double hand_;
-  double half_;
-  double rho_;
+  double half_;  ///< half the string's thickness, mm
+  double rho_;   ///< radius of the pin to the string's centre line, mm
   bool sheathed_;
   Vec2 end_;          ///< in the link at home
   double drum_;       ///< radius to the string's centre line; 0: none

@@ -14,15 +14,15 @@ namespace {
 /// Distance from a pitch curve to the body's outermost parallel curve: the groove edge and a margin.
 double flange_reach(const Mechanism& mechanism) { return mechanism.groove_depth() + mechanism.tendon.diameter; }
 
-/// A chord with turn δ is shorter than its arc by δ²/24. For pulleys about as large as the joint's drum the joint angle
-/// has the same relative error, so chords are shorter over a wide range, for 0.0015° at its end. Plain joints turn
-/// less, because their levers exceed their pulleys.
+/// Largest turn of a chord. A chord with turn δ is shorter than its arc by the fraction δ²/24. If a pulley is about as
+/// large as the joint's drum, the joint angle has the same relative error, up to 0.0015° at the end of the range. Plain
+/// joints turn less, because their levers exceed their pulleys.
 double largest_turn(const Mechanism& mechanism) {
-  constexpr double k_lost = radians(0.0015);
+  constexpr double k_theta_error = radians(0.0015);
   const double usual = SamplingOptions{}.largest_turn;
   if (mechanism.joint.is_plain()) return usual;
   const double furthest = std::max(-mechanism.joint.theta_min, mechanism.joint.theta_max);
-  return std::min(usual, std::sqrt(24.0 * k_lost / furthest));
+  return std::min(usual, std::sqrt(24.0 * k_theta_error / furthest));
 }
 
 bool is_feasible(const Mechanism& mechanism) {
@@ -34,7 +34,8 @@ std::unique_ptr<PitchCurve> pitch_curve(const Mechanism& mechanism, const SideAt
   if (mechanism.pulley.method == Method::exact)
     return std::make_unique<EnvelopeCurve>(side.take_offs, side.samples, *side.closing, side.straight);
   auto polar = std::make_unique<PolarCurve>(mechanism, side.take_offs);
-  if (polar->deepest_hollow() > 0.01) {
+  constexpr double k_noted_hollow = 0.01;  // mm
+  if (polar->deepest_hollow() > k_noted_hollow) {
     warnings.push_back("the polar drawing of " + std::string(transmission::pulley_name(side.take_offs.side())) +
                        " is hollow by up to " + rounded(polar->deepest_hollow(), 3) +
                        " mm: the tendon bridges it, and the groove is made as the bridge");

@@ -3,7 +3,6 @@
 ///
 /// Up to the sampled outline, this module works in the right-hand image of the tendon, in the pulley's frame. P1 is the
 /// mirror image (x → −x, α → −α, θ → −θ) of the curve computed for it.
-/// frame: P1 is the mirror image (x → −x, α → −α, θ → −θ) of what is computed here for it.
 #pragma once
 
 #include "fusee/transmission.h"
@@ -20,6 +19,7 @@ struct CurvePoint {
   Vec2 position() const { return h * unit(psi) + dh * turned_left(unit(psi)); }
 };
 
+/// The take-off point at one point of the stroke.
 struct TakeOff {
   transmission::TransmissionPoint stroke;  ///< of the mechanism itself, not of its image
   CurvePoint curve;                        ///< in the image

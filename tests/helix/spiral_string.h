@@ -9,6 +9,7 @@
 
 namespace fusee::helix {
 
+/// Length and slopes of a string at one place of the stroke.
 struct StringLength {
   double total = 0;  ///< wound and free length together, up to a constant, mm
   double slope = 0;  ///< slope of the free path, rad

@@ -38,10 +38,11 @@ const HelixSide& side_of(const HelixSynthesis& made, transmission::Side side) {
 }
 
 struct Variation {
-  double length = 0, fleet = 0;
+  double length = 0;  ///< of the string's length over the stroke, mm
+  double fleet = 0;   ///< largest difference of the fleet angles of string and synthesis, rad
 };
 
-/// Variation of a string's length over the stroke, with α of the law and θ of the synthesis.
+/// Winds a string at every third point of the synthesised stroke.
 Variation variation_of(const Mechanism& m, const HelixSynthesis& made, transmission::Side side) {
   const HelixSide& helix = made.sides[side == transmission::Side::left ? 0 : 1];
   double least = 1e300, most = -1e300;
@@ -64,6 +65,7 @@ std::string failures(const HelixSynthesis& made) {
   return text;
 }
 
+/// Expects strings of constant length, up to `limit` (mm), with the reported fleet angles.
 void expect_closed(const Mechanism& m, double limit = 0.0002) {
   const HelixSynthesis made = synthesise_helix(m, groove(), {.chord_error_mm = 1e-5});
   ASSERT_TRUE(made.made()) << failures(made);
@@ -127,7 +129,7 @@ TEST(HelixSynthesis, KeepsSlopeAndDistanceOfTurns) {
       EXPECT_NEAR(b.z - a.z, spiral.slope * (b.s - a.s), 1e-9);
       chords += std::hypot(b.x - a.x, b.y - a.y);
       while (spiral.rows[below].turn < b.turn - k_two_pi) ++below;
-      // The first row within one turn below, slightly less than one lead away.
+      // The first row within one turn below is slightly less than one lead away. groove() requires at least 2 mm.
       if (below > 0) {
         EXPECT_GT(b.z - spiral.rows[below].z, 2.0 - 0.1);
       }

@@ -20,21 +20,21 @@ struct Routes {
   RubbedChain chain;
   RubbingCable cable;
   double driven = 0, load = 0;
-  double chain_at = 0, cable_at = 0;
+  double chain_at = 0, cable_at = 0;  ///< joint angles, rad
 
   /// The largest difference along the path.
   double to(double driven_to, double load_to) {
     constexpr int steps = 40;
-    double parted = 0;
+    double difference = 0;
     const double driven_from = driven, load_from = load;
     for (int i = 1; i <= steps; ++i) {
       driven = driven_from + (driven_to - driven_from) * i / steps;
       load = load_from + (load_to - load_from) * i / steps;
       chain_at = chain.to(driven, load);
       cable_at = cable.to(driven, load);
-      parted = std::max(parted, std::abs(chain_at - cable_at));
+      difference = std::max(difference, std::abs(chain_at - cable_at));
     }
-    return parted;
+    return difference;
   }
 };
 
@@ -71,18 +71,18 @@ TEST(RubbingCable, AgreesWithChainAfterReversal) {
 }
 
 TEST(RubbingCable, AgreesWithCapstan) {
-  constexpr double turned = 0.2, load = 3;  // μφ of the whole cable
+  constexpr double exponent = 0.2, load = 3;  // exponent: μφ of the whole cable
   RatioJointError joint;
   joint.compliance = 1;
-  joint.friction.share = turned / 2;
-  Routes routes{RubbedChain(turned, 0), RubbingCable(joint, 0)};
+  joint.friction.share = exponent / 2;
+  Routes routes{RubbedChain(exponent, 0), RubbingCable(joint, 0)};
   routes.to(0, load);
   routes.to(4, load);
   const double chain_up = routes.chain_at, cable_up = routes.cable_at;
   routes.to(0, load);
   const double chain_width = routes.chain_at - chain_up + 4, cable_width = routes.cable_at - cable_up + 4;
   // The chain has e^±μφ, the cable 1 ± μφ: the widths differ by (μφ)²/6 of the width.
-  EXPECT_NEAR(cable_width, turned * load, 1e-12);
+  EXPECT_NEAR(cable_width, exponent * load, 1e-12);
   EXPECT_NEAR(chain_width, cable_width, 0.02 * cable_width);
 }
 
@@ -96,12 +96,12 @@ TEST(RubbingCable, HysteresisShrinksWithStiffness) {
     const double up = 5 - cable.to(5, load), down = -5 - cable.to(-5, load);
     return up - down;
   };
-  // Waves straighten by 0.2 x/(1 + x) with x = 2 · pull. Eight contacts hold by 0.0125 to 0.1875.
+  // Waves straighten by 0.2 x/(1 + x) with x = 2 · pull. Eight contacts have a friction of 0.0125 to 0.1875.
   const auto deflection = [](double pull) { return 0.5 * pull + 0.2 * (1 - 1 / (1 + 2 * pull)); };
   double mean = 0;
   for (int i = 0; i < 8; ++i) {
-    const double held = 0.1 * (2 * i + 1) / 8;
-    mean += (deflection(1 + held) - deflection(1 - held)) / 8;
+    const double friction = 0.1 * (2 * i + 1) / 8;
+    mean += (deflection(1 + friction) - deflection(1 - friction)) / 8;
   }
   EXPECT_NEAR(width(1), mean, 1e-12);
   EXPECT_GT(width(0.3), 1.3 * width(3));
@@ -117,6 +117,7 @@ TEST(RubbingCable, IsElasticWithoutFriction) {
 
 // ---- tendons --------------------------------------------------------------------------------------------------------
 
+/// Without friction at the pins and without sliding in the groove.
 JointModel wavy(CableStiffening waves) {
   Mechanism mechanism = forearm();
   mechanism.guides.mu = 0;
@@ -162,7 +163,7 @@ TEST(WavyTendon, StiffensWithTension) {
 }
 
 TEST(WavyTendon, ConservesEnergy) {
-  const auto missing = [](const JointModel& model) {
+  const auto missing_work = [](const JointModel& model) {
     const std::vector<EquilibriumPoint> points = loaded(model, 8, 1000);
     double load = 0;
     for (std::size_t i = 1; i < points.size(); ++i)
@@ -171,7 +172,7 @@ TEST(WavyTendon, ConservesEnergy) {
   };
   const double stored = k_waves.energy(loaded(wavy(k_waves), 8, 20).back().t2.upper);
   EXPECT_GT(stored, 0.1);
-  EXPECT_LT(std::abs(missing(wavy(k_waves)) - missing(wavy({}))), 1e-3 * stored);
+  EXPECT_LT(std::abs(missing_work(wavy(k_waves)) - missing_work(wavy({}))), 1e-3 * stored);
 }
 
 TEST(WavyTendon, KeepsHome) { EXPECT_NEAR(loaded(wavy(k_waves), 0, 3).back().theta, 0, 1e-12); }

@@ -17,9 +17,9 @@ namespace fusee::joint {
 namespace {
 
 struct UpperLine {
-  double free = 0;
-  double normal = 0;
-  double arm = 0;
+  double free = 0;    ///< mm
+  double normal = 0;  ///< direction of the outward normal, rad
+  double arm = 0;     ///< moment arm about the joint, mm
 };
 
 /// Tangent from C to the outer side of the pin, by vectors.
@@ -42,8 +42,8 @@ UpperLine upper_line(double R, double theta, const Vec2& pin, double rho) {
 
 /// A tendon below its pin, in its right-hand image: from the pin's tangent point to the contact on the pulley.
 struct LowerPart {
-  double reach = 0;
-  double normal = 0;
+  double reach = 0;   ///< mm
+  double normal = 0;  ///< direction of the outward normal, rad
 };
 
 /// The contact is the intersection of neighbouring lines in the pulley's frame.
@@ -113,7 +113,7 @@ class Chain {
     first_ = last_ = index_above(lower_.normal);
     fit(pieces_, first_, last_, inputs_.upper(0.0), lower_);
     for (Piece& piece : pieces_) piece.material = piece.length / (1.0 + home_tension / inputs_.EA);
-    pile_density_ = 1.0 / (1.0 + home_tension / inputs_.EA);
+    home_density_ = 1.0 / (1.0 + home_tension / inputs_.EA);
   }
 
   /// Turns the pulley; θ is not known yet.
@@ -124,9 +124,9 @@ class Chain {
   }
 
   struct Pull {
-    double upper = 0;
+    double upper = 0;  ///< tensions, N
     double lower = 0;
-    double torque = 0;
+    double torque = 0;  ///< on the joint, N·mm
   };
 
   Pull pull(double image_theta, bool keep = false) {
@@ -141,7 +141,7 @@ class Chain {
     const Pull result{tension(pieces.back(), inputs_.EA), tension(pieces.front(), inputs_.EA),
                       tension(pieces.back(), inputs_.EA) * upper.arm};
     if (keep) {
-      move_pile(result.lower);
+      move_wound(result.lower);
       if (winding_ > 0) {
         pieces.front().length -= winding_;
         pieces.front().material -= winding_ / (1.0 + result.lower / inputs_.EA);
@@ -257,25 +257,25 @@ class Chain {
   double paid_out() const {
     double remaining = -winding_;
     double material = 0;
-    for (auto piece = pile_.rbegin(); piece != pile_.rend() && remaining > 0; ++piece) {
+    for (auto piece = wound_.rbegin(); piece != wound_.rend() && remaining > 0; ++piece) {
       const double arc = std::min(remaining, piece->arc);
       material += arc * piece->density;
       remaining -= arc;
     }
-    return material + remaining * pile_density_;
+    return material + remaining * home_density_;
   }
 
-  void move_pile(double lower_tension) {
+  void move_wound(double lower_tension) {
     if (winding_ >= 0) {
-      pile_.push_back({winding_, 1.0 / (1.0 + lower_tension / inputs_.EA)});
+      wound_.push_back({winding_, 1.0 / (1.0 + lower_tension / inputs_.EA)});
       return;
     }
     double remaining = -winding_;
-    while (!pile_.empty() && remaining > 0) {
-      const double arc = std::min(remaining, pile_.back().arc);
-      pile_.back().arc -= arc;
+    while (!wound_.empty() && remaining > 0) {
+      const double arc = std::min(remaining, wound_.back().arc);
+      wound_.back().arc -= arc;
       remaining -= arc;
-      if (pile_.back().arc <= 0) pile_.pop_back();
+      if (wound_.back().arc <= 0) wound_.pop_back();
     }
   }
 
@@ -286,8 +286,8 @@ class Chain {
   std::size_t first_, last_;   ///< first and last rim points that the tendon touches
   LowerPart lower_, next_;
   double alpha_ = 0, alpha_next_ = 0, winding_ = 0;
-  std::vector<WoundPiece> pile_;
-  double pile_density_ = 1;
+  std::vector<WoundPiece> wound_;  ///< on the pulley, last wound last
+  double home_density_ = 1;        ///< of the tendon that was wound before
 };
 
 /// A tendon without friction on its pin, in its right-hand image: elements of equal material from the knot on, each
@@ -413,8 +413,8 @@ struct SimulatedState {
 };
 
 struct Row {
-  double alpha = 0;
-  double load = 0;  ///< torque
+  double alpha = 0;  ///< rad
+  double load = 0;   ///< torque, N·mm
 };
 
 /// Moves from home through `rows`.
@@ -485,8 +485,8 @@ Disagreement disagreement(const Mechanism& mechanism, const std::vector<Row>& ro
   const transmission::Transmission law(mechanism);
   double theta = 0;
   double deviation = 0;
-  double off = 0;
-  double most = 0;
+  double tension_difference = 0;
+  double largest_tension = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const EquilibriumPoint at = motion.to({rows[i].alpha, 0.0, rows[i].load});
     theta = std::max(theta, std::abs(at.theta - other[i].theta));
@@ -495,11 +495,11 @@ Disagreement disagreement(const Mechanism& mechanism, const std::vector<Row>& ro
                                        {at.t1.lower, other[i].t1.lower},
                                        {at.t2.upper, other[i].t2.upper},
                                        {at.t2.lower, other[i].t2.lower}}) {
-      off = std::max(off, std::abs(ours - theirs));
-      most = std::max(most, ours);
+      tension_difference = std::max(tension_difference, std::abs(ours - theirs));
+      largest_tension = std::max(largest_tension, ours);
     }
   }
-  return {theta / deviation, off / most};
+  return {theta / deviation, tension_difference / largest_tension};
 }
 
 Disagreement from_chain(const Mechanism& mechanism, double load, int steps, int points) {
@@ -534,7 +534,7 @@ TEST(Chain, AgreesWithFriction) {
 // The wound tendon as 500 moving elements, each kept within the bounds of the capstan law: no profile by place, no cut
 // pieces, no equivalent spans.
 TEST(Elements, AgreeWithGrooveSliding) {
-  // Measured: 1.3e-4, 5.3e-4, 5.8e-4 of the deviation.
+  // Measured differences: 1.3e-4, 5.3e-4 and 5.8e-4 of the deviation, for these coefficients.
   const std::vector<double> all{0.05, 0.2, 0.5}, one{0.2};
   for (const double friction : std::getenv("FUSEE_LONG_TESTS") != nullptr ? all : one) {
     Mechanism mechanism = rubbery(2.0, 0.0);
@@ -543,9 +543,9 @@ TEST(Elements, AgreeWithGrooveSliding) {
     for (int i = 1; i <= 20; ++i) rows.push_back({0.0, 500.0 - 50.0 * i});  // to −500 N·mm
     for (const Row& row : up_and_down(mechanism, -500.0, 20)) rows.push_back(row);
     const std::vector<SimulatedState> elements = simulate<Elements>(mechanism, rows, 500);
-    const Disagreement off = disagreement(mechanism, rows, elements);
-    EXPECT_LT(off.theta, 1e-3) << friction;
-    EXPECT_LT(off.tension, 2e-4) << friction;
+    const Disagreement difference = disagreement(mechanism, rows, elements);
+    EXPECT_LT(difference.theta, 1e-3) << friction;
+    EXPECT_LT(difference.tension, 2e-4) << friction;
     // Another friction coefficient must be detected.
     mechanism.pulley.mu = friction + 0.15;
     EXPECT_GT(disagreement(mechanism, rows, elements).theta, 1e-2) << friction;

@@ -56,13 +56,13 @@ class StringInLinks {
   double relax(std::size_t i, double takes_off) {
     const double low = knots_[i - 1], here = knots_[i], high = knots_[i + 1];
     const double from = std::max(behind_, 0.5 * (low + here)), to = std::min(takes_off, 0.5 * (here + high));
-    const double holds = std::exp(friction_ * std::max(0.0, to - from) / drum_);
+    const double limit = std::exp(friction_ * std::max(0.0, to - from) / drum_);
     const double below = here - low - link_, above = high - here - link_;
     double ratio = 0;  // above to below
-    if (above > below * holds)
-      ratio = holds;
-    else if (below > above * holds)
-      ratio = 1.0 / holds;
+    if (above > below * limit)
+      ratio = limit;
+    else if (below > above * limit)
+      ratio = 1.0 / limit;
     else
       return 0;
     knots_[i] = (high - link_ + ratio * (low + link_)) / (1.0 + ratio);
@@ -199,7 +199,7 @@ TEST(DrumFriction, ConvergesToFrictionless) {
 
 // The model moves from the unloaded to the loaded joint. The change of θ must agree with [d3] of the paper's formulas.
 TEST(DrumFriction, AgreesWithPaperForces) {
-  double spared = 0;
+  double reduction = 0;  // of the error by friction on the drum
   for (const double friction : {0.0, 0.3}) {
     Mechanism mechanism = rubbing(testing::finger(), friction, 1e6);
     mechanism.tendon.pretension = 0;
@@ -216,11 +216,13 @@ TEST(DrumFriction, AgreesWithPaperForces) {
     // they coincide.
     EXPECT_NEAR(unloaded - loaded.theta, forces.theta_error, 2e-3 * forces.theta_error) << friction;
     const double wrap =
-        transmission::upper_span(transmission::pin_place(mechanism, transmission::Side::right, 1.3), at.theta).on_drum;
+        transmission::upper_span(
+            transmission::pin_place(mechanism, transmission::Side::right, mechanism.guide_pitch_radius()), at.theta)
+            .on_drum;
     EXPECT_NEAR(loaded.t2.end, forces.T2 * std::exp(-friction * wrap), 1e-3 * forces.T2);
-    spared = friction == 0 ? forces.theta_error : spared - forces.theta_error;
+    reduction = friction == 0 ? forces.theta_error : reduction - forces.theta_error;
     if (friction > 0) {
-      EXPECT_GT(spared, 0.01 * forces.theta_error);
+      EXPECT_GT(reduction, 0.01 * forces.theta_error);
     }
   }
 }
@@ -230,17 +232,17 @@ TEST(DrumFriction, ConservesEnergy) {
     const Mechanism mechanism = rubbing(joint, 0.25, 3000.0);
     const transmission::Transmission law(mechanism);
     const auto missing = [&](int steps, double* lost) {
-      std::vector<JointStep> way;
+      std::vector<JointStep> path;
       const auto run = [&](double from, double to) {
         for (int i = 0; i <= steps; ++i) {
-          const double part = double(i) / steps;
-          way.push_back({std::lerp(from, to, part), 6.0 + 4.0 * std::sin(9.0 * part), 0.0});
+          const double share = double(i) / steps;
+          path.push_back({std::lerp(from, to, share), 6.0 + 4.0 * std::sin(9.0 * share), 0.0});
         }
       };
       run(0.0, law.alpha_max());
       run(law.alpha_max(), law.alpha_min());
       run(law.alpha_min(), law.alpha_max());
-      const auto points = follow(joint_model(mechanism), way);
+      const auto points = follow(joint_model(mechanism), path);
       double motor = 0, load = 0;
       for (std::size_t i = 1; i < points.size(); ++i) {
         const EquilibriumPoint &a = points[i - 1], &b = points[i];

@@ -36,6 +36,7 @@ std::vector<JointStep> cycles(const Mechanism& mechanism, const Sweep& sweep) {
   return steps;
 }
 
+/// Pretension in N, friction at the pins, modulus in MPa.
 Mechanism with(Mechanism mechanism, double pretension, double friction, double modulus = 40000.0) {
   mechanism.tendon.pretension = pretension;
   mechanism.guides.mu = friction;
@@ -43,8 +44,8 @@ Mechanism with(Mechanism mechanism, double pretension, double friction, double m
   return mechanism;
 }
 
-/// Keeps the wound tendon as it was wound.
-Mechanism held(Mechanism mechanism) {
+/// With infinite groove friction: the wound tendon stays as it was wound.
+Mechanism without_groove_sliding(Mechanism mechanism) {
   mechanism.pulley.mu = 1e12;
   return mechanism;
 }
@@ -52,14 +53,15 @@ Mechanism held(Mechanism mechanism) {
 /// EA of a tendon 1 mm thick in N → its modulus.
 double modulus_of(double EA) { return EA / (k_pi / 4); }
 
-double miss(const Mechanism& mechanism, const EquilibriumPoint& point) {
+/// Deviation of θ from the law.
+double error_of(const Mechanism& mechanism, const EquilibriumPoint& point) {
   return point.theta - transmission::Transmission(mechanism).theta(point.alpha);
 }
 
-double largest_miss(const Mechanism& mechanism, const Sweep& sweep) {
+double largest_error(const Mechanism& mechanism, const Sweep& sweep) {
   double largest = 0;
   for (const EquilibriumPoint& point : follow(joint_model(mechanism), cycles(mechanism, sweep))) {
-    largest = std::max(largest, std::abs(miss(mechanism, point)));
+    largest = std::max(largest, std::abs(error_of(mechanism, point)));
   }
   return largest;
 }
@@ -68,7 +70,7 @@ double largest_miss(const Mechanism& mechanism, const Sweep& sweep) {
 
 TEST(Equilibrium, FollowsKinematicsWithoutTension) {
   for (const Mechanism& start : {reference(), forearm(), linear_wrist(), unsymmetric()}) {
-    EXPECT_LT(largest_miss(with(start, 0.0, 0.0), {}), 1e-12);
+    EXPECT_LT(largest_error(with(start, 0.0, 0.0), {}), 1e-12);
   }
 }
 
@@ -109,7 +111,7 @@ TEST(Equilibrium, AgreesWithPaperErrorForStiffTendons) {
   // however, ends at the contact on the pulley, not at the foot of the axis' perpendicular.
   double previous = 0;
   for (const double modulus : {1e5, 1e6, 1e7}) {
-    Mechanism mechanism = held(with(reference(), 0.0, 0.0, modulus));
+    Mechanism mechanism = without_groove_sliding(with(reference(), 0.0, 0.0, modulus));
     double worst = 0;
     const transmission::Transmission transmission(mechanism);
     for (const double alpha : {-1.2, -0.4, 0.3, 1.1}) {
@@ -133,8 +135,10 @@ TEST(Equilibrium, AgreesWithPaperErrorForStiffTendons) {
 
 TEST(Equilibrium, PretensionDeflectsSoftJoint) {
   // The tensions must follow r2/r1: T1 m1 = T2 m2. The deviation is proportional to 1/EA.
-  const double soft = degrees(largest_miss(held(with(reference(), 5.0, 0.0, modulus_of(850.0))), {}));
-  const double stiff = degrees(largest_miss(held(with(reference(), 5.0, 0.0, modulus_of(31000.0))), {}));
+  const double soft =
+      degrees(largest_error(without_groove_sliding(with(reference(), 5.0, 0.0, modulus_of(850.0))), {}));
+  const double stiff =
+      degrees(largest_error(without_groove_sliding(with(reference(), 5.0, 0.0, modulus_of(31000.0))), {}));
   EXPECT_NEAR(soft, 0.0603, 0.0005);
   EXPECT_NEAR(stiff, 0.00165, 0.00005);
 }
@@ -178,6 +182,8 @@ TEST(Equilibrium, MotorTorqueSatisfiesVirtualWork) {
   }
 }
 
+/// Work of the motor that is neither done on the load, nor stored, nor lost to friction. `scale`: the energy that is
+/// stored or lost. N·mm
 double work_missing(const Mechanism& mechanism, const Sweep& sweep, double* scale) {
   const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), cycles(mechanism, sweep));
   double motor = 0;
@@ -232,7 +238,7 @@ TEST(Equilibrium, SettlesWithinFewCycles) {
 
 TEST(Equilibrium, KeepsWindingStrainWithInfiniteFriction) {
   // Reference values from an earlier program with this law only (revision e00f5d6): α, θ, both lower tensions.
-  const Mechanism mechanism = held(with(forearm(), 30.0, 0.2, 2000.0));
+  const Mechanism mechanism = without_groove_sliding(with(forearm(), 30.0, 0.2, 2000.0));
   constexpr double known[][4] = {{0.69399114539754003, 0.15206748476903986, 18.21244269357458, 43.00670895234289},
                                  {2.0819734361926203, 0.50124138588770351, 16.499896775795161, 42.502544547160888},
                                  {0.6961126139620808, 0.16446985682664739, 30.914199778682587, 29.387527525903803},
@@ -266,7 +272,7 @@ TEST(Equilibrium, IsOneSpringWithoutFriction) {
     const double sign = i == 0 ? -1 : 1;
     const LowerPath low = model.lower(alpha)[i];
     const transmission::UpperSpan up = transmission::upper_span(model.pins[i], sign * theta);
-    const double knot = model.lower(i == 0 ? model.alpha_most : model.alpha_least)[i].wound - 5.0;
+    const double knot = model.lower(i == 0 ? model.alpha_most : model.alpha_least)[i].wound - k_arc_to_knot;
     return up.free + model.pins[i].rho * (up.normal - low.normal) + low.reach + low.wound - knot;
   };
   const double arm1 = transmission::upper_span(model.pins[0], 0.0).m,
@@ -292,8 +298,9 @@ Mechanism wound_twice() {
 }
 
 TEST(MultiTurn, AreOneSpringWithoutFriction) {
-  // Round and on a drum: free upper length, wrap of the pin and the lower span stand still, both arcs are r times an
-  // angle. From the end on the joint to the knot: straight, round the pin, to the pulley, and all that lies on it.
+  // With a round pulley and a drum, the upper span, the wrap on the pin and the lower span are constant. Only the arcs on
+  // drum and pulley change, each by its radius times an angle. The spring is the whole tendon, from its end on the joint
+  // to the knot.
   Mechanism mechanism = wound_twice();
   mechanism.guides.mu = mechanism.pulley.mu = 0;
   mechanism.body.spare_turns = 1.5;
@@ -307,11 +314,11 @@ TEST(MultiTurn, AreOneSpringWithoutFriction) {
       const double sign = i == 0 ? -1 : 1;
       const LowerPath low = model.lower(0.0)[i];
       const transmission::UpperSpan up = transmission::upper_span(model.pins[i], 0.0);
-      const double still = up.length + low.reach - model.pins[i].rho * model.pins[i].off_pin(low.normal);
+      const double constant = up.length + low.reach - model.pins[i].rho * model.pins[i].off_pin(low.normal);
       const double range = sign * (i == 0 ? law.alpha_max() : law.alpha_min());
       const double laid = r * (1.5 * k_two_pi - range);
-      const double material = (still + laid) / (1 + home[i] / model.EA);
-      const double path = still + laid - sign * drum * at.theta + sign * r * at.alpha;
+      const double material = (constant + laid) / (1 + home[i] / model.EA);
+      const double path = constant + laid - sign * drum * at.theta + sign * r * at.alpha;
       EXPECT_NEAR((i == 0 ? at.t1 : at.t2).lower, model.EA * (path / material - 1), 1e-6);
     }
   }
@@ -328,11 +335,11 @@ TEST(MultiTurn, FirstSpareTurnHoldsMost) {
   // A wrap of 2π leaves e^(−2πμ) of a change of tension to what lies behind it: 4 % at 0.5.
   Mechanism mechanism = wound_twice();
   mechanism.pulley.mu = 0.5;
-  const auto lost = [&](double spare) {
+  const auto error = [&](double spare) {
     mechanism.body.spare_turns = spare;
-    return largest_miss(mechanism, {2.0, 400, 1});
+    return largest_error(mechanism, {2.0, 400, 1});
   };
-  const double quarter = lost(0.25), one = lost(1.0), three = lost(3.0);
+  const double quarter = error(0.25), one = error(1.0), three = error(3.0);
   EXPECT_LT(std::abs(three - one), 0.01 * one);
   EXPECT_LE(std::abs(three - one), std::abs(three - quarter));
 }
@@ -399,13 +406,13 @@ TEST(Equilibrium, DeflectsLikeReferenceRig) {
   EXPECT_LT(mean(0.05), mean(0.2));
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- stiffness, hysteresis and scaling ------------------------------------------------------------------------------
 
 TEST(Equilibrium, StiffnessAgreesWithDifferences) {
-  // A torque a little larger at the same α: what sticks stays stuck; without friction everything passes.
+  // The torque changes a little at the same α: contacts that stick stay stuck, and without friction all slide.
   const double step = 1e-3;
   for (const double friction : {0.0, 0.25}) {
-    Mechanism mechanism = held(with(unsymmetric(), 20.0, friction, 3000.0));
+    Mechanism mechanism = without_groove_sliding(with(unsymmetric(), 20.0, friction, 3000.0));
     mechanism.load = {0.0, 0.0, 2.0, 150.0, radians(20.0)};  // a weight that tips the joint over
     for (const double theta : {-0.3, 0.0, 0.4}) {
       JointMotion motion(joint_model(mechanism));
@@ -430,7 +437,7 @@ TEST(Equilibrium, StiffnessAgreesWithDifferences) {
 
 TEST(Equilibrium, HysteresisGrowsWithFriction) {
   const auto width = [](double friction) {
-    const Mechanism mechanism = held(with(forearm(), 5.0, friction, 3000.0));
+    const Mechanism mechanism = without_groove_sliding(with(forearm(), 5.0, friction, 3000.0));
     constexpr int steps = 90;
     const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), cycles(mechanism, {10.0, steps, 2}));
     // Second cycle: θ at home on the way up, minus θ at home on the way down.
@@ -596,12 +603,12 @@ TEST(MadePulleys, SatisfyVirtualWork) {
   for (const double alpha : {-1.1, -0.2, 0.6, 1.2}) {
     const auto at = model.lower(alpha);
     for (std::size_t i = 0; i < 2; ++i) {
-      const auto held = [&](double a) {
+      const auto length_below_pin = [&](double a) {
         const LowerPath path = model.lower(a)[i];
         return path.reach - model.pins[i].rho * path.normal + path.wound;
       };
       const double sign = i == 0 ? -1.0 : 1.0;
-      EXPECT_NEAR((held(alpha + step) - held(alpha - step)) / (2 * step), sign * at[i].p, 1e-7);
+      EXPECT_NEAR((length_below_pin(alpha + step) - length_below_pin(alpha - step)) / (2 * step), sign * at[i].p, 1e-7);
     }
   }
 }

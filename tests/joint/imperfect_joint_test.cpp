@@ -9,7 +9,7 @@
 namespace fusee::joint {
 namespace {
 
-/// Every angle twice, up and down, a second apart.
+/// A cycle over 90 % of the range, with a row each second. `load` in N.
 BenchRun swept(const Mechanism& mechanism, double load) {
   const transmission::Transmission law(mechanism);
   BenchRun run;
@@ -24,7 +24,10 @@ BenchRun swept(const Mechanism& mechanism, double load) {
 /// The mirrored log.
 BenchLog mirrored(BenchLog log) {
   for (BenchRun& run : log) {
-    for (BenchRow& row : run.rows) row.alpha = -row.alpha, row.load = -row.load;
+    for (BenchRow& row : run.rows) {
+      row.alpha = -row.alpha;
+      row.load = -row.load;
+    }
   }
   return log;
 }
@@ -44,9 +47,10 @@ TEST(Pins, MirroredJointHasMirroredPins) {
   left.pins.left = {1.2, -0.7};
   right.pins.right = left.pins.left;
   Mechanism other = testing::mirrored(mechanism);
-  const std::vector<double> found = predict(mechanism, left, log)[0], seen = predict(other, right, mirrored(log))[0];
-  EXPECT_GT(rms(found, predict(mechanism, {}, log)[0]), radians(0.05));
-  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], -seen[i], 1e-7) << i;
+  const std::vector<double> readings = predict(mechanism, left, log)[0],
+                            mirrored_readings = predict(other, right, mirrored(log))[0];
+  EXPECT_GT(rms(readings, predict(mechanism, {}, log)[0]), radians(0.05));
+  for (std::size_t i = 0; i < readings.size(); ++i) EXPECT_NEAR(readings[i], -mirrored_readings[i], 1e-7) << i;
 }
 
 TEST(Pins, MovedPinsEqualOtherDeclaration) {
@@ -67,42 +71,42 @@ TEST(Pins, MovedPinsEqualOtherDeclaration) {
 
 /// A path error, for example due to a moving joint centre.
 Imperfections wandering() {
-  Imperfections at;
-  at.joint.path1 = {-0.1, 2.5, -0.8};
-  at.joint.path2 = {0.2, -1.5, 0.6};
-  return at;
+  Imperfections errors;
+  errors.joint.path1 = {-0.1, 2.5, -0.8};
+  errors.joint.path2 = {0.2, -1.5, 0.6};
+  return errors;
 }
 
 TEST(Paths, MirroredJointHasMirroredPaths) {
   const Mechanism mechanism = testing::linear_wrist();
   const BenchLog log{swept(mechanism, 6)};
-  const Imperfections at = wandering();
-  Imperfections other = at;
+  const Imperfections errors = wandering();
+  Imperfections other = errors;
   std::swap(other.joint.path1, other.joint.path2);
-  const std::vector<double> found = predict(mechanism, at, log)[0];
-  const std::vector<double> seen = predict(testing::mirrored(mechanism), other, mirrored(log))[0];
-  EXPECT_GT(rms(found, predict(mechanism, {}, log)[0]), radians(0.05));
-  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], -seen[i], 1e-7) << i;
+  const std::vector<double> readings = predict(mechanism, errors, log)[0];
+  const std::vector<double> mirrored_readings = predict(testing::mirrored(mechanism), other, mirrored(log))[0];
+  EXPECT_GT(rms(readings, predict(mechanism, {}, log)[0]), radians(0.05));
+  for (std::size_t i = 0; i < readings.size(); ++i) EXPECT_NEAR(readings[i], -mirrored_readings[i], 1e-7) << i;
 }
 
 // Virtual work of both tensions over a small rotation, with lengths by differences.
 TEST(Paths, SatisfyVirtualWork) {
   Mechanism mechanism = testing::linear_wrist();
   mechanism.tendon.pretension = 40;
-  const Imperfections at = wandering();
+  const Imperfections errors = wandering();
   const auto length = [&](transmission::Side side, double theta) {
     const double image = side == transmission::Side::left ? -theta : theta;
-    const PathError& longer = side == transmission::Side::left ? at.joint.path1 : at.joint.path2;
+    const PathError& longer = side == transmission::Side::left ? errors.joint.path1 : errors.joint.path2;
     return transmission::upper_span(transmission::pin_place(mechanism, side, mechanism.seen_pitch_radius()), image)
                .length +
            longer.slope * image + longer.square * std::pow(image, 2) + longer.cube * std::pow(image, 3);
   };
-  constexpr double way = 1e-5;
+  constexpr double step = 1e-5;
   double most = 0;
-  const auto states = joint::simulate(mechanism, at, {swept(mechanism, 0)});
+  const auto states = joint::simulate(mechanism, errors, {swept(mechanism, 0)});
   for (const JointState& state : states.front()) {
     const auto work = [&](transmission::Side side, double tension) {
-      return tension * (length(side, state.theta + way) - length(side, state.theta - way)) / (2 * way);
+      return tension * (length(side, state.theta + step) - length(side, state.theta - step)) / (2 * step);
     };
     const double left = work(transmission::Side::left, state.t1.upper),
                  right = work(transmission::Side::right, state.t2.upper);
@@ -117,22 +121,22 @@ TEST(Rubbing, FollowsFrictionLaws) {
   Mechanism mechanism = testing::linear_wrist();
   mechanism.tendon.pretension = 40;
   mechanism.tendon.modulus = 2000;
-  constexpr double way = 1e-5;
+  constexpr double step = 1e-5;
   const auto arm = [&](transmission::Side side, double theta) {
     const auto length = [&](double at) {
       return transmission::upper_span(transmission::pin_place(mechanism, side, mechanism.seen_pitch_radius()),
                                       side == transmission::Side::left ? -at : at)
           .length;
     };
-    return std::abs(length(theta + way) - length(theta - way)) / (2 * way);
+    return std::abs(length(theta + step) - length(theta - step)) / (2 * step);
   };
   const BenchLog log{swept(mechanism, 6)};
   for (const RubbingError& rubbing : {RubbingError{200, 0}, {0, 200}, {100, 100}}) {
-    Imperfections at;
-    at.joint.rubbing = rubbing;
-    const std::vector<JointState> states = joint::simulate(mechanism, at, log).front();
-    int moved = 0, held = 0;
-    double least = 1e9, most = 0;
+    Imperfections errors;
+    errors.joint.rubbing = rubbing;
+    const std::vector<JointState> states = joint::simulate(mechanism, errors, log).front();
+    int moved = 0, rested = 0;
+    double least = 1e9, most = 0;  // of the dry friction, N·mm
     for (std::size_t i = 1; i < states.size(); ++i) {
       const auto& [t1, t2] = std::pair(states[i].t1.upper, states[i].t2.upper);
       const double theta = states[i].theta, turned = theta - states[i - 1].theta;
@@ -145,12 +149,13 @@ TEST(Rubbing, FollowsFrictionLaws) {
         ++moved;
       } else {
         EXPECT_LE(std::abs(pull), (1 + 1e-3) * dry) << i;
-        ++held;
+        ++rested;
       }
-      least = std::min(least, dry), most = std::max(most, dry);
+      least = std::min(least, dry);
+      most = std::max(most, dry);
     }
     EXPECT_GT(moved, 100);
-    EXPECT_GT(held, 5) << "behind its reversals";
+    EXPECT_GT(rested, 5) << "behind its reversals";
     EXPECT_GT(most, 1.02 * least) << "friction grows with the tensions";
   }
 }
@@ -158,30 +163,30 @@ TEST(Rubbing, FollowsFrictionLaws) {
 TEST(Sheath, ErrorsEqualOtherDeclaration) {
   const Mechanism mechanism = testing::sheathed_wrist();
   const BenchLog log{swept(mechanism, 6)};
-  Imperfections at;
-  at.sheath = {0.1, 0.004};
+  Imperfections errors;
+  errors.sheath = {0.1, 0.004};
   Mechanism rougher = mechanism, bent = mechanism;
   rougher.sheath.stiffness = bent.sheath.stiffness = 1.0 / (1.0 / mechanism.sheath.stiffness + 0.004);
   rougher.sheath.mu += 0.1 / mechanism.sheath.bend;
   bent.sheath.bend += 0.1 / mechanism.sheath.mu;
-  const std::vector<double> found = predict(mechanism, at, log)[0];
-  EXPECT_GT(rms(found, predict(mechanism, {}, log)[0]), radians(0.02));
+  const std::vector<double> readings = predict(mechanism, errors, log)[0];
+  EXPECT_GT(rms(readings, predict(mechanism, {}, log)[0]), radians(0.02));
   // Only the product of friction and bends matters.
-  for (const Mechanism& other : {rougher, bent}) EXPECT_LT(rms(found, predict(other, {}, log)[0]), 1e-9);
+  for (const Mechanism& other : {rougher, bent}) EXPECT_LT(rms(readings, predict(other, {}, log)[0]), 1e-9);
 }
 
 TEST(Sheath, RigidStraightSheathTakesIdentifiedValues) {
   Mechanism straight = testing::sheathed_wrist();
   straight.sheath.bend = 0;
   straight.sheath.stiffness = 0;
-  const Mechanism whole = testing::sheathed_wrist();
-  Imperfections at;
-  at.sheath = {whole.sheath.mu * whole.sheath.bend, 1.0 / whole.sheath.stiffness};
+  const Mechanism usual = testing::sheathed_wrist();
+  Imperfections errors;
+  errors.sheath = {usual.sheath.mu * usual.sheath.bend, 1.0 / usual.sheath.stiffness};
   const BenchLog log{swept(straight, 6)};
-  EXPECT_LT(rms(predict(straight, at, log)[0], predict(whole, {}, log)[0]), 1e-9);
+  EXPECT_LT(rms(predict(straight, errors, log)[0], predict(usual, {}, log)[0]), 1e-9);
   // Values below zero count as zero.
-  at.sheath = {-1, -1};
-  EXPECT_EQ(predict(straight, at, log), predict(straight, {}, log));
+  errors.sheath = {-1, -1};
+  EXPECT_EQ(predict(straight, errors, log), predict(straight, {}, log));
 }
 
 TEST(Creep, ActsAsGrowingStretch) {
@@ -189,17 +194,17 @@ TEST(Creep, ActsAsGrowingStretch) {
   Mechanism mechanism = testing::linear_wrist();
   mechanism.tendon.pretension = 0;
   mechanism.guides.mu = 0;
-  BenchRun held;
-  held.has_load = true;
-  for (int i = 0; i < 600; ++i) held.rows.push_back({1.0 * i, 0.2, 8, 20});
+  BenchRun dwell;
+  dwell.has_load = true;
+  for (int i = 0; i < 600; ++i) dwell.rows.push_back({1.0 * i, 0.2, 8, 20});
   Imperfections creeping, softer;
   creeping.tendon.creep = 0.1;
   CreepMemory memory;
   memory.hold(0.1, 599);
   softer.tendon.stretch = memory.crept();
-  const double stiff = predict(mechanism, {}, {held})[0].back();
-  const double crept = predict(mechanism, creeping, {held})[0].back() - stiff;
-  EXPECT_NEAR(crept, predict(mechanism, softer, {held})[0].back() - stiff,
+  const double stiff = predict(mechanism, {}, {dwell})[0].back();
+  const double crept = predict(mechanism, creeping, {dwell})[0].back() - stiff;
+  EXPECT_NEAR(crept, predict(mechanism, softer, {dwell})[0].back() - stiff,
               0.04 * std::abs(crept));  // the wound tendon slides
   EXPECT_LT(crept, -radians(0.01));
 }

@@ -23,20 +23,20 @@ BenchLog swept(double load) {
 }
 
 Imperfections several_imperfections() {
-  Imperfections at;
-  at.shaft.backlash = 0.02;
-  at.tendon.stretch = 0.5;
-  at.sensor.gain = 0.01;
-  at.sensor.zero = -0.003;
-  return at;
+  Imperfections errors;
+  errors.shaft.backlash = 0.02;
+  errors.tendon.stretch = 0.5;
+  errors.sensor.gain = 0.01;
+  errors.sensor.zero = -0.003;
+  return errors;
 }
 
 TEST(Simulate, AgreesWithPrediction) {
   const DeclaredMechanism joint = testing::forearm();
-  for (const Imperfections& at : {Imperfections{}, several_imperfections()}) {
+  for (const Imperfections& errors : {Imperfections{}, several_imperfections()}) {
     for (const double load : {0.0, 12.0}) {
-      const Readings predicted = predict(joint, at, swept(load));
-      const auto states = joint::simulate(joint, at, swept(load));
+      const Readings predicted = predict(joint, errors, swept(load));
+      const auto states = joint::simulate(joint, errors, swept(load));
       ASSERT_EQ(states.front().size(), predicted.front().size());
       for (std::size_t i = 0; i < states.front().size(); ++i) EXPECT_EQ(states[0][i].shown, predicted[0][i]);
     }
@@ -44,14 +44,14 @@ TEST(Simulate, AgreesWithPrediction) {
 }
 
 TEST(Simulate, DistinguishesAngleAndReading) {
-  const Imperfections at = several_imperfections();
-  const auto states = joint::simulate(testing::forearm(), at, swept(5));
+  const Imperfections errors = several_imperfections();
+  const auto states = joint::simulate(testing::forearm(), errors, swept(5));
   for (const JointState& state : states.front())
-    EXPECT_NEAR(state.shown, at.sensor.zero + (1 + at.sensor.gain) * state.theta, 1e-14);
+    EXPECT_NEAR(state.shown, errors.sensor.zero + (1 + errors.sensor.gain) * state.theta, 1e-14);
 }
 
 /// Dwells of `rows` rows at several angles, with unlogged motion between them.
-BenchLog dwells_at_places(int rows) {
+BenchLog dwells_at_angles(int rows) {
   BenchRun run;
   double time = 0;
   for (const double alpha : {-1.2, -0.4, 0.4, 1.2, 0.4, -0.4}) {
@@ -67,13 +67,13 @@ TEST(Simulate, DelayEndsAtDwells) {
     Imperfections late;
     late.sensor.lag = 0.3;
     late.sensor.first_order = first_order;
-    const Readings still = predict(testing::forearm(), {}, dwells_at_places(4));
-    const Readings shown = predict(testing::forearm(), late, dwells_at_places(4));
+    const Readings still = predict(testing::forearm(), {}, dwells_at_angles(4));
+    const Readings shown = predict(testing::forearm(), late, dwells_at_angles(4));
     for (std::size_t i = 0; i < still.front().size(); ++i) EXPECT_NEAR(shown[0][i], still[0][i], 1e-8) << i;
     // With logged motion the same sensor is delayed.
-    const double lost =
+    const double delay =
         predict(testing::forearm(), late, swept(0))[0][40] - predict(testing::forearm(), {}, swept(0))[0][40];
-    EXPECT_LT(lost, -1e-3);
+    EXPECT_LT(delay, -1e-3);
   }
 }
 
@@ -95,11 +95,11 @@ TEST(Simulate, MotorWorkEqualsLoadWork) {
 }
 
 TEST(Simulate, ReportsLooseJoint) {
-  Imperfections at;
-  at.tendon.slack = 3;
+  Imperfections errors;
+  errors.tendon.slack = 3;
   DeclaredMechanism joint = testing::forearm();
   bool loose = false;
-  const auto states = joint::simulate(joint, at, swept(0));
+  const auto states = joint::simulate(joint, errors, swept(0));
   for (const JointState& state : states.front()) {
     if (state.status != EquilibriumStatus::loose) continue;
     loose = true;
@@ -112,16 +112,16 @@ TEST(Simulate, ReportsLooseJoint) {
 // Slack is the length beyond that taken up by pretension. With slack there is no pretension, so that no second
 // parameter has the effect of the first.
 TEST(Simulate, SlackExcludesPretension) {
-  Imperfections at;
-  at.tendon.slack = 0.3;
+  Imperfections errors;
+  errors.tendon.slack = 0.3;
   const DeclaredMechanism joint = testing::forearm();
-  const Readings loose = predict(joint, at, swept(10));
+  const Readings loose = predict(joint, errors, swept(10));
   for (const double more : {-joint.tendon.pretension, 7.0}) {
-    at.tendon.pretension = more;
-    EXPECT_EQ(predict(joint, at, swept(10)), loose) << more;
+    errors.tendon.pretension = more;
+    EXPECT_EQ(predict(joint, errors, swept(10)), loose) << more;
   }
-  at.tendon.slack = 0;
-  EXPECT_NE(predict(joint, at, swept(10)), predict(joint, {}, swept(10))) << "taut, 7 N more";
+  errors.tendon.slack = 0;
+  EXPECT_NE(predict(joint, errors, swept(10)), predict(joint, {}, swept(10))) << "taut, 7 N more";
 }
 
 DeclaredMechanism geared(double ratio) {
@@ -139,12 +139,12 @@ TEST(Simulate, RatioJointHasAnglesOnly) {
 }
 
 TEST(Simulate, RatioCurveIsSeriesOfAngleAndLoad) {
-  Imperfections at;
-  at.ratio_joint.compliance = 0.004;
-  at.ratio_joint.curve = {
+  Imperfections errors;
+  errors.ratio_joint.compliance = 0.004;
+  errors.ratio_joint.curve = {
       .linear = 0.01, .square = 0.03, .cube = -0.02, .compliance_slope = 0.002, .compliance_square = -0.001};
   const BenchLog log = swept(5);
-  const Readings shown = predict(geared(2), at, log);
+  const Readings shown = predict(geared(2), errors, log);
   for (std::size_t i = 0; i < log[0].rows.size(); ++i) {
     const double u = log[0].rows[i].alpha / 2;
     const double compliance = 0.004 + 0.002 * u - 0.001 * u * u;
@@ -163,24 +163,24 @@ BenchLog swept_while_warming() {
 TEST(Simulate, EveryRatioJointEffectMovesJoint) {
   const Readings declared = predict(geared(2), {}, swept_while_warming());
   for (const Effect& effect : effects(JointKind::ratio)) {
-    Imperfections at;
+    Imperfections errors;
     for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
-      const EffectParameter& own = effect.parameters[k];
+      const EffectParameter& parameter = effect.parameters[k];
       const double searched = effect.starts.empty() ? 1.0 : effect.starts[0][k];
-      set_value(at, own, own.searched ? searched : std::min(0.1, own.most));
+      set_value(errors, parameter, parameter.searched ? searched : std::min(0.1, parameter.most));
     }
-    EXPECT_NE(predict(geared(2), at, swept_while_warming()), declared) << effect.name;
+    EXPECT_NE(predict(geared(2), errors, swept_while_warming()), declared) << effect.name;
   }
 }
 
 // The error of a rotated encoder is shifted in phase; the simulated joint is the same.
 TEST(Simulate, AccountsForEncoderRotation) {
-  Imperfections at;
-  at.sensor.eccentricity_sin = 0.02;
+  Imperfections errors;
+  errors.sensor.eccentricity_sin = 0.02;
   BenchLog log = swept(0);
   log[0].mounting.joint_sensor_turned = 0.5;
   const double phase = 0.5;
-  const auto states = joint::simulate(testing::forearm(), at, log);
+  const auto states = joint::simulate(testing::forearm(), errors, log);
   for (const JointState& state : states.front())
     EXPECT_NEAR(state.shown - state.theta, 0.02 * (std::sin(state.theta + phase) - std::sin(phase)), 1e-14);
 }

@@ -16,9 +16,10 @@ namespace {
 constexpr std::size_t k_bends = ThreadedSpans::k_bends;
 using Slides = std::array<int, k_bends>;
 
-class AnyThread {
+/// Random tendons in a sheath.
+class RandomTendon {
  public:
-  explicit AnyThread(unsigned seed) : random_(seed) {}
+  explicit RandomTendon(unsigned seed) : random_(seed) {}
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
 
   /// Random strains between `least` and `most`, independent for each span.
@@ -42,13 +43,14 @@ class AnyThread {
   std::mt19937 random_;
 };
 
-double material_then(const ThreadedSpans& spans, const ThreadedBalance& now, std::size_t i) {
+/// Material of span `i` after the balance.
+double material_after(const ThreadedSpans& spans, const ThreadedBalance& now, std::size_t i) {
   return spans.material[i] + (i < k_bends ? now.crossed[i] : 0.0) - (i > 0 ? now.crossed[i - 1] : 0.0);
 }
 
 void expect_balanced(const ThreadedSpans& spans, const ThreadedBalance& now) {
   for (std::size_t i = 0; i <= k_bends; ++i) {
-    const double strain = spans.length[i] / material_then(spans, now, i) - 1.0;
+    const double strain = spans.length[i] / material_after(spans, now, i) - 1.0;
     EXPECT_NEAR(now.tension[i], spans.EA * std::max(0.0, strain), 1e-9) << i;
   }
   for (std::size_t j = 0; j < k_bends; ++j) {
@@ -56,23 +58,28 @@ void expect_balanced(const ThreadedSpans& spans, const ThreadedBalance& now) {
     EXPECT_LE(above, most * below * (1 + 1e-12)) << j;
     EXPECT_LE(below, most * above * (1 + 1e-12)) << j;
     if (above == 0) continue;
-    const double used = now.crossed[j] > 0 ? above - most * below : below - most * above;
-    EXPECT_LT(std::abs(now.crossed[j]) > 1e-12 ? std::abs(used) : 0.0, 1e-9) << j;
+    const double beyond_limit = now.crossed[j] > 0 ? above - most * below : below - most * above;
+    EXPECT_LT(std::abs(now.crossed[j]) > 1e-12 ? std::abs(beyond_limit) : 0.0, 1e-9) << j;
   }
 }
 
 TEST(Threaded, BalanceIsUnique) {
-  AnyThread any(7);
+  RandomTendon random(7);
   int slid = 0, held = 0, mixed = 0;
   for (int i = 0; i < 3000; ++i) {
-    const ThreadedSpans spans = any.spans(i % 3 == 0 ? -2e-3 : 1e-3, i % 5 == 0 ? 1.2e-3 : 4e-3);
+    const ThreadedSpans spans = random.spans(i % 3 == 0 ? -2e-3 : 1e-3, i % 5 == 0 ? 1.2e-3 : 4e-3);
     const ThreadedBalance now = balance(spans, {});
     expect_balanced(spans, now);
-    const ThreadedBalance again = balance(spans, any.guess());
+    const ThreadedBalance again = balance(spans, random.guess());
     for (std::size_t k = 0; k <= k_bends; ++k) EXPECT_NEAR(again.tension[k], now.tension[k], 1e-9);
     const int moving =
         static_cast<int>(k_bends - static_cast<std::size_t>(std::count(now.slides.begin(), now.slides.end(), 0)));
-    ++(moving == 0 ? held : moving == k_bends ? slid : mixed);
+    if (moving == 0)
+      ++held;
+    else if (moving == k_bends)
+      ++slid;
+    else
+      ++mixed;
     if (HasFailure()) return;
   }
   EXPECT_GT(slid, 100);
@@ -81,10 +88,10 @@ TEST(Threaded, BalanceIsUnique) {
 }
 
 TEST(Threaded, RatesAgreeWithDifferences) {
-  AnyThread any(11);
-  int through = 0;
+  RandomTendon random(11);
+  int sliding_throughout = 0;
   for (int i = 0; i < 500; ++i) {
-    const ThreadedSpans spans = any.spans(1e-3, 4e-3);
+    const ThreadedSpans spans = random.spans(1e-3, 4e-3);
     const ThreadedBalance now = balance(spans, {});
     constexpr double step = 1e-6;
     const auto differ = [&](auto change) {
@@ -102,9 +109,9 @@ TEST(Threaded, RatesAgreeWithDifferences) {
     EXPECT_NEAR(now.lower_per_upper * rate, (longer.tension[k_bends] - shorter.tension[k_bends]) / (2 * step),
                 1e-5 * rate);
     EXPECT_NEAR(now.per_hold, (firmer.tension[0] - looser.tension[0]) / (2 * step), 1e-5 * now.tension[0]);
-    through += now.lower_per_upper > 0 ? 1 : 0;
+    sliding_throughout += now.lower_per_upper > 0 ? 1 : 0;
   }
-  EXPECT_GT(through, 10);
+  EXPECT_GT(sliding_throughout, 10);
 }
 
 TEST(Threaded, SlidingFrontStartsAtPulledEnd) {

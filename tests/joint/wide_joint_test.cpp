@@ -11,15 +11,15 @@
 namespace fusee::joint {
 namespace {
 
-/// Up, down and home again under a tip force, `rounds` times; the load is applied at home.
-std::vector<JointStep> there_and_back(const Mechanism& mechanism, double tip_force, int rounds = 1) {
+/// Up, down and home again under a tip force, `count` times; the load is applied at home, in the first 40 steps.
+std::vector<JointStep> loaded_cycles(const Mechanism& mechanism, double tip_force, int count = 1) {
   const transmission::Transmission law(mechanism);
   std::vector<JointStep> steps;
   for (int i = 0; i <= 40; ++i) steps.push_back({0.0, tip_force * i / 40, 0.0});
   const auto run = [&](double from, double to) {
     for (int i = 1; i <= 120; ++i) steps.push_back({from + (to - from) * i / 120, tip_force, 0.0});
   };
-  for (int round = 0; round < rounds; ++round) {
+  for (int cycle = 0; cycle < count; ++cycle) {
     run(0.0, law.alpha_max());
     run(law.alpha_max(), law.alpha_min());
     run(law.alpha_min(), 0.0);
@@ -33,12 +33,12 @@ TEST(WideJoint, FollowsLawWithoutTension) {
     mechanism.guides.mu = 0;
     const transmission::Transmission law(mechanism);
     ASSERT_FALSE(law.dead_centre());
-    for (const EquilibriumPoint& point : follow(joint_model(mechanism), there_and_back(mechanism, 0)))
+    for (const EquilibriumPoint& point : follow(joint_model(mechanism), loaded_cycles(mechanism, 0)))
       EXPECT_NEAR(point.theta, law.theta(point.alpha), 1e-11) << mechanism.name;
   }
 }
 
-TEST(WideJoint, SpanTableHasKink) {
+TEST(WideJoint, SpanTableKeepsKink) {
   const Mechanism mechanism = testing::ankle();
   const transmission::PinPlace place =
       transmission::pin_place(mechanism, transmission::Side::left, mechanism.seen_pitch_radius());
@@ -60,10 +60,10 @@ TEST(WideJoint, DrumTensionIsTorqueOverRadius) {
   Mechanism mechanism = testing::finger();
   mechanism.tendon.pretension = 0;
   mechanism.guides.mu = 0;
-  for (const EquilibriumPoint& point : follow(joint_model(mechanism), there_and_back(mechanism, 20.0))) {
-    if (point.load_torque < 20.0 * 8.3) continue;
-    EXPECT_NEAR(point.t2.upper, 20.0 * 8.3 / mechanism.drum_pitch_radius(), 1e-9);
-    EXPECT_NEAR(point.motor_torque, 20.0 * 9.0, 1e-7);
+  for (const EquilibriumPoint& point : follow(joint_model(mechanism), loaded_cycles(mechanism, 20.0))) {
+    if (point.load_torque < 20.0 * mechanism.joint.R) continue;  // still loading
+    EXPECT_NEAR(point.t2.upper, 20.0 * mechanism.joint.R / mechanism.drum_pitch_radius(), 1e-9);
+    EXPECT_NEAR(point.motor_torque, 20.0 * mechanism.pulley.r1, 1e-7);
   }
 }
 
@@ -80,20 +80,20 @@ TEST(WideJoint, DrumFrictionKeepsTorque) {
     for (const double friction : {0.0, 0.2, -0.2}) {
       constexpr int links = 1000;
       const double tension = 20.0, step = span.on_drum / links;
-      double turns = 0, here = tension;
+      double torque = 0, here = tension;
       for (int i = 0; i < links; ++i) {
         const double next = tension * std::exp(-friction * step * (i + 1));
         const Vec2 at = place.drum * unit(span.normal + step * (i + 0.5));
         const Vec2 from(-std::sin(span.normal + step * i), std::cos(span.normal + step * i)),
             to(-std::sin(span.normal + step * (i + 1)), std::cos(span.normal + step * (i + 1)));
         // A link is pulled towards the span and back from the knot; the drum carries the difference.
-        turns += cross(at, next * to - here * from);
+        torque += cross(at, next * to - here * from);
         here = next;
       }
       const double end = span.normal + span.on_drum;
       const Vec2 tangent(-std::sin(end), std::cos(end));
-      turns += cross(place.drum * unit(end), -here * tangent);
-      EXPECT_NEAR(-turns, tension * span.m, 1e-5 * tension * span.m) << theta << " " << friction;
+      torque += cross(place.drum * unit(end), -here * tangent);
+      EXPECT_NEAR(-torque, tension * span.m, 1e-5 * tension * span.m) << theta << " " << friction;
     }
   }
 }
@@ -108,16 +108,16 @@ TEST(WideJoint, IdlerEqualsPinAtConstantWrap) {
   const double epsilon = 0.3 * 1.0 / 1.3 * std::sin(0.5 * wrap);
   Mechanism pin = testing::finger();
   pin.guides.mu = std::log((1 + epsilon) / (1 - epsilon)) / wrap;
-  const auto of_idler = follow(joint_model(idler), there_and_back(idler, 10.0, 2));
-  const auto of_pin = follow(joint_model(pin), there_and_back(pin, 10.0, 2));
+  const auto of_idler = follow(joint_model(idler), loaded_cycles(idler, 10.0, 2));
+  const auto of_pin = follow(joint_model(pin), loaded_cycles(pin, 10.0, 2));
   ASSERT_EQ(of_idler.size(), of_pin.size());
-  double loop = 0;
+  double hysteresis = 0;
   for (std::size_t i = 0; i < of_pin.size(); ++i) {
     EXPECT_NEAR(of_idler[i].theta, of_pin[i].theta, 1e-9);
     EXPECT_NEAR(of_idler[i].t2.lower, of_pin[i].t2.lower, 1e-6);
-    loop = std::max(loop, of_pin[i].t2.lower / of_pin[i].t2.upper - 1);
+    hysteresis = std::max(hysteresis, of_pin[i].t2.lower / of_pin[i].t2.upper - 1);
   }
-  EXPECT_GT(loop, 0.05);
+  EXPECT_GT(hysteresis, 0.05);
 }
 
 TEST(WideJoint, IdlerLossBalancesMoments) {
@@ -153,7 +153,7 @@ TEST(WideJoint, FollowsLawWithSheath) {
   Mechanism mechanism = testing::sheathed_wrist();
   mechanism.tendon.pretension = mechanism.guides.mu = mechanism.sheath.mu = 0;
   const transmission::Transmission law(mechanism);
-  for (const EquilibriumPoint& point : follow(joint_model(mechanism), there_and_back(mechanism, 0)))
+  for (const EquilibriumPoint& point : follow(joint_model(mechanism), loaded_cycles(mechanism, 0)))
     EXPECT_NEAR(point.theta, law.theta(point.alpha), 1e-11);
 }
 
@@ -161,7 +161,7 @@ TEST(WideJoint, SheathFrictionEqualsPinFriction) {
   // Sliding throughout: a weight is lifted and lowered.
   const Sheath sheath{300.0, radians(200.0), 0.1, 0.0, 15.0, 60.0};
   const Mechanism mechanism = finger_with_sheath(sheath);
-  const auto points = follow(joint_model(mechanism), there_and_back(mechanism, 20.0));
+  const auto points = follow(joint_model(mechanism), loaded_cycles(mechanism, 20.0));
   const double lost = std::exp(0.1 * radians(200.0));
   int up = 0, down = 0;
   for (const EquilibriumPoint& point : points) {
@@ -185,16 +185,17 @@ TEST(WideJoint, SheathActsAsSpring) {
   longer.length += 250.0;
   const auto of = [](const Sheath& sheath) {
     const Mechanism mechanism = finger_with_sheath(sheath);
-    return follow(joint_model(mechanism), there_and_back(mechanism, 20.0));
+    return follow(joint_model(mechanism), loaded_cycles(mechanism, 20.0));
   };
-  const auto plain = of(rigid), given = of(soft), stretched = of(longer);
-  const double T = 20.0 * 8.3 / 8.3, arm = 8.3, EA = section_stiffness(testing::finger().tendon);
-  // A little of it is wound onto the pulley at its tension; at the angle where the load was applied there is none.
-  for (std::size_t i = 40; i < 41; ++i) {
-    EXPECT_NEAR(plain[i].theta - given[i].theta, T / 50.0 / arm, 1e-10);
-    EXPECT_NEAR(plain[i].theta - stretched[i].theta, T * 250.0 / EA / arm, 1e-10);
-  }
-  EXPECT_NEAR(1 / given[40].stiffness - 1 / plain[40].stiffness, 1 / (50.0 * arm * arm), 2e-3 / (50.0 * arm * arm));
+  const auto with_rigid = of(rigid), with_soft = of(soft), with_longer = of(longer);
+  // OC and the drum's pitch radius are equal, so the tension is the tip force.
+  const double tension = 20.0, arm = 8.3, EA = section_stiffness(testing::finger().tendon);
+  // Fully loaded, still at home. Later a part of the stretched tendon is wound onto the pulley.
+  constexpr std::size_t k_loaded = 40;
+  const EquilibriumPoint &stiff_point = with_rigid[k_loaded], &soft_point = with_soft[k_loaded];
+  EXPECT_NEAR(stiff_point.theta - soft_point.theta, tension / 50.0 / arm, 1e-10);
+  EXPECT_NEAR(stiff_point.theta - with_longer[k_loaded].theta, tension * 250.0 / EA / arm, 1e-10);
+  EXPECT_NEAR(1 / soft_point.stiffness - 1 / stiff_point.stiffness, 1 / (50.0 * arm * arm), 2e-3 / (50.0 * arm * arm));
 }
 
 TEST(WideJoint, PaperForcesIncludeSheaths) {

@@ -73,8 +73,8 @@ TEST(WoundProfile, WindingMovesOnlyBeyondFriction) {
   // Friction over 0.1 rad balances a growth of the strain by e^{0.02}. A smaller growth moves no wound tendon; a larger
   // one moves the new arc and the tendon behind it.
   WoundProfile profile = wound(1.0, 0.2);
-  const double held = k_home * std::exp(0.015);
-  EXPECT_NEAR(pulled(profile, 1.1, held), -0.5 * (1 / (1 + k_home) + 1 / (1 + held)), 1e-13);
+  const double balanced = k_home * std::exp(0.015);
+  EXPECT_NEAR(pulled(profile, 1.1, balanced), -0.5 * (1 / (1 + k_home) + 1 / (1 + balanced)), 1e-13);
   profile = wound(1.0, 0.2);
   const double pull = k_home * std::exp(0.06);  // 0.3 rad
   const double at_former_take_off = k_home * std::exp(0.04);
@@ -87,9 +87,9 @@ TEST(WoundProfile, WindingMovesOnlyBeyondFriction) {
 TEST(WoundProfile, RatesAgreeWithDifferences) {
   // Cycles first divide the profile into several pieces.
   WoundProfile profile = wound(1.0, 0.2);
-  const double way[][2] = {{1.5, 5e-3}, {2.0, 3e-3}, {1.8, 6e-3}, {2.4, 4e-3}, {2.1, 4.5e-3}};
+  const double path[][2] = {{1.5, 5e-3}, {2.0, 3e-3}, {1.8, 6e-3}, {2.4, 4e-3}, {2.1, 4.5e-3}};
   double from[] = {1.0, k_home};
-  for (const auto& [turn, strain] : way) {
+  for (const auto& [turn, strain] : path) {
     for (int i = 1; i <= 50; ++i)
       pulled(profile, from[0] + (turn - from[0]) * i / 50, from[1] + (strain - from[1]) * i / 50);
     from[0] = turn;

@@ -37,10 +37,10 @@ TEST(NearestChanges, PutTheNearestFirst) {
 
 TEST(NearestChanges, KeepSymmetricRangeSymmetric) {
   const auto smaller = [](const Mechanism& m) { return m.joint.theta_max <= radians(25.05); };
-  const Change* both = nullptr;
   const auto symmetric = nearest_changes(testing::forearm(), smaller);
-  ASSERT_NE(both = find(symmetric, "joint.range_deg"), nullptr);
-  EXPECT_EQ(both->text, "the range ±25°");
+  const Change* half_range = find(symmetric, "joint.range_deg");
+  ASSERT_NE(half_range, nullptr);
+  EXPECT_EQ(half_range->text, "the range ±25°");
   const auto unsymmetric = nearest_changes(testing::unsymmetric(), smaller);
   ASSERT_NE(find(unsymmetric, "joint.range_deg[1]"), nullptr);
   EXPECT_EQ(find(unsymmetric, "joint.range_deg[0]"), nullptr);
@@ -60,6 +60,7 @@ TEST(NearestChanges, SearchRequestedKeys) {
   EXPECT_NEAR(changes[0].to, 22.2, 1e-9);
 }
 
+/// A failed condition with this violation; none if it is not positive.
 std::vector<Condition> fails_by(double gap) {
   if (gap <= 0) return {};
   Condition condition;
@@ -70,22 +71,22 @@ std::vector<Condition> fails_by(double gap) {
 
 TEST(Advice, LimitsEffort) {
   std::atomic<int> evaluations = 0;
-  std::atomic<int> builds_left = 0;
+  std::atomic<int> builds = 0;
   const FeasibilityOracle hopeless{[&](const Mechanism&) { return ++evaluations, fails_by(1.0); },
-                                   [&](const Mechanism&) { return ++builds_left, true; }};
+                                   [&](const Mechanism&) { return ++builds, true; }};
   EXPECT_TRUE(find_advice(testing::forearm(), hopeless).empty());
-  EXPECT_LT(evaluations, 4000);
-  EXPECT_EQ(builds_left, 0);
+  EXPECT_LT(evaluations, 4000);  // the bounds of all numbers, before k_max_sweep_evaluations
+  EXPECT_EQ(builds, 0);
   evaluations = 0;
   FeasibilityOracle expensive = hopeless;
   expensive.is_expensive = true;
   EXPECT_FALSE(find_advice(testing::forearm(), expensive).is_exhausted);
-  EXPECT_LT(evaluations, 420);
+  EXPECT_LT(evaluations, 420);  // k_max_evaluations, and the unchanged mechanism
   const FeasibilityOracle unmakeable{[](const Mechanism& m) { return fails_by(m.pulley.r1 - 12 + m.pulley.EF - 80); },
-                                     [&](const Mechanism&) { return ++builds_left, false; }};
+                                     [&](const Mechanism&) { return ++builds, false; }};
   EXPECT_TRUE(find_advice(testing::forearm(), unmakeable).empty());
-  EXPECT_GT(builds_left, 0);
-  EXPECT_LE(builds_left, 4);
+  EXPECT_GT(builds, 0);
+  EXPECT_LE(builds, 4);  // k_max_builds
 }
 
 // Builds run concurrently, and the result must not depend on their durations.
@@ -114,23 +115,23 @@ TEST(Advice, TriesFurtherStepAfterFailedBuild) {
 }
 
 TEST(Advice, SkipsHopelessChangesWhenExpensive) {
-  const auto looks_of = [](bool is_expensive, double wanted_r1, std::string& text) {
+  const auto evaluations_of = [](bool is_expensive, double sufficient_r1, std::string& text) {
     std::atomic<int> evaluations = 0;
     const FeasibilityOracle judge{
-        .obstacles = [&](const Mechanism& m) { return ++evaluations, fails_by(m.pulley.r1 - wanted_r1); },
+        .obstacles = [&](const Mechanism& m) { return ++evaluations, fails_by(m.pulley.r1 - sufficient_r1); },
         .made = [](const Mechanism&) { return true; },
         .is_expensive = is_expensive};
     text = advice_sentence(find_advice(testing::forearm(), judge).alone);
     return evaluations.load();
   };
-  std::string text, of_dear;
-  EXPECT_LT(3 * looks_of(true, -1, of_dear), 2 * looks_of(false, -1, text));
-  EXPECT_EQ(of_dear, "");
+  std::string text, text_if_expensive;
+  EXPECT_LT(3 * evaluations_of(true, -1, text_if_expensive), 2 * evaluations_of(false, -1, text));
+  EXPECT_EQ(text_if_expensive, "");
   // A change that helps is evaluated at each step, so that its border is still found.
-  looks_of(true, 8, of_dear);
-  looks_of(false, 8, text);
+  evaluations_of(true, 8, text_if_expensive);
+  evaluations_of(false, 8, text);
   EXPECT_EQ(text, "make r1 ≤ 8 mm");
-  EXPECT_EQ(of_dear, text);
+  EXPECT_EQ(text_if_expensive, text);
 }
 
 TEST(Advice, RespectsBuildsLeft) {

@@ -35,7 +35,7 @@ Mechanism with(Mechanism mechanism, const Change& change) {
   return mechanism;
 }
 
-/// Expects a failure of `condition`, and that every single advice makes the mechanism feasible.
+/// Expects a failure of `condition` with `words` in its text, and that every single advice makes the mechanism feasible.
 void expect_refused(const Mechanism& mechanism, const std::string& condition, const std::string& words) {
   const SynthesisResult result = synthesise(mechanism);
   ASSERT_FALSE(result.made());
@@ -71,13 +71,13 @@ TEST(Feasibility, ReportsDeadCentre) {
 
 TEST(Feasibility, ReportsAttachmentInsideDrum) {
   Mechanism mechanism = testing::finger();
-  mechanism.joint.attachment2 = Attachment{-5.0, 5.0};
+  mechanism.joint.attachment2 = Attachment{-5.0, 5.0};  // 8 − √50 = 0.929 mm inside the drum
   expect_refused(mechanism, "attachment_outside_drum_2", "tendon 2 ends 0.929 mm inside the drum");
 }
 
 TEST(Feasibility, ReportsPinInDrum) {
   Mechanism mechanism = testing::finger();
-  mechanism.guides.radius = 9.5;
+  mechanism.guides.radius = 9.5;  // 8 + 9.5 − √(12² + 12²) = 0.529 mm
   expect_refused(mechanism, "drum_clear_of_pin_B", "pin B lies 0.529 mm inside the drum");
 }
 
@@ -101,9 +101,9 @@ TEST(Feasibility, ReportsSheathExitInPulley) {
   expect_refused(mechanism, "line_reaches_mouth_1", "the exit of sheath 1 lies");
   // So close that the curve would be hollow, or that no line reaches the exit.
   mechanism.sheath.exit_above = 18.0;
-  const SynthesisResult near = synthesise(mechanism);
-  ASSERT_FALSE(near.made());
-  EXPECT_FALSE(near.advice.empty());
+  const SynthesisResult too_near = synthesise(mechanism);
+  ASSERT_FALSE(too_near.made());
+  EXPECT_FALSE(too_near.advice.empty());
 }
 
 TEST(Feasibility, ReportsTendonOffPinAtSheath) {
@@ -119,7 +119,7 @@ TEST(Feasibility, AdviceKeepsArbitraryPulleyPosition) {
   for (const Change& change : synthesise(mechanism).advice) EXPECT_NE(change.key, "pulley.EF_mm");
 }
 
-/// P2 is drawn with the inverse of tendon 1's arm, which has a kink upwards where that tendon leaves the drum.
+/// The radius of P2 is proportional to 1/m1. The slope of the arm m1 jumps up where tendon 1 leaves the drum.
 TEST(Feasibility, ReportsHollowAtLiftOffOfTendon1) {
   Mechanism mechanism = testing::finger();
   mechanism.joint.attachment1 = Attachment{-8.3, 8.3};
@@ -131,7 +131,7 @@ TEST(Feasibility, ReportsHollowAtLiftOffOfTendon1) {
 
 TEST(Feasibility, LiftOffOfTendon2MakesStraightPart) {
   Mechanism mechanism = testing::finger();
-  // In the mirror image, tendon 2 leaves.
+  // In the mirror image, tendon 2 leaves the drum.
   mechanism.joint.attachment1 = Attachment{-8.3, 8.3};
   mechanism = testing::mirrored(mechanism);
   const SynthesisResult result = synthesise(mechanism);
@@ -206,7 +206,7 @@ TEST(Feasibility, WarnsOfTightBend) {
 TEST(Feasibility, ListsAllConditions) {
   const SynthesisResult result = synthesise(testing::forearm());
   ASSERT_TRUE(result.made());
-  EXPECT_EQ(result.conditions.size(), 17U);
+  EXPECT_EQ(result.conditions.size(), 17U);  // moment arms, and eight of each side
   for (const Condition& condition : result.conditions) EXPECT_TRUE(condition.message.empty()) << condition.name;
 }
 

@@ -8,7 +8,7 @@
 namespace fusee::profile {
 namespace {
 
-TEST(Outline, ActiveArcMayWrapPastTheEnd) {
+TEST(Outline, ActiveArcMayWrapPastEnd) {
   Outline outline;
   outline.points.resize(10);
   outline.active_first = 7;
@@ -50,14 +50,14 @@ TEST(Outline, SagittaIsSmallForBendAtOneEnd) {
 
   // A bridge of 95 mm followed by the bend at its end. Reference: distance of the bend's corner from the chord, by
   // plane geometry.
-  const double length = 94.67, bend = 0.36, little = 2.18e-4;
-  const Vec2 from(0, 0), corner(length, 0), to = corner + bend * little * unit(0.5 * little);
+  const double length = 94.67, bend_radius = 0.36, small_turn = 2.18e-4;
+  const Vec2 from(0, 0), corner(length, 0), to = corner + bend_radius * small_turn * unit(0.5 * small_turn);
   const Vec2 along = (to - from).normalized();
   const double height = std::abs(along.x() * (corner - from).y() - along.y() * (corner - from).x());
-  const double found = sagitta(from, -0.5 * k_pi, to, -0.5 * k_pi + little);
+  const double found = sagitta(from, -0.5 * k_pi, to, -0.5 * k_pi + small_turn);
   EXPECT_GE(found, height);
   EXPECT_LT(found, 2.5 * height + 1e-12);
-  EXPECT_LT(found, 1e-4 * length * little / 8.0);
+  EXPECT_LT(found, 1e-4 * length * small_turn / 8.0);
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ double body_normal(const transmission::TransmissionPoint& at, const transmission
   return tendon.lower_normal + at.alpha;
 }
 
-double distance_from(const Outline& outline, double psi) {
+/// Support of the outline: its furthest extent in the direction ψ, mm.
+double support_of(const Outline& outline, double psi) {
   double support = -1e9;
   for (const OutlinePoint& point : outline.points) support = std::max(support, point.position.dot(unit(psi)));
   return support;
@@ -39,12 +40,12 @@ TEST(Synthesis, TendonLinesTouchOutline) {
     const SynthesisResult result = synthesise(mechanism, {.chord_error_mm = 1e-4});
     ASSERT_TRUE(result.made()) << result.brief();
     for (const transmission::TransmissionPoint& at : result.stroke) {
-      const double reach1 = distance_from(result.p1, body_normal(at, at.t1));
-      const double reach2 = distance_from(result.p2, body_normal(at, at.t2));
-      EXPECT_LE(reach1, at.t1.p + 1e-9);
-      EXPECT_LE(reach2, at.t2.p + 1e-9);
-      EXPECT_GE(reach1, at.t1.p - 1e-4);
-      EXPECT_GE(reach2, at.t2.p - 1e-4);
+      const double support1 = support_of(result.p1, body_normal(at, at.t1));
+      const double support2 = support_of(result.p2, body_normal(at, at.t2));
+      EXPECT_LE(support1, at.t1.p + 1e-9);
+      EXPECT_LE(support2, at.t2.p + 1e-9);
+      EXPECT_GE(support1, at.t1.p - 1e-4);
+      EXPECT_GE(support2, at.t2.p - 1e-4);
     }
   }
 }
@@ -56,7 +57,7 @@ TEST(Synthesis, ChordsAreWithinTolerance) {
     const SynthesisResult result = synthesise(mechanism, {.chord_error_mm = tolerance});
     ASSERT_TRUE(result.made());
     for (const OutlinePoint& point : fine.p2.points) {
-      EXPECT_LE(point.position.dot(point.normal) - distance_from(result.p2, point.psi), tolerance);
+      EXPECT_LE(point.position.dot(point.normal) - support_of(result.p2, point.psi), tolerance);
     }
   }
 }
@@ -77,6 +78,7 @@ TEST(Synthesis, ActiveArcsEndWithStroke) {
   ASSERT_TRUE(result.made());
   const transmission::TransmissionPoint& first = result.stroke.front();
   const transmission::TransmissionPoint& last = result.stroke.back();
+  // An end may share the point of another end within 0.1° (Outline).
   const auto at_normal = [](const Outline& outline, std::size_t i, double psi) {
     return std::abs(std::remainder(outline.points[i].psi - psi, k_two_pi)) < radians(0.11);
   };
@@ -106,7 +108,7 @@ TEST(Synthesis, MirroredJointHasMirroredPulley) {
   ASSERT_TRUE(image.made()) << image.brief();
   for (const OutlinePoint& point : result.p2.points) {
     const Vec2 mirrored_normal(-point.normal.x(), point.normal.y());
-    EXPECT_NEAR(distance_from(image.p1, std::atan2(mirrored_normal.y(), mirrored_normal.x())),
+    EXPECT_NEAR(support_of(image.p1, std::atan2(mirrored_normal.y(), mirrored_normal.x())),
                 point.position.dot(point.normal), 1e-4);
   }
 }
@@ -123,7 +125,7 @@ TEST(Synthesis, ScalesWithLengths) {
 
 TEST(Synthesis, ReproducesSlackOfPolarDrawing) {
   Mechanism mechanism = reference();
-  mechanism.tendon.diameter = 0.01;
+  mechanism.tendon.diameter = 0.01;  // the groove floor lies 0.005 mm inside the pitch curve
   mechanism.pulley.method = Method::paper;
   const SynthesisResult result = synthesise(mechanism, {.chord_error_mm = 1e-4});
   ASSERT_TRUE(result.made()) << result.brief();
