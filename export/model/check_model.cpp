@@ -91,7 +91,8 @@ double error_of_tendons_xml(const ModelProduct& product, const std::vector<Outpu
   }
   if (tendon.rho == 0) tendon.pin = point_in(child_named(world, "site", "over_" + number));
   tendon.anchor = point_in(child_named(world, "site", "anchor_" + number));
-  // The polynomial of the length (m) of the tendon "wound", which is radius · α, becomes one of α in mm.
+  // The file's polynomial is in the length of the tendon "wound", radius · α, in m. Here it becomes one in α, with values
+  // in mm.
   model::Polynomial length{numbers_in(equality.attribute("polycoef").value())};
   double scale = 1e3;
   const double radius = child_named(root.child("tendon"), "fixed", equality.attribute("tendon2").value())
@@ -180,7 +181,7 @@ std::size_t differing_entries(const ModelProduct& product, const std::string& he
   return differing;
 }
 
-/// Number of entries that do not increase; that do not decrease, where counts decrease as α increases.
+/// Number of entries out of order. They must increase, or decrease if counts fall as α increases.
 std::size_t non_monotonic_entries(const model::JointTable& table) {
   std::size_t count = 0;
   const bool falls = table.unit.per_turn < 0;

@@ -96,6 +96,7 @@ std::string json_angles(const std::string& name, const std::vector<std::vector<d
   return text + "]";
 }
 
+/// One entry for each share, a multiple of the effect's identified size.
 std::string json_effect(const correction::RehearsedEffect& effect) {
   std::string text = "{\"shares\":[";
   for (std::size_t i = 0; i < effect.shares.size(); ++i) {
@@ -108,14 +109,14 @@ std::string json_effect(const correction::RehearsedEffect& effect) {
   return text + "]}";
 }
 
-/// The end of a tendon. `lies`: joint angle up to which it lies on the drum (−1000: never). `normal`: normal of the
-/// line from drum to pin, which is constant up to that angle.
+/// The end of a tendon. `lies`: joint angle up to which it lies on the drum (−1000: never), in its right-hand image.
+/// `normal`: normal of the line from drum to pin, which is constant up to that angle, in the drawing.
 std::string json_end(const Mechanism& mechanism, transmission::Side side) {
   const transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.guide_pitch_radius());
   double lies = -1e3, normal = 0;
   if (const auto leaves = transmission::lift_off(place)) {
     lies = *leaves;
-    const double on_drum = transmission::upper_span(place, *leaves - 1.0).normal;
+    const double on_drum = transmission::upper_span(place, *leaves - 1.0).normal;  // 1 rad below: on the drum
     normal = side == transmission::Side::right ? on_drum : k_pi - on_drum;
   }
   return "{\"at\":" + json_point(attachment(mechanism, side, 0.0)) + ",\"lies\":" + json_number(lies, 6) +

@@ -18,7 +18,8 @@ inline constexpr std::string_view k_moving_words =
     "larger the tension, dotted where it is slack. Tensions, torque and θ under the load are the full model’s, with "
     "stretch and friction, in the direction in which you move.</p>";
 
-/// The HTML inside a section. `loaded`: the declared load's cycle at each place of the synthesis' stroke. "" if nothing
+/// The HTML inside a section. `loaded`: the joint under the declared load, rising and falling, at each point of
+/// synthesis.stroke. "" if nothing
 /// can move. Requires joint_script() of this mechanism, and page.css.
 std::string moving_joint(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
                          const std::vector<analysis::StrokePoint>& loaded);

@@ -31,6 +31,7 @@ std::string superscript(int number) {
   return text;
 }
 
+// `attributes`: further classes, the quotation mark that ends them, and further attributes.
 std::string svg_element(const Figure& figure, std::string_view attributes, std::string_view style) {
   std::string svg = "<svg class=\"figure";
   svg += attributes;
@@ -45,12 +46,12 @@ std::string svg_element(const Figure& figure, std::string_view attributes, std::
 
 // The drawing's width, --w, lets page.css keep its texts readable.
 std::string inline_svg(const Figure& figure) {
-  const auto classes = [](const Figure& one, std::string_view name) {
+  const auto attributes = [](const Figure& one, std::string_view name) {
     return std::string(name) + "\" style=\"--w:" + svg_number(one.width) + "\"";
   };
-  if (figure.narrow.empty()) return svg_element(figure, classes(figure, ""), "");
+  if (figure.narrow.empty()) return svg_element(figure, attributes(figure, ""), "");
   const Figure& narrow = figure.narrow.front();
-  return svg_element(figure, classes(figure, " wide"), "") + svg_element(narrow, classes(narrow, " narrow"), "");
+  return svg_element(figure, attributes(figure, " wide"), "") + svg_element(narrow, attributes(narrow, " narrow"), "");
 }
 
 std::string in_div(const Figure& figure) { return "<div>" + inline_svg(figure) + "</div>\n"; }

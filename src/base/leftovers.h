@@ -51,7 +51,7 @@ int move_entries(const std::filesystem::path& from, const std::filesystem::path&
 /// Completes or undoes what killed runs began in the folder `place`. Never throws for what it finds there. The notes
 /// report restored and ignored files.
 std::vector<Diagnostic> recover_leftovers(const std::filesystem::path& place);
-/// Removes the leftovers of `file` that contain only new files, and no earlier file that was set aside.
+/// For an output that is a single file: removes its leftover staging folders, except those that hold an earlier file.
 void remove_staged_leftovers(const std::filesystem::path& file);
 
 }  // namespace fusee

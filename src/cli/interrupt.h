@@ -24,7 +24,8 @@ class SignalWatch {
   std::thread thread_;
 };
 
-/// From now on a signal does not exit: all files are in place, or the command gives a result even if stopped.
+/// From now on a signal does not exit. For when all files are in place, or for a command that gives a result even if it
+/// is stopped.
 void prevent_exit_by_signal();
 /// True after a signal.
 bool is_interrupted();

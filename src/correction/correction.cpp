@@ -11,8 +11,9 @@
 #include "mechanism/effect.h"
 #include "transmission/target_motion.h"
 
-// All errors are simulated with predict(), for the identified joint with its present pulley and with the pulley of
-// corrected.toml. The error is the deviation from the declared θ(α). The table corrects the residual error with the
+// Errors are simulated with predict(), for the identified joint with its present pulley and with the pulley of
+// corrected.toml. Errors on held-out rows are measured, and only their change by the pulley is simulated. The error is
+// the deviation from the declared θ(α). The table corrects the residual error with the
 // corrected pulley.
 
 namespace fusee::correction {
@@ -36,7 +37,8 @@ double mean_load(const measurement::Measurement& measurement, const Mechanism& d
 }
 
 /// Upper bound of the motor's lost motion after a reversal, rad of α: play, and the twist of a joint declared by a
-/// ratio until it overcomes friction. A cable's last contact holds twice the mean friction.
+/// ratio until it overcomes friction. The play is doubled as a margin. The friction is doubled because a cable's last
+/// contact slips at twice the mean friction.
 double lost_motion(const Imperfections& found, const Mechanism& declared, double load) {
   const RatioJointError& joint = found.ratio_joint;
   const double play = 2 * (found.shaft.backlash + joint.slack);
@@ -48,7 +50,7 @@ double lost_motion(const Imperfections& found, const Mechanism& declared, double
 }
 
 /// Combines earlier and new imperfections. Earlier imperfections of the mechanism are part of the model of this
-/// calibration; others were identified anew.
+/// calibration, so the new ones add to them. All others are replaced. correct() decides the mean load.
 Imperfections combined(const DeclaredMechanism& declared, const Imperfections& found) {
   Imperfections total = merge_findings(declared.identified, found, kind_of(declared));
   total.joint.mean_load = declared.identified.joint.mean_load;
@@ -320,8 +322,8 @@ struct HeldOutSquares {
   double as_measured = 0, with_pulley = 0, with_table = 0;
   double rows = 0;
 
-  /// Adds rows. `error`: as measured; `change`: by the corrected pulley, simulated; `zero`: part of both that is no
-  /// error.
+  /// Adds rows. `error`: as measured; `change`: by the corrected pulley, simulated; `zero`: part of `error`
+  /// and of `table` that is no error, the arbitrary zero of a joint declared by a ratio.
   void add(const measurement::Measurement& held_out, const Angles& error, const Angles& change,
            const DirectionalCurves& table, double zero) {
     for_each_known(held_out, [&](std::size_t r, std::size_t i, const measurement::Stroke& stroke) {
@@ -403,6 +405,7 @@ Correction correct(const DeclaredMechanism& declared, const measurement::Measure
   correction.identified = combined(declared, found);
   const bool is_compliant =
       found.tendon.stretch != 0 || found.sheath.compliance != 0 || found.joint.weight != WeightError{};
+  // The pulley of a compliant joint is drawn for the measured load, here as its excess over the declared one.
   if (is_compliant && !declared.transmission)
     correction.identified.joint.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
   const transmission::TargetMotion law(declared);
@@ -420,12 +423,14 @@ Correction correct(const DeclaredMechanism& declared, const measurement::Measure
     return held_out_squares({declared, corrected, correction.has_pulley, assembly_angle}, measurement, law,
                             calibration.left_out);
   };
+  // Without the table, the tendons are tied at assembly_angle(). With it they are tied at 0, and the table contains that
+  // offset.
   if (correction.has_pulley) {
     correction.by_pulley = held_out_rows(joint::assembly_angle(corrected)).removed_by_pulley();
     correction.has_pulley = correction.by_pulley > 0;
     if (!correction.has_pulley) correction.why_no_pulley_file = k_no_better;
   }
-  correction.by_table = held_out_rows(/*assembly_angle=*/0).removed_by_table();  // the table is for assembly at 0
+  correction.by_table = held_out_rows(/*assembly_angle=*/0).removed_by_table();
   if (correction.has_pulley && declared.pulley.law == Law::compensate)
     correction.round = joint::round_choice(corrected);
   if (correction.has_pulley) correction.assembly_angle = joint::assembly_angle(corrected);

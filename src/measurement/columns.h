@@ -53,13 +53,13 @@ struct Header {
   bool has_angles = false;           ///< every required angle is named, so this line is the header
 };
 
-/// Finds the column of each role. `above_numbers`: the line stands above a row of as many numbers, so that words such
-/// as "servo" and "joint" in its names choose the angles.
+/// Finds the column of each role. `above_numbers`: the line stands above a row of as many numbers, so it is a header.
+/// Names that only contain words such as "servo" or "joint" are then angles, too.
 Header find_columns(const std::vector<std::string>& names, const MeasurementOptions& options,
                     bool above_numbers = false);
 
-/// Determines the units that neither option nor name states, converts `samples` to s, rad, N, Nm or Nmm and °C, and
-/// unwraps counters of 16 and 32 bits. Returns one line about unusual units, or "". Throws InputError (`name`) for
+/// Determines the units that neither option nor name states, converts `samples` to s, rad, °C and N, or torques
+/// to the unit in which they are computed (Nm or Nmm), and unwraps counters of 16 and 32 bits. Returns one line about unusual units, or "". Throws InputError (`name`) for
 /// units that stay undetermined.
 std::string settle_units(std::vector<Column>& columns, std::vector<Sample>& samples, const MeasurementOptions& options,
                          const std::string& name);

@@ -55,7 +55,7 @@ char stated_separator(std::string_view line) {
 
 constexpr char k_separators[] = {',', ';', '\t', ' '};
 
-/// Cells of a header line, with single quotation marks and without line ends.
+/// Cells of a header line, with doubled quotation marks made single and without line ends.
 std::vector<std::string> names_in(std::string_view line, char separator) {
   std::vector<std::string_view> cells;
   split_cells(line, separator, cells);
@@ -126,7 +126,7 @@ class RowReader {
     const std::string_view unstamped = without_stamp(content);
     if (columns_.empty()) {
       find_header(unstamped);
-      if (std::exchange(is_header_above_, false)) take(record);
+      if (std::exchange(is_header_above_, false)) take(record);  // as the first row below the header
       return;
     }
     take_row(separator_ == '\t' && !is_stamped_ ? text : unstamped);  // a tab at either end borders an empty cell
@@ -218,23 +218,22 @@ class RowReader {
 
   /// The text without padding at its end, which is noted.
   std::string_view without_padding(std::string_view text) {
-    line_is_padded_ = false;
     const std::size_t end = text.find_last_not_of(k_padding) + 1;  // 0 if there is nothing else
     if (end == text.size()) return text;
     if (padded_lines_++ == 0) first_padded_line_ = line_;
-    line_is_padded_ = true;
     return text.substr(0, end);
   }
 
   /// Refuses padding that text follows: it is not at the end of the log.
   void refuse_padding() {
-    if (std::exchange(line_is_padded_, false)) return;  // the text stands before the padding of this line
+    if (line_ == first_padded_line_) return;  // this line's own padding, which may end the log
     line_ = first_padded_line_;
     refuse_binary(k_padding);
   }
 
   /// The line without the time of day that the serial monitors of Arduino's IDE and PlatformIO can write before it, as
-  /// in "10:00:00.020 -> 1.5,2.5". The time becomes the last cell of a row.
+  /// in "10:00:00.020 -> 1.5,2.5". The time becomes the last cell of a row if the header
+  /// has a time of day, too; else it is dropped.
   std::string_view without_stamp(std::string_view content) {
     if (columns_.empty()) is_stamped_ = false;
     for (const std::string_view arrow : {std::string_view(" -> "), std::string_view(" > ")}) {
@@ -429,6 +428,7 @@ class RowReader {
   /// A repeated header: the logger restarted, and its output since the last row is not data.
   void begin_again() {
     if (repeated_headers_++ == 0) first_repeat_ = line_;
+    // A row has at most one fault.
     dropped_rows_ += faults_ - faults_at_last_row_ + (short_row_.message.empty() ? 0 : 1);
     problems_ = problems_at_last_row_;
     faults_ = faults_at_last_row_;
@@ -652,7 +652,6 @@ class RowReader {
   bool is_header_above_ = false;          ///< the header was found only with the row below it
   bool is_stamped_ = false;               ///< a serial monitor put the time of day before the header
   bool may_have_units_ = true;            ///< the next row may state the units
-  bool line_is_padded_ = false;
   std::size_t preamble_lines_ = 0, repeated_headers_ = 0, dropped_rows_ = 0, padded_lines_ = 0;
   std::size_t faults_ = 0, faults_at_last_row_ = 0;
   std::size_t column_count_ = 0;

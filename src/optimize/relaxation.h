@@ -39,7 +39,7 @@ struct LeastOfLines {
 };
 
 /// Rigorous under any rounding. Cuts off the parts of the box in which the lines exclude an objective of at most
-/// `limit`. `least`: a known lower bound of the objective over the box.
+/// `limit`. `count`: number of variables; `least`: a known lower bound of the objective over the box.
 LeastOfLines least_of_lines(Box& box, int count, const std::vector<LineBelow>& lines, double least, double limit);
 /// Cuts with each line separately. False if nothing is left.
 bool cut_by_lines(Box& box, int count, const std::vector<LineBelow>& lines, double limit);

@@ -8,9 +8,9 @@
 namespace fusee::pipeline {
 namespace {
 
-// Coarsest chord error of trial curves, mm. Trials need no table of the stroke; the advised design is built with the
-// requested chord error.
+// Chord error of trial curves, mm. The advised design is built with the requested one.
 constexpr double k_trial_chord_error_mm = 0.05;
+// Steps of a trial's stroke table, of which only the feasibility is used.
 constexpr int k_trial_steps = 36;
 
 }  // namespace
@@ -37,6 +37,7 @@ bool design(formats::Product& product, double chord_error_mm, const RunContext& 
   context.begin_step("finding both pitch curves");
   profile::SynthesisOptions synthesis_options;
   synthesis_options.chord_error_mm = chord_error_mm;
+  // draw_for_making() below compensates the outline's error.
   synthesis_options.drawn_out = -product.joint.outline.offset;
   synthesis_options.advice = false;  // advice is searched for together with the body
   product.synthesis = profile::synthesise(mechanism, synthesis_options);

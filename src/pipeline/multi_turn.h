@@ -24,12 +24,12 @@ std::vector<Diagnostic> warnings_of_turns(const MechanismFile& file);
 /// Adds the plausibility warnings and note_on_turns() to the file's warnings.
 MechanismFile with_plausibility_warnings_and_turns(MechanismFile file);
 
-/// Designs spirals and body of product.joint, which one turn could not provide; otherwise as design().
+/// As design(), with spirals of several turns: for a joint for which one turn does not suffice.
 bool design_multi_turn(formats::Product& product, double chord_error_mm, const RunContext& context,
                        solid::TieOffSearch search = solid::TieOffSearch::thorough);
 
-/// Designs one turn if it suffices, else several; false if neither is feasible. If the file excludes several turns, the
-/// conditions state the key.
+/// Designs one turn if it suffices, else several; false if neither is feasible. If a key of the
+/// file forbids several turns, the failed conditions of product.synthesis name it.
 bool design_any(formats::Product& product, double chord_error_mm, const AsBuiltLimits& limits,
                 const RunContext& context, solid::TieOffSearch search = solid::TieOffSearch::thorough);
 

@@ -14,11 +14,12 @@
 namespace fusee::solid {
 namespace {
 
-// With fewer corners, a shaft of the hole's diameter would not turn in it.
+// Holes are polygons around the shaft, with two sides per millimetre of diameter (nophead's polyholes) and at least this
+// many: the corners of eight sides stand out by 8 % of the radius, those of three by 100 %.
 constexpr int k_least_facets = 8;
 // Sagitta of the arcs of D and keyway bores.
 constexpr double k_arc_sagitta = 0.01;
-// A recess is deeper than the part that sinks into it by one printed layer, so that the pulley lies on the horn's face.
+// A recess is one printed layer deeper than the part that sinks into it, so that the pulley lies on the horn's face.
 constexpr double k_recess_play = 0.2;
 // Fraction of the pitch over which a tooth's crest and ground are flat: 0.1 mm of 0.74 mm on the shaft of a Futaba 3F
 // servo (hugokernel/OpenSCAD_ServoArms). The printer would round sharper ones.

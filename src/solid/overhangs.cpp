@@ -32,8 +32,8 @@ struct Surface {
   Vec3 twice_area(std::uint32_t facet) const { return along(facet, 0).cross(corner(facet, 2) - corner(facet, 0)); }
 };
 
-// Pairs facets that run along a common side in opposite directions. A line that crosses facet after facet then never
-// turns back.
+// Pairs facets that run along a common side in opposite directions. A walk from facet to facet then stays on one
+// side of the surface, even where four facets share an edge.
 std::vector<std::array<std::uint32_t, 3>> neighbours_of(const TriangleMesh& mesh) {
   struct HalfEdge {
     std::uint64_t edge;
@@ -103,8 +103,8 @@ bool within_first_layer(const Surface& surface, std::uint32_t facet, double firs
 double slope_of(const Vec3& normal) { return elementary::acos(std::clamp(-normal.z(), -1.0, 1.0)); }
 
 // Tests for material below side k of an overhanging facet, whose neighbour there does not overhang. A downward or
-// vertical neighbour supports the edge if it goes down from it. An upward neighbour has material below it: it supports
-// at a sharp inner edge and not at a sharp rim.
+// vertical neighbour supports the edge if it goes down from it. An upward neighbour supports it at a re-entrant
+// edge, where it rises on the facet's outer side, and not at a convex edge.
 bool holds(const Surface& surface, std::uint32_t facet, std::size_t k, std::uint32_t neighbour) {
   const Vec3& normal = surface.normals[neighbour];
   const Vec3 into_neighbour = normal.cross(-surface.along(facet, k));

@@ -1,3 +1,4 @@
+// ChebyshevSeries, in which SlopedPaths stores changes of length.
 #include <cmath>
 
 #include "fusee/base.h"

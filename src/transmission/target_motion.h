@@ -23,7 +23,7 @@ class TargetMotion {
   /// True when α lies in the range or within 10 % of its width outside.
   bool reaches(double alpha) const;
 
-  /// θ(α); the law itself extrapolates beyond the range.
+  /// θ(α). Beyond the range by the law's own equations, which hold only near it: see reaches().
   double theta(double alpha) const { return law_ ? law_->theta(alpha) : alpha / ratio_; }
   /// θ(α), extrapolated with the mean slope, however far.
   double theta_extrapolated(double alpha) const;

@@ -25,7 +25,8 @@ constexpr const char* k_head =
     "Joint error: rms of θ − θ(α) as declared over two cycles, without noise, in degrees. *After*: with the pulley of "
     "corrected.toml on the same joint\n"
     "with the same fault, at its assembly angle; *at 0*: assembled with the motor at 0; *by the table*: as at 0,\n"
-    "with compensation.csv in the controller; *no fault*: the declared joint, where friction and the polygon remain. "
+    "with compensation.csv in the controller; *no fault*: the declared joint, where friction and the pulley's facets "
+    "remain. "
     "In brackets: effects that the data do not distinguish.\n\n"
     "| hidden effect | verdict | found | before | after | after / before | at 0 | by the table | no fault |\n"
     "|---|---|---|--:|--:|--:|--:|--:|--:|\n";

@@ -11,16 +11,22 @@ namespace {
 
 using testing::expect_law;
 
-// Every accepted mechanism gives a valid mesh, on whose sections wound strings reproduce θ(α); every rejected one has a
+// Every accepted mechanism gives a valid mesh, and strings wound on its sections reproduce θ(α). Every rejected one has a
 // reason.
 TEST(PulleyLaws, AcceptedPulleysAreValidAndRewind) {
   expect_law(60, [](const Mechanism& mechanism) {
     const profile::SynthesisResult synthesis = profile::synthesise(mechanism, {.advice = false});
-    if (!synthesis.made()) return false;
+    const auto has_reason = [](const std::vector<profile::Condition>& conditions) {
+      return std::any_of(conditions.begin(), conditions.end(),
+                         [](const profile::Condition& c) { return !c.ok && !c.message.empty(); });
+    };
+    if (!synthesis.made()) {
+      RC_ASSERT(has_reason(synthesis.conditions));
+      return false;
+    }
     const solid::Pulley pulley = solid::make_pulley(mechanism, synthesis);
     if (!pulley.made()) {
-      RC_ASSERT(std::any_of(pulley.conditions.begin(), pulley.conditions.end(),
-                            [](const profile::Condition& c) { return !c.ok && !c.message.empty(); }));
+      RC_ASSERT(has_reason(pulley.conditions));
       return false;
     }
     for (const Check& check : solid::check_pulley(pulley.mesh, mechanism, synthesis, pulley, 0.01)) {

@@ -654,6 +654,9 @@ TEST(LoggedText, OmitsPaddingAtEnd) {
   }
   EXPECT_THAT(error_of(plain() + std::string(5, '\0') + "\n8.1,2,1\n"),
               HasSubstr("run.csv:403:1: error: contains binary bytes"));
+  // Only the padding of the last line is the log's end, also if that line has text of its own.
+  EXPECT_THAT(error_of(plain() + std::string(5, '\0') + "\n8.1,2,1" + std::string(5, '\0')),
+              HasSubstr("run.csv:403:1: error: contains binary bytes"));
 }
 
 TEST(LoggedText, ReadsTypesetNumbers) {

@@ -60,6 +60,7 @@ TEST(PlausibilityWarnings, AppearForInfeasibleBuild) {
   EXPECT_THAT(messages(result.product.file.warnings), ElementsAre(HasSubstr("guides.EB_mm = 5")));
 }
 
+// build() only warns of a breaking tendon; analyze() reports it in breaks_at, as an error.
 TEST(PlausibilityWarnings, BreakingTendonIsError) {
   const analysis::AnalysisResult result = analyze(faulty_forearm());
   EXPECT_TRUE(result.breaks_at);

@@ -10,7 +10,7 @@
 
 namespace fusee::testing {
 
-/// Every third design has a motor, which every second of these enforces. Every fourth design is written in inches, with
+/// Every third design has a motor, every sixth with motor.enforce. Every fourth design is written in inches, with
 /// the same lengths. Throws InputError.
 inline DeclaredMechanism with_motor_and_units(std::string text, std::uint64_t number, const std::string& name) {
   constexpr std::array<const char*, 4> k_models{"MG996R", "NEMA17-40mm", "SG90", "XL430-W250"};

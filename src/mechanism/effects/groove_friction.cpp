@@ -26,7 +26,7 @@ Effect groove_friction(JointKind) {
                         .least = -2,
                         .most = 2,
                         .step = 0.02,
-                        .prior = 0.15,  // HMPE 0.05 to 0.15, steel up to 0.3, more in a V groove: declared 0.2
+                        .prior = 0.15,  // around the usual 0.2: HMPE has 0.05 to 0.15, steel up to 0.3, a V groove more
                         .shown = whole_groove_friction,
                         .key = key::plain("groove_friction", "", -2, 2, "added to pulley.friction"),
                         .merge_rule = MergeRule::add}};

@@ -115,7 +115,7 @@ TEST(Threemf, RoundTripIsExactInFloats) {
 }
 
 const std::string k_kept_text = "name = \"a < b & c\"\r\n# 100 % of µ\n";
-const std::string k_kept_table = std::string("alpha_deg,theta_deg # 5 % \xe4\r\n\0", 31);
+const std::string k_kept_table = std::string("alpha_deg,theta_deg # 5 % \xe4\r\n\0", 30);  // with one zero byte
 
 TEST(Threemf, KeepsMechanismAndTableToTheByte) {
   const std::string bytes =
@@ -228,7 +228,7 @@ TEST(ThreemfReader, ReadsPrefixedNames) {
   EXPECT_TRUE(std::isinf(mesh.vertices[0].z()));
 }
 
-// A lattice of beams without its beams is not a part.
+// Without an extension that the file requires the part would be incomplete, as a lattice of beams without its beams.
 TEST(ThreemfReader, RejectsUnknownRequiredExtension) {
   const std::string object = "<object id='1'>" + k_triangle + "</object>", item = "<item objectid='1'/>";
   const std::string beams = "xmlns:b='http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02'";
@@ -236,7 +236,7 @@ TEST(ThreemfReader, RejectsUnknownRequiredExtension) {
               HasSubstr("requires the extension 'http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02'"));
   EXPECT_THAT(error_of(package(model(object, item, "requiredextensions='q'")), "x.3mf"),
               HasSubstr("undeclared prefix 'q'"));
-  // Extensions are accepted that are not required, are read, or only add colour.
+  // Accepted: extensions that are not required, that fusee reads, or that only add colour.
   EXPECT_EQ(error_of(package(model(object, item, beams)), "x.3mf"), "");
   EXPECT_EQ(error_of(package(model(object, item,
                                    "xmlns:p='http://schemas.microsoft.com/3dmanufacturing/production/2015/06' "

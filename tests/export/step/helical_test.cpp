@@ -199,7 +199,8 @@ TEST_F(Skin, VolumeMatchesBlank) {
     if (const auto* patch = std::get_if<StepSkin::Patch>(&face.surface)) {
       volume += volume_below(*patch);
     } else if (const auto* hub = std::get_if<StepSkin::Cylinder>(&face.surface)) {
-      // Each of two faces is half of the cylinder: two thirds of its volume belong to the side, and the rest to the ends.
+      // The side of a cylinder contributes two thirds of its volume, so each of its two faces contributes one third. The
+      // second edge of the loop runs up; a point of it is (angle, height).
       const StepSkin::Use& up = face.loops.front()[1];
       volume += k_pi * hub->radius * hub->radius * std::abs(up.to.y() - up.from.y()) / 3.0;
     } else {
@@ -209,6 +210,7 @@ TEST_F(Skin, VolumeMatchesBlank) {
   const helical_solid::HelicalPlan& plan = *product().helix->pulley.plan;
   const solid::BodyLayout& layout = product().helix->pulley.layout;
   const solid::TriangleMesh blank = helical_solid::helical_blank(plan.fan, plan.section, layout, plan.heights);
+  // The skin has no bore, the blank has.
   const double bore = std::abs(signed_area(layout.bore.outline)) * plan.heights.hub_top;
   const double expected = std::pow(layout.scale, 3) * (solid::enclosed_volume(blank) + bore);
   // Both surfaces are drawn with chords, whose error is below 0.2 %.
