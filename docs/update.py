@@ -86,7 +86,7 @@ class Bench:
 
 
 def runnable(command):
-    """The part of a command that `fusee` does: not installing, not compiling. Empty if it needs data outside the repository."""
+    """The command without steps that install or compile. None if nothing remains, or if it needs data outside the repository."""
     if "$FUSEE_DAVINCI_JAW" in command and "FUSEE_DAVINCI_JAW" not in os.environ:
         return None
     if ".ci/setup" in command or "cmake" in command:
@@ -96,7 +96,7 @@ def runnable(command):
 
 
 def rewritten(page, bench, failed):
-    """A page as it has to be. Commands of sh blocks that do not succeed are appended to failed, with what they print."""
+    """The page with the present outputs of its commands. Failed commands of sh blocks are appended to `failed`, with their output."""
     def block(match):
         kind, shown_again = match[1], []
         for command, shown in commands_of(kind, match[2].splitlines()):
@@ -218,7 +218,7 @@ def catalogue_page(program):
 # A column that columns.toml does not describe fails.
 COLUMNS = tomllib.loads((SOURCE / "docs/reference/columns.toml").read_text())
 DIRECTIONS = {"rising_": ", α growing", "falling_": ", α falling"}
-RUNS = [  # file, what makes it (in the bench's folder), what it is
+RUNS = [  # title, command that writes the file (None: written before), its path in the bench's folder, description
     ("profile.csv", "fusee build arm.toml", "out/arm/profile.csv", "Both pitch curves, one row per point"),
     ("profile_p1.csv", None, "out/arm/profile_p1.csv", "Points of P1 for a spline in CAD; `profile_p2.csv` has those of P2"),
     ("transmission.csv", None, "out/arm/transmission.csv", "The joint over the stroke, one row per motor angle"),
@@ -245,11 +245,11 @@ DOCUMENTS = [  # command, what is run
 COMMON = ("schema", "command", "ok", "exit", "errors", "warnings")
 
 
-def kind_of(value):
+def json_type(value):
     if isinstance(value, dict):
         return "object with " + ", ".join(f"`{key}`" for key in value)
     if isinstance(value, list):
-        return "list" + (f" of {kind_of(value[0])}" if value else ", here empty")
+        return "list" + (f" of {json_type(value[0])}" if value else ", here empty")
     return {bool: "true or false", int: "number", float: "number", str: "text", type(None): "null"}[type(value)]
 
 
@@ -283,7 +283,7 @@ def json_page(bench):
         text += f"\n## {name}\n\n`{command}`\n\n| key | value |\n|---|---|\n"
         for key, value in document.items():
             if key not in COMMON:
-                text += f"| `{key}` | {kind_of(value)} |\n"
+                text += f"| `{key}` | {json_type(value)} |\n"
     return text
 
 

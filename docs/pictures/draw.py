@@ -57,7 +57,7 @@ def standalone(figure):
 
 
 def figure_of(page, title):
-    """The whole figure of a page whose title begins so."""
+    """The svg element of a page whose title begins with `title`."""
     at = page.index(f"<title>{title}")
     begin, depth = page.rindex("<svg", 0, at), 0
     for tag in re.finditer(r"<svg|</svg>", page[begin:]):
@@ -83,12 +83,13 @@ def plus(point, other, factor=1.0):
     return point[0] + factor * other[0], point[1] + factor * other[1]
 
 
-def nearer(angle):
+def nearest_to_zero(angle):
+    """The same direction within half a turn of 0."""
     return angle - 2 * math.pi * round(angle / (2 * math.pi))
 
 
 def tangent(pin, point, rho, side):
-    """Angle of the outward normal of the line from a point that touches a circle of radius rho about the pin."""
+    """Direction from the pin's centre to where the line from a point touches a circle of radius rho about it. side: +1 or -1."""
     d = plus(point, pin, -1)
     return math.atan2(d[1], d[0]) + side * math.acos(rho / math.hypot(*d))
 
@@ -121,17 +122,17 @@ class Joint:
         data, own = self.data, self.data["outlines"][which]
         points, sign, pin, rho = outline or own["points"], own["sign"], data["pins"][which], data["rho"]
         tie = own["points"][own["end"]]
-        end = min(range(len(points)), key=lambda k: abs(nearer(math.atan2(*tie) - math.atan2(*points[k]))))
+        end = min(range(len(points)), key=lambda k: abs(nearest_to_zero(math.atan2(*tie) - math.atan2(*points[k]))))
         c = self.link_end(theta)
         places = [plus(data["axis"], turned(point, -math.radians(alpha))) for point in points]
         reference = tangent(pin, data["axis"], rho, sign)
-        first = max(range(len(places)), key=lambda k: sign * nearer(tangent(pin, places[k], rho, sign) - reference))
+        first = max(range(len(places)), key=lambda k: sign * nearest_to_zero(tangent(pin, places[k], rho, sign) - reference))
         upper, lower = tangent(pin, c, rho, -sign), tangent(pin, places[first], rho, sign)
         wound, k = [places[first]], first
         while k != end and len(wound) < len(places):
             k = (k - sign) % len(places)
             wound.append(places[k])
-        return [c, plus(pin, unit(upper), rho), plus(pin, unit(lower), rho), places[first]], nearer(lower - upper) > 0, wound
+        return [c, plus(pin, unit(upper), rho), plus(pin, unit(lower), rho), places[first]], nearest_to_zero(lower - upper) > 0, wound
 
     def round_slack(self):
         """Slack of tendon 2 (mm) on a round P2 of P1's radius at each row; negative: stretch. 0 at home."""
@@ -291,7 +292,7 @@ MODULES = {
 }
 
 
-def flow():
+def module_order():
     """The modules in the order in which they may include each other, as the top CMakeLists.txt has them."""
     text = (SOURCE / "CMakeLists.txt").read_text()
     lines = re.search(r"#\s+(base <- (?:.|\n#)*)", text)[1]
@@ -300,8 +301,8 @@ def flow():
 
 def modules():
     drawn = [name for row in MODULES.values() for name in row]
-    if drawn != flow():
-        raise ValueError(f"docs/pictures/draw.py draws {drawn}, CMakeLists.txt has {flow()}")
+    if drawn != module_order():
+        raise ValueError(f"docs/pictures/draw.py draws {drawn}, CMakeLists.txt has {module_order()}")
     parts = []
     for line, (title, row) in enumerate(MODULES.items()):
         y = 12 + 76 * line

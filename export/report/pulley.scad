@@ -4,8 +4,9 @@ slope = supports ? 0 : overhang_deg + 2.5;  // slicers reject slopes up to a deg
 //= several turns
 slope = supports ? 0 : overhang_deg + 4;  // slicers reject slopes up to a degree steeper than their threshold, and draw helical faces coarsely
 //= both
+// height of a face at that slope over a horizontal distance; 45 degrees if supports are printed
 function rise(width) = width * tan(slope > 0 ? slope : 45);
-// height of a ceiling or a cone, which may be flat if supports are printed
+// the same for a ceiling or a cone, which is flat if supports are printed
 function ceiling(width) = slope > 0 ? rise(width) : 0;
 // slope of two ceilings that meet in a ridge over a slit
 ridge_slope = slope > 0 ? min(slope + 10, 80) : 45;
@@ -14,12 +15,15 @@ apart = parts == 2;
 //= both
 
 // ---- the groove's cross-section: [outward from the floor, along the axis from the groove's middle], one half ----
+// `lean`: angle of the wall from the outward direction. A u groove's floor is an arc of radius `seat`. A polygon around it
+// replaces it, whose corners lie at most 0.01 mm off the arc.
 seat = max(0.5, seat_ratio) * tendon;
 function seat_corners(lean) = let (
     steps = max(1, ceil((90 - lean) / (2 * acos(1 / (1 + 0.01 / seat))))),
     step = (90 - lean) / steps,
     corner = seat / cos(step / 2))
   [for (k = [0 : steps - 1]) [k == 0 ? 0 : seat - corner * cos((k + 0.5) * step), corner * sin((k + 0.5) * step)]];
+// the floor, up to where the straight wall begins
 function ground(lean) =
   groove_shape == "u" ? seat_corners(lean) :
   groove_shape == "v" ? [[0, tendon / 2 * tan(45 - lean / 2)]] :
@@ -68,15 +72,17 @@ n = len(P1);
 function parallel(P, out) = [for (p = P) [p[0] + out * cos(p[2]), p[1] + out * sin(p[2])]];
 function circle_like(r) = [for (p = P1) r * [cos(p[2]), sin(p[2])]];
 function reach(P, out) = max([for (p = parallel(P, out)) norm(p)]);
-// reach of a floor in its normal's direction, and along the tangent
+// components of a floor's point along its normal (the support function) and along its tangent (that function's derivative)
 function support(p) = p[0] * cos(p[2]) + p[1] * sin(p[2]);
-function aside(p) = -p[0] * sin(p[2]) + p[1] * cos(p[2]);
+function support_slope(p) = -p[0] * sin(p[2]) + p[1] * cos(p[2]);
+// the smooth maximum (log-sum-exp, in mm of `blend`) of both support functions is the support function h of the outline around
+// both; t is its derivative
 blend = 0.5;
 function around_both(out) = [for (i = [0 : n - 1]) let (
-    s1 = support(P1[i]), s2 = support(P2[i]), most = max(s1, s2),
-    w1 = exp((s1 - most) / blend), w2 = exp((s2 - most) / blend),
-    h = most + blend * ln(w1 + w2) + out,
-    t = (w1 * aside(P1[i]) + w2 * aside(P2[i])) / (w1 + w2),
+    s1 = support(P1[i]), s2 = support(P2[i]), largest = max(s1, s2),
+    w1 = exp((s1 - largest) / blend), w2 = exp((s2 - largest) / blend),
+    h = largest + blend * ln(w1 + w2) + out,
+    t = (w1 * support_slope(P1[i]) + w2 * support_slope(P2[i])) / (w1 + w2),
     a = P1[i][2]) [h * cos(a) - t * sin(a), h * sin(a) + t * cos(a)]];
 
 is_round = flange_shape == "round";
@@ -111,7 +117,7 @@ p2_rings = concat(
   [[z_top, upper]]);
 
 //= both
-// The body between outlines with equal numbers of corners, one above the other. The first and the last are star-shaped
+// The solid between sections with equal numbers of corners, one after the other. The first and the last are star-shaped
 // about their first corner. OpenSCAD requires faces that turn clockwise. The sign of the volume gives the direction.
 module strip(sections) {
   count = len(sections[0]);
@@ -122,7 +128,7 @@ module strip(sections) {
     [for (k = [0 : count : last - 1]) for (c = [0 : count - 1]) let (a = k + c, b = k + (c + 1) % count)
       each [[a, b + count, b], [a, a + count, b + count]]]);
   volume = [for (f = faces) 1] * [for (f = faces) points[f[0]] * cross(points[f[1]], points[f[2]])];
-  // a line of sight enters and leaves each flange: the preview requires the largest number
+  // convexity: how often a line of sight can enter the solid, at most; the preview requires it
   polyhedron(points, volume < 0 ? faces : [for (f = faces) [f[0], f[2], f[1]]], convexity = 6);
 }
 
@@ -148,9 +154,9 @@ module polyhole(d, sides) {
 
 function sides(d) = max(8, round(2 * d));
 module round_hole(d) { polyhole(d, sides(d)); }
-// its edge in the direction a: a is within half a side's angle of the middle of that side, which stands at d / 2
-function edge_of_hole(d, a) = let (side = 360 / sides(d), off = a - 90 - side * round((a - 90) / side))
-  d / 2 / cos(off) * [cos(a), sin(a)];
+// its edge in the direction a; from_middle: angle between a and the middle of the nearest side, which is d / 2 from the centre
+function edge_of_hole(d, a) = let (side = 360 / sides(d), from_middle = a - 90 - side * round((a - 90) / side))
+  d / 2 / cos(from_middle) * [cos(a), sin(a)];
 
 module bore_outline() {
   d = bore + hole_compensation;
@@ -163,21 +169,21 @@ module bore_outline() {
   else round_hole(d);
 }
 
-// A recess narrows in a cone to the hole of its centre screw: both seen along the same rays from the axis.
+// A recess narrows in a cone to the hole of its centre screw. Both ends have their corners on the same rays from the axis.
 module recess_cone() {
   rim = len(horn_teeth) > 0 ? horn_teeth : [for (a = horn_rays) edge_of_hole(bore + hole_compensation, a)];
   hole = [for (a = horn_rays) edge_of_hole(horn_holes[0][2] + hole_compensation, a)];
   ledge = max([for (k = [0 : len(hole) - 1]) norm(rim[k] - hole[k])]);
-  // its ends are round, for a strip's are seen whole from a corner; they lie within the recess and the hole
+  // the strip's end sections must be star-shaped: small round ones, which lie within the recess and the hole
   end = [for (a = horn_rays) horn_holes[0][2] / 4 * [cos(a), sin(a)]];
   top = horn_recess + rise(ledge);
   strip([at(end, horn_recess - 0.5), at(rim, horn_recess - 0.001), at(rim, horn_recess), at(hole, top), at(end, top + 0.5)]);
 }
 
 module bore_hole() {
-  sunk = horn_recess > 0;
-  translate([0, 0, -1]) linear_extrude(1 + (sunk ? horn_recess : z_hub + 1), convexity = 4) bore_outline();
-  if (sunk && slope > 0) recess_cone();
+  has_recess = horn_recess > 0;
+  translate([0, 0, -1]) linear_extrude(1 + (has_recess ? horn_recess : z_hub + 1), convexity = 4) bore_outline();
+  if (has_recess && slope > 0) recess_cone();
   for (hole = horn_holes) translate([hole[0], hole[1], -1]) linear_extrude(z_hub + 2) round_hole(hole[2] + hole_compensation);
 }
 
@@ -186,13 +192,13 @@ module bore_hole() {
 module dowel_holes() {
   d = dowel_pin + hole_compensation;
   end = min(z_p2 + dowel_end, z_top - 0.6 - ceiling(d / 2));
-  for (place = dowels) translate([place[0], place[1], 0]) {
+  for (centre = dowels) translate([centre[0], centre[1], 0]) {
     translate([0, 0, -1]) linear_extrude(end + 1) round_hole(d);
     if (slope > 0) translate([0, 0, end - 0.001]) linear_extrude(rise(d / 2), scale = 0.05) round_hole(d);
   }
 }
 
-// True if the face that this pulley's pockets open on lies on the bed, where nothing supports overhangs.
+// True if the face on which this pulley's pockets open lies on the bed: a pocket's ceiling is then an overhang.
 function on_bed(groove) = groove == 1 && !apart && slope > 0;
 
 // The channel in print orientation, with a ceiling that rises from its inner edge to its outer one.
@@ -205,7 +211,9 @@ module channel(t) {
   }
 }
 
-// Seen from the pocket's middle, x ahead and y to the channel's outer side: a circle, behind it a wall across the channel.
+// Relative to the pocket's middle, with x along the channel and y to its outer side: a circle. With `walled`, a rectangle as
+// wide as the channel extends it backwards, and ends in a wall across the channel. It is 0.07 mm wider and longer, so that no
+// faces coincide.
 function pocket_outline(r, walled) = let (
     half = min((channel_width + 0.07) / 2, 0.95 * r), back = 180 - asin(half / r), step = 360 / facets,
     side = [for (k = [0 : facets - 1]) if (!walled || k * step < back - 0.3 * step) r * [cos(k * step), sin(k * step)]])
@@ -213,28 +221,28 @@ function pocket_outline(r, walled) = let (
     [r * [cos(back), sin(back)], [-r - 0.07, half], [-r - 0.07, -half], r * [cos(back), -sin(back)]],
     [for (k = [len(side) - 1 : -1 : 1]) [side[k][0], -side[k][1]]]);
 
-// From the nearer face. If that lies on the bed, its ceiling rises like the channel's.
+// The pocket opens on the nearer face. If that lies on the bed, its ceiling rises like the channel's.
 module pocket(t) {
   inner_end = t[3][len(t[3]) - 1];
   outward = (t[1] - inner_end) / norm(t[1] - inner_end);
   // if no straight leads into the pocket: across the channel's end
   ahead = norm(t[4]) > 0 ? t[4] / norm(t[4]) : outward[0] * [0, 1] - outward[1] * [1, 0];
   r = knot_pocket / 2;
-  open = t[0] == 2 ? z_hub - z_p2 + 1 : apart ? z_p1 + 1 : -z_p1 - 1;
-  closed = (channel_width / 2 + 0.07) * (open > 0 ? -1 : 1);
+  open_end = t[0] == 2 ? z_hub - z_p2 + 1 : apart ? z_p1 + 1 : -z_p1 - 1;
+  closed_end = (channel_width / 2 + 0.07) * (open_end > 0 ? -1 : 1);
   outline = pocket_outline(r, slope > 0 && norm(t[4]) > r + 0.07);
   edge = [for (p = outline) t[1] + p[0] * ahead + p[1] * outward];
-  strip([at(edge, open), [for (k = [0 : len(edge) - 1])
-    [edge[k][0], edge[k][1], closed + (on_bed(t[0]) ? rise(r + outline[k][1]) : 0)]]]);
+  strip([at(edge, open_end), [for (k = [0 : len(edge) - 1])
+    [edge[k][0], edge[k][1], closed_end + (on_bed(t[0]) ? rise(r + outline[k][1]) : 0)]]]);
 }
 
-// Seen from the pulley's own face, which lies at 0 and faces down.
+// Children are given relative to the pulley's own face: it lies at 0 and faces down.
 module from_face(groove) {
   translate([0, 0, groove == 1 ? 0 : z_top]) mirror([0, 0, groove == 1 ? 0 : 1]) children();
 }
 
-// A countersunk slot to the groove, round at its floor and open to the rim. Over a closed hole the groove's ceiling
-// would begin in mid-air.
+// A countersunk slot from the face to the groove: its inner end is round, and it is open to the rim. A closed hole would
+// leave the groove's ceiling without support at its beginning.
 module face_hole(t) {
   radius = channel_width / 2;
   normal = [cos(t[2]), sin(t[2])];
@@ -245,7 +253,7 @@ module face_hole(t) {
   around = [for (k = [0 : facets - 1]) [cos(360 * (k + 0.3) / facets), sin(360 * (k + 0.3) / facets)]];
   from_face(t[0]) {
     strip([at(slot, -outside), at(slot, to_groove + 0.03)]);
-    // it narrows into the slot's end along one slope
+    // the countersink: a cone that narrows into the slot's round end
     if (t[4] > 0) strip([
       at([for (p = around) t[1] - (t[3] - radius) * normal + t[3] * p], -outside - 0.5),
       at([for (p = around) t[1] - (t[3] - radius) * normal + t[3] * p], 0),
@@ -269,8 +277,8 @@ module clamp_pilot(t) {
 }
 
 //= both
-// Round below, with a peaked ceiling: it prints horizontally without support. In the middle of the hub, or lower so that
-// its ceiling has a wall above it, or higher so that the nut has clearance below.
+// The set screw's hole is round below and has a peaked ceiling, so that it prints horizontally without support. It lies in
+// the middle of the hub, or lower so that its ceiling has a wall above it, or higher so that the nut has clearance below.
 module screw_hole() {
   top = screw_hole / 2 / cos(ridge_slope);
   z = max(min((z_top + z_hub) / 2, z_hub - top - min_wall), z_top + (nut_trap ? nut_width / sqrt(3) : screw_hole / 2));
@@ -285,7 +293,7 @@ module screw_hole() {
 
 //= one turn
 // ---- the part ----
-// Both pulleys as one (0), P1 (1) or P2 (2), at their positions in the whole. One difference: the cut features are
+// `piece`: both pulleys as one (0), P1 (1) or P2 (2), at their positions in the assembled part. One difference: the cut features are
 // united first, because they are small and this is fast.
 module part(piece) {
   function has(groove) = piece == 0 || piece == groove;
@@ -323,9 +331,10 @@ scale(print_scale) {
   else part(0);
 }
 //= several turns
-// ---- the turns: rows of the groove's section, one behind the other, over and under one another every `columns` rows ----
-// A row is [x, y, direction of the normal, height]; both grooves fall as that direction grows. Rows continue
-// beyond the end of a groove, filled to its edge: the tendon dives there.
+// ---- the turns: rows of the groove's section along the spiral, `columns` rows a turn ----
+// A row is [x, y, direction of the normal, height]; both grooves fall as that direction grows. Row j + columns lies below
+// row j. Rows continue beyond the end of a groove, where they are filled to the groove edge: the tendon leaves the groove
+// there through its run-out.
 section = concat(
   [for (k = [len(lower_wall) - 1 : -1 : 0]) [lower_wall[k][0], -lower_wall[k][1]]],
   [for (p = ceiling_wall) p]);
@@ -335,17 +344,19 @@ last2 = len(P2) - 1;
 function normal_of(row) = [cos(row[2]), sin(row[2])];
 function out_of(row, out) = [row[0], row[1]] + out * normal_of(row);
 function lifted(p, z) = [p[0], p[1], z];
-// The groove edges of filled rows project over the channel's entry, and decline with the ring's blend.
+// How deep a row lies in the filled length: 0 in the groove, 1 at the end of the rows. j: row; front, back: filled rows at
+// the first and the last end. The groove edges of filled rows project over the channel's entry, and less towards the end,
+// by the ring's blend.
 function fill_share(j, last, front, back) =
   j < front ? (front - j) / front : j + back > last ? (j + back - last) / back : 0;
-function stands_out(share, k, edge_bulges) =
+function projection(share, k, edge_bulges) =
   share == 0 ? 0 : k == 0 ? edge_bulges[0] * (1 - blend(share)) : k == m - 1 ? edge_bulges[1] * (1 - blend(share)) : 0;
 function row_points(P, front, back, edge_bulges) =
   [for (j = [0 : len(P) - 1]) let (share = fill_share(j, len(P) - 1, front, back)) for (k = [0 : m - 1])
-    lifted(out_of(P[j], section[k][0] + stands_out(share, k, edge_bulges)), P[j][3] + section[k][1])];
+    lifted(out_of(P[j], section[k][0] + projection(share, k, edge_bulges)), P[j][3] + section[k][1])];
 
-// A closed ring about the outermost turn of an open spiral. In its second half it moves to the start of the turn. Point i
-// is in column i.
+// A closed ring along the first turn of an open spiral, or along its last turn (from_back). In its second half it is shifted
+// gradually to the start of that turn, so that it closes. Point i is in column i.
 function blend(share) = let (t = max(0, min(1, 2 * share - 1))) t * t * (3 - 2 * t);
 function ring(P, first_column, from_back, out) = let (
     last = len(P) - 1,
@@ -371,7 +382,8 @@ first_ring = first2 + len(P2) * m;
 function quad(a, b, c, d) = [[a, b, c], [a, c, d]];
 function after(c) = (c + 1) % columns;
 function between(low, high) = [for (c = [0 : columns - 1]) each quad(low + c, low + after(c), high + after(c), high + c)];
-// A groove of rows 0 … last, whose points begin at `first`, between two rings.
+// Faces of a groove of rows 0 … last, whose points begin at index `first`, between two rings, whose points begin at the indices
+// `below` and `above`.
 function winding(first, last, first_column, filled_front, filled_back, below, above) = let (n = columns)
   concat(
     // along the groove: from row to row
@@ -413,12 +425,13 @@ module body() {
 function circle_like(r) = [for (k = [0 : 95]) r * [cos(3.75 * k), sin(3.75 * k)]];
 
 // ---- run-outs: tangentially out of a groove's end, along an arc inwards and towards the face, into a knot pocket ----
-// [row where the groove ends, +1 or -1: on along growing or falling directions, -1: to the lower face, its height, run-out]
+// A run-out is [row where the groove ends, +1 if it goes on towards growing directions or -1 towards falling ones, -1 if it
+// leads to the lower face or +1 to the upper one, that face's height, the entry of run_outs].
 channel = channel_width / 2;
 pocket = max(knot_pocket / 2, 1.05 * channel);
 
-// A circle in the plane across `ahead` below a peaked ceiling whose ridge is vertically over the centre: the section of the
-// volume that a ball with a cone on it sweeps.
+// The section across the direction `ahead` of the volume that a ball with a cone on it sweeps: a circle of radius r about
+// `centre` below a peaked ceiling, whose ridge is vertically over the centre.
 channel_slope = max(ridge_slope, 57.5);
 function tube(centre, ahead, r) = let (
     level = [ahead[1], -ahead[0], 0] / norm([ahead[0], ahead[1]]),
@@ -447,7 +460,7 @@ module run_out(t) {
     t[2] < 0 ? [tube(top + 0.8 * channel * towards, towards, channel)]
              : concat(norm(top - arc_end) > 0.05 * channel ? [end] : [], [[for (p = end) front + 0.05 * (p - front)]])));
   around = [for (k = [0 : facets - 1]) [cos(360 * (k + 0.23) / facets), sin(360 * (k + 0.23) / facets)]];
-  neck = min(pocket, channel);  // from there on the lower face's pocket narrows to a tip: it has no ceiling
+  neck = min(pocket, channel);  // at this radius the pocket of the lower face goes on to a tip, because a flat end would be a ceiling
   strip([for (s = concat([[-1, pocket], [t[4][2], pocket], [t[4][2] + cone, channel]],
                          t[2] < 0 ? [[t[4][2] + cone + rise(0.8 * neck), 0.2 * neck]] : []))
     [for (p = around) lifted(t[4][1], t[3] - t[2] * s[0]) + s[1] * lifted(p, 0)]]);

@@ -3,7 +3,7 @@
 
     profiles/pictures/draw.py build/release/fusee [folder, this one without it]
 
-Needs Chromium. as_printed.png is another's: parts as a slicer lays them.
+Needs Chromium. It does not draw as_printed.png, which shows parts as a slicer arranges them.
 """
 
 import pathlib

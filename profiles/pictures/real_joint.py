@@ -13,7 +13,7 @@ import sys
 
 import numpy as np
 
-RATIO = -1 / 0.915
+RATIO = -1 / 0.915  # motor angle per joint angle: the start of the fit's gain is 1 / RATIO
 SETTLING = 75  # rows: 1.5 s, in which the play of a run is not known
 
 
@@ -23,6 +23,7 @@ def read(path):
 
 
 def play(angle, width):
+    """The play operator: the output follows when the input is half the width away."""
     lag, at = np.empty(len(angle)), angle[0]
     for i, value in enumerate(angle):
         at = min(max(at, value - width / 2), value + width / 2)

@@ -38,7 +38,7 @@ TEST(ProfileLaws, AcceptedProfilesRewindToLaw) {
   });
 }
 
-/// True if the mechanism is feasible. Then both profiles must be convex and rewind to the law.
+/// Returns whether the mechanism is feasible. If so, both profiles must be convex and rewind to the law.
 bool rewinds_to_its_law(const Mechanism& mechanism) {
   const profile::SynthesisResult result = profile::synthesise(mechanism, {.advice = false});
   for (const profile::Condition& condition : result.conditions) RC_ASSERT(condition.ok == condition.message.empty());
@@ -62,16 +62,18 @@ TEST(ProfileLaws, SheathedJointsRewindToLaw) {
   expect_law(300, rewinds_to_its_law, testing::random_sheathed_mechanism);
 }
 
-/// Work of the load from home, N·mm.
+/// Work against tip force, weight and spring from home to `theta`, N·mm: the integral of the load torque.
 double work_of_load(const Mechanism& mechanism, double theta) {
   const Load& load = mechanism.load;
   const Spring& spring = mechanism.spring;
-  const double weight = load.mass_kg * 9.80665 * load.lever, past = theta - spring.free;
-  return load.tip_force * mechanism.joint.R * theta + weight * (std::cos(load.tilt - theta) - std::cos(load.tilt)) +
-         spring.preload * theta + 0.5 * spring.stiffness * (past * past - spring.free * spring.free);
+  const double weight_torque = load.mass_kg * 9.80665 * load.lever, deflection = theta - spring.free;
+  return load.tip_force * mechanism.joint.R * theta +
+         weight_torque * (std::cos(load.tilt - theta) - std::cos(load.tilt)) + spring.preload * theta +
+         0.5 * spring.stiffness * (deflection * deflection - spring.free * spring.free);
 }
 
-// With a constant torque, the motor's work along the rewound law equals the load's, within 0.02 deg of the joint.
+// With a constant motor torque, the motor's work along the rewound law equals the load's. The tolerance is the work of the
+// load over 0.02 deg of the joint.
 TEST(ProfileLaws, TorqueLawsRewindToLaw) {
   expect_law(
       300,
@@ -126,20 +128,20 @@ TEST(ProfileLaws, TendonsClearClosingArc) {
   });
 }
 
-/// Maximum depth of the outline inside a much finer sample of the same curve.
-double deepest_chord(const profile::Outline& outline, const profile::Outline& fine) {
-  double deepest = 0;
+/// Largest distance by which the outline lies inside a much finer sample of the same curve, mm.
+double largest_chord_error(const profile::Outline& outline, const profile::Outline& fine) {
+  double largest = 0;
   std::size_t corner = 0;
   for (const profile::OutlinePoint& point : fine.points) {
     // Both polygons run in the same direction, so that the supporting corner for this normal is near the previous one.
-    const auto reach = [&](std::size_t i) {
+    const auto support = [&](std::size_t i) {
       return outline.points[i % outline.points.size()].position.dot(point.normal);
     };
-    while (reach(corner + 1) > reach(corner)) ++corner;
-    while (corner > 0 && reach(corner - 1) > reach(corner)) --corner;
-    deepest = std::max(deepest, point.position.dot(point.normal) - reach(corner));
+    while (support(corner + 1) > support(corner)) ++corner;
+    while (corner > 0 && support(corner - 1) > support(corner)) --corner;
+    largest = std::max(largest, point.position.dot(point.normal) - support(corner));
   }
-  return deepest;
+  return largest;
 }
 
 TEST(ProfileLaws, ChordsAreWithinTolerance) {
@@ -149,8 +151,8 @@ TEST(ProfileLaws, ChordsAreWithinTolerance) {
         profile::synthesise(mechanism, {.chord_error_mm = tolerance, .advice = false});
     if (!result.made()) return false;
     const profile::SynthesisResult fine = profile::synthesise(mechanism, {.chord_error_mm = 1e-5, .advice = false});
-    RC_ASSERT(deepest_chord(result.p1, fine.p1) <= tolerance);
-    RC_ASSERT(deepest_chord(result.p2, fine.p2) <= tolerance);
+    RC_ASSERT(largest_chord_error(result.p1, fine.p1) <= tolerance);
+    RC_ASSERT(largest_chord_error(result.p2, fine.p2) <= tolerance);
     return true;
   });
 }

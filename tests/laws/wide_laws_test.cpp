@@ -19,8 +19,8 @@ namespace {
 using testing::BruteString;
 using testing::expect_law;
 
-/// Lengths over the range, and arms by their differences, of one tendon.
-void expect_string(const Mechanism& mechanism, const transmission::Transmission& law, transmission::Side side) {
+/// Expects one tendon's length over the range, and its moment arm (−dl/dθ), to equal those of the brute-force string.
+void expect_string_agrees(const Mechanism& mechanism, const transmission::Transmission& law, transmission::Side side) {
   transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.seen_pitch_radius());
   // Without a drum the string is laid round a tiny circle at the axis, which it never touches while there is an arm.
   if (place.drum == 0) place.drum = 1e-3 * place.R;
@@ -28,7 +28,7 @@ void expect_string(const Mechanism& mechanism, const transmission::Transmission&
   const auto leaves = transmission::lift_off(place);
   if (!leaves) return;
   BruteString string(place);
-  double before = 0, formula_before = 0;
+  double length_before = 0, formula_before = 0;  // 0: there is no previous point to compare with
   for (int i = 0; i <= 8; ++i) {
     const transmission::TransmissionPoint at = law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), i / 8.0));
     const double theta = sign * at.theta;
@@ -37,21 +37,21 @@ void expect_string(const Mechanism& mechanism, const transmission::Transmission&
     // At lift-off the last touching point is arbitrary. The string is coarse where the end is within a few polygon
     // points of the pin.
     if (std::abs(theta - *leaves) < 0.02 || (span.on_drum == 0 && span.free < 0.5 * R)) {
-      before = 0;
+      length_before = 0;
       continue;
     }
     const double length = string.length(theta);
-    if (before != 0) RC_ASSERT(std::abs((length - before) - (span.length - formula_before)) < 1e-6 * R);
+    if (length_before != 0) RC_ASSERT(std::abs((length - length_before) - (span.length - formula_before)) < 1e-6 * R);
     RC_ASSERT(std::abs(tendon.m - span.m) <= 1e-12 * R);
-    const double turned = 0.005;
-    const double arm = -(string.length(theta + turned) - string.length(theta - turned)) / (2 * turned);
-    const double formula = -(transmission::upper_span(place, theta + turned).length -
-                             transmission::upper_span(place, theta - turned).length) /
-                           (2 * turned);
+    const double step = 0.005;
+    const double arm = -(string.length(theta + step) - string.length(theta - step)) / (2 * step);
+    const double formula =
+        -(transmission::upper_span(place, theta + step).length - transmission::upper_span(place, theta - step).length) /
+        (2 * step);
     RC_ASSERT(std::abs(arm - formula) < 1e-4 * R);
     RC_ASSERT(std::abs(arm - tendon.m) < 0.02 * R);
-    string.length(theta);
-    before = length;
+    string.length(theta);  // back to this angle: the string counts turns by following the joint
+    length_before = length;
     formula_before = span.length;
   }
 }
@@ -62,29 +62,30 @@ TEST(WideLaws, LengthsAgreeWithBruteForceString) {
       [](const Mechanism& mechanism) {
         const transmission::Transmission law(mechanism);
         if (law.dead_centre()) return false;
-        expect_string(mechanism, law, transmission::Side::left);
-        expect_string(mechanism, law, transmission::Side::right);
+        expect_string_agrees(mechanism, law, transmission::Side::left);
+        expect_string_agrees(mechanism, law, transmission::Side::right);
         return true;
       },
       testing::random_wide_mechanism);
 }
 
-/// Up, down and home under a load, twice.
+/// The load is applied at home. Then the motor turns to the upper end, to the lower end and home, twice.
 std::vector<joint::JointStep> round_trip(const transmission::Transmission& law, double tip_force, int steps) {
-  std::vector<joint::JointStep> way;
-  for (int i = 0; i <= 200; ++i) way.push_back({0.0, tip_force * i / 200, 0.0});
+  std::vector<joint::JointStep> steps_taken;
+  for (int i = 0; i <= 200; ++i) steps_taken.push_back({0.0, tip_force * i / 200, 0.0});
   const auto run = [&](double from, double to) {
-    for (int i = 1; i <= steps; ++i) way.push_back({std::lerp(from, to, double(i) / steps), tip_force, 0.0});
+    for (int i = 1; i <= steps; ++i) steps_taken.push_back({std::lerp(from, to, double(i) / steps), tip_force, 0.0});
   };
   for (int round = 0; round < 2; ++round) {
     run(0.0, law.alpha_max());
     run(law.alpha_max(), law.alpha_min());
     run(law.alpha_min(), 0.0);
   }
-  return way;
+  return steps_taken;
 }
 
-/// Energy balance: work of the motor minus work of the load, stored energy and friction.
+/// Expects the energy balance: the motor's work is the sum of the load's work, the stored energy and the friction losses.
+/// Returns false for a joint to which the balance does not apply.
 bool loses_no_energy(Mechanism mechanism) {
   using testing::detail::between;
   const double R = mechanism.joint.R;
@@ -106,20 +107,20 @@ bool loses_no_energy(Mechanism mechanism) {
   const double force = *between(-5.0, 5.0);
   const std::vector<joint::EquilibriumPoint> points =
       joint::follow(joint::joint_model(mechanism), round_trip(law, force, 1500));
-  double motor = 0, load = 0, most = 0;
+  double motor_work = 0, load_work = 0, largest_torque = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
-    // A very soft joint that snaps through loses energy at once; a loose one has no torque.
+    // A very soft joint can snap through and lose energy within one step. A loose joint has no torque.
     if (points[i].status != joint::EquilibriumStatus::held) return false;
     if (std::abs(points[i].theta - law.theta(points[i].alpha)) > radians(5)) return false;
-    motor += 0.5 * (points[i].motor_torque + points[i - 1].motor_torque) * (points[i].alpha - points[i - 1].alpha);
-    load += 0.5 * (points[i].load_torque + points[i - 1].load_torque) * (points[i].theta - points[i - 1].theta);
-    most = std::max(most, std::abs(points[i].motor_torque));
+    motor_work += 0.5 * (points[i].motor_torque + points[i - 1].motor_torque) * (points[i].alpha - points[i - 1].alpha);
+    load_work += 0.5 * (points[i].load_torque + points[i - 1].load_torque) * (points[i].theta - points[i - 1].theta);
+    largest_torque = std::max(largest_torque, std::abs(points[i].motor_torque));
   }
   const joint::EquilibriumPoint& end = points.back();
-  const double missing = motor - load - end.stored - end.friction - end.groove_friction;
+  const double missing = motor_work - load_work - end.stored - end.friction - end.groove_friction;
   RC_LOG() << write_mechanism(DeclaredMechanism(mechanism)) << "missing " << missing << " friction " << end.friction
            << " groove " << end.groove_friction << " stored " << end.stored << " force " << force << " R " << R;
-  const double scale = end.friction + std::abs(end.groove_friction) + std::abs(end.stored) + most;
+  const double scale = end.friction + std::abs(end.groove_friction) + std::abs(end.stored) + largest_torque;
   RC_ASSERT(end.friction >= 0 && end.groove_friction >= -1e-4 * scale);
   RC_ASSERT(std::abs(missing) < 1e-4 * scale);
   return true;
@@ -129,8 +130,8 @@ TEST(WideLaws, EnergyIsConserved) { expect_law(80, loses_no_energy, testing::ran
 
 TEST(WideLaws, EnergyIsConservedThroughSheaths) { expect_law(60, loses_no_energy, testing::random_sheathed_mechanism); }
 
-// Both ends are on the drum, and so far round that neither tendon leaves it. The arms are the drum's pitch radius, and
-// with a linear law the pulleys are round with that radius over the ratio, up to rounding of a few products.
+// Both tendons end on the drum, at angles at which neither leaves it within the range. Their arms are then the drum's pitch
+// radius. With a linear law, both pulleys are round with that radius over the ratio, up to the rounding of a few products.
 TEST(WideLaws, PermanentDrumWrapMakesRoundPulleys) {
   expect_law(
       1000,
@@ -140,7 +141,7 @@ TEST(WideLaws, PermanentDrumWrapMakesRoundPulleys) {
         const double rho = mechanism.drum_pitch_radius();
         mechanism.pulley.law = Law::linear;
         mechanism.pulley.ratio = *between(0.5, 4.0);
-        // Tendon 2 lifts off at the angle of its end above the pin's line; so far round that is beyond the range.
+        // At its end of the range each end is still 20° above the horizontal, so that its tendon has not lifted off.
         const double low = mechanism.joint.theta_min, high = mechanism.joint.theta_max;
         const double end1 = radians(90.0) + low - radians(20.0), end2 = -(radians(90.0) - high - radians(20.0));
         mechanism.joint.attachment1 = Attachment{rho * std::sin(-end1), rho * std::cos(end1)};

@@ -16,7 +16,7 @@ namespace fusee::testing {
 constexpr int k_string_points = 4096;
 constexpr double k_string_step = k_two_pi / k_string_points;
 
-/// Counter-clockwise round the inner side of a tendon of the right-hand image, which runs upwards on their right.
+/// Corners of a circle, counter-clockwise. The tendon runs upwards on its right side, as in the image of tendon 2.
 inline std::vector<Vec2> circle(const Vec2& centre, double radius) {
   std::vector<Vec2> points;
   for (int i = 0; i < k_string_points; ++i)
@@ -24,6 +24,7 @@ inline std::vector<Vec2> circle(const Vec2& centre, double radius) {
   return points;
 }
 
+/// Positive if `point` lies to the right of the line from `from` to `to`.
 inline double right_of(const Vec2& from, const Vec2& to, const Vec2& point) { return cross(point - from, to - from); }
 
 /// The tangent point of a circle for a string to (or from) `far`: no other point is on its right.
@@ -106,8 +107,8 @@ class BruteString {
   transmission::PinPlace place_;
   std::vector<Vec2> pin_, drum_;
   int pin_leaves_ = 0, drum_meets_ = 0, drum_leaves_ = 0;
-  int wound_ = 0;  ///< points in contact, turns counted; negative: the string is clear of the drum
-  double turned_ = 0;
+  int wound_ = 0;      ///< points in contact, turns counted; negative: the string is clear of the drum
+  double turned_ = 0;  ///< angle of the tendon's end, clockwise from straight up, rad
 };
 
 }  // namespace fusee::testing

@@ -26,13 +26,13 @@ class Dice {
   std::mt19937_64 bits_;
 };
 
-/// The number in an environment variable.
+/// The number in an environment variable, or `otherwise` if it is not set.
 inline int number_in(const char* variable, int otherwise) {
   const char* text = std::getenv(variable);
   return text == nullptr ? otherwise : std::atoi(text);
 }
 
-/// Results of a campaign for a design; bad input is a valid one.
+/// Results of a build of a random design. A refusal and bad input are valid results, too.
 enum class BuildEnd { made, refused, bad_input };
 
 }  // namespace fusee::testing

@@ -16,9 +16,10 @@ class RubbedChain {
   /// the whole cable.
   RubbedChain(double share, double unloaded) : share_(share / k_nodes), unloaded_(unloaded / k_nodes) {}
 
-  /// Joint angle for the motor at `driven` and the pull `load`.
+  /// Moves the motor to `driven` under the pull `load`, and returns the joint angle. The nodes keep their friction state.
   double to(double driven, double load) {
-    constexpr double overrelaxed = 1.9, settled = 1e-10;
+    constexpr double overrelaxed = 1.9,
+                     settled = 1e-10;  // factor of successive over-relaxation; largest step at its end
     for (double moved = 1; moved > settled;) {
       moved = 0;
       for (int i = 0; i < k_nodes; ++i) {
