@@ -1,9 +1,11 @@
 #include "measurement/columns.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "base/text.h"
@@ -16,21 +18,29 @@ namespace {
 /// Names that are recognised for a role without --column, in any unit, besides the default name.
 const std::vector<std::string>& words_of(const std::string& role) {
   static const std::map<std::string, std::vector<std::string>> words = {
-      {"alpha", {"alpha"}},       {"theta", {"theta"}},
-      {"load", {"load"}},         {"time", {"time", "timestamp", "time_stamp", "%time", "__time"}},
-      {"tension1", {"tension1"}}, {"temperature", {"temperature", "temp"}},
+      {"alpha", {"alpha"}},
+      {"theta", {"theta"}},
+      {"load", {"load"}},
+      {"time", {"time", "timestamp", "time_stamp", "%time", "__time", "zeit", "temps", "tiempo", "tijd", "czas"}},
+      {"tension1", {"tension1"}},
+      {"temperature", {"temperature", "temp"}},
       {"tension2", {"tension2"}}};
   static const std::vector<std::string> none;
   const auto found = words.find(role);
   return found == words.end() ? none : found->second;
 }
 
-std::string list_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) {
-    if (!name.empty() && list.size() < 300) list += (list.empty() ? "" : ", ") + shown(name);
-  }
-  return list;
+/// Load and force in the languages of builders. With a unit of a load, the first kind is the joint's load. A force may
+/// be a tendon's.
+constexpr std::array<std::string_view, 7> k_load_words = {"last",   "belastung", "carga",     "carico",
+                                                          "charge", "lading",    "obciążenie"};
+constexpr std::array<std::string_view, 14> k_force_words = {"force",  "kraft",  "fuerza",  "forza",  "força",
+                                                            "kracht", "weight", "gewicht", "peso",   "poids",
+                                                            "mass",   "masse",  "torque",  "payload"};
+
+template <typename Words>
+bool is_one_of(const Words& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
 }
 
 /// Quotes a name for --column in a shell.
@@ -54,6 +64,7 @@ class ColumnFinder {
           given != options_.columns.end() ? index_of(to_utf8(given->second)) : usual_index(role, usual);
       if (!index && given == options_.columns.end()) index = ros_index(role);
       if (!index && given == options_.columns.end()) index = index_by_words(role);
+      if (!index && given == options_.columns.end() && role == "load") index = load_in_other_languages();
       const bool is_needed = role == "alpha" || (role == "theta" && options_.needs_theta);
       if (index) {
         take(role, *index, given != options_.columns.end());
@@ -66,6 +77,7 @@ class ColumnFinder {
     refuse_missing();
     refuse_shared_columns();
     note_unread_load();
+    list_unused();
     return std::move(header_);
   }
 
@@ -128,6 +140,21 @@ class ColumnFinder {
     return index;
   }
 
+  /// The one column that is called load in another language and states a unit of a load: "Last [g]".
+  std::optional<std::size_t> load_in_other_languages() {
+    std::optional<std::size_t> index;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const ColumnName name = parse_column_name(names_[i], Quantity::load);
+      if (name.unit == nullptr || !is_one_of(k_load_words, name.base)) continue;
+      if (index) return std::nullopt;
+      index = i;
+    }
+    if (index)
+      header_.notes.push_back("load: taken from the column " + shown(names_[*index]) +
+                              ", by its name (--column load=NAME overrides this)");
+    return index;
+  }
+
   std::optional<std::size_t> usual_index(const std::string& role, const std::string& usual) {
     if (const auto index = index_of(usual)) return index;
     const std::vector<std::string>& words = words_of(role);
@@ -143,6 +170,7 @@ class ColumnFinder {
                               (is_load ? " is no unit of a load" : " is no unit of time") +
                               "; select the column and its unit with --column " + role + "=" + argument(names_[i]) +
                               " --unit " + role + (is_load ? "=N" : "=s"));
+      noted_.insert(i);
     }
     return std::nullopt;
   }
@@ -191,22 +219,39 @@ class ColumnFinder {
     }
     if (column.quantity == Quantity::angle || column.quantity == Quantity::time) return;  // settle_units()
     column.unit = usual_unit(column.quantity);
+    column.is_unit_stated = false;
     if (is_load)
       header_.notes.push_back("load: taken as N, as the name " + shown(column.name) +
                               " states no unit (--unit load=kg overrides this)");
   }
 
-  /// Without a load, a column whose name ends in a unit of one ("Last_N") may be it.
+  /// Without a load, a column whose name ends in a unit of one ("pull_N") or is a word for it ("Last") may be it.
   void note_unread_load() {
     const auto has_role = [&](const Column& column) { return column.role == "load"; };
     if (std::any_of(header_.columns.begin(), header_.columns.end(), has_role)) return;
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const auto is_this = [&](const Column& column) { return column.index == i; };
       const ColumnName name = parse_column_name(names_[i], Quantity::load);
-      if (name.unit == nullptr || name.base.empty()) continue;
+      const bool is_word = is_one_of(k_load_words, name.base) || is_one_of(k_force_words, name.base);
+      if ((name.unit == nullptr && !is_word) || name.base.empty()) continue;
       if (std::any_of(header_.columns.begin(), header_.columns.end(), is_this)) continue;
-      header_.notes.push_back("column " + shown(names_[i]) +
-                              " is not used: if it is the load, add --column load=" + argument(names_[i]));
+      header_.notes.push_back("column " + shown(names_[i]) + " is not used" + assumed_load() +
+                              ": if it is the load, add --column load=" + argument(names_[i]) +
+                              (name.unit == nullptr ? " --unit load=N, or its unit" : ""));
+      noted_.insert(i);
+    }
+  }
+
+  std::string assumed_load() const {
+    return options_.tip_force == 0 ? ""
+                                   : ", and the load of the file, " + rounded(options_.tip_force, 3) + " N, is assumed";
+  }
+
+  void list_unused() {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const auto is_this = [&](const Column& column) { return column.index == i; };
+      if (names_[i].empty() || is_ros_name(names_[i]) || noted_.count(i) > 0) continue;
+      if (std::none_of(header_.columns.begin(), header_.columns.end(), is_this)) header_.unused.push_back(names_[i]);
     }
   }
 
@@ -228,22 +273,21 @@ class ColumnFinder {
     const bool both = missing_.size() > 1;
     const AnglePair likely = likely_table_angles(names_, known_angles());
     std::string options;
+    bool are_all_likely = true;
     for (const auto& [role, usual] : missing_) {
       const std::optional<std::size_t> index = role == "alpha" ? likely.alpha : likely.theta;
-      if (!index) options.clear();
-      if (!index) break;
-      options += (options.empty() ? "" : " ") + ("--column " + role + "=" + argument(names_[*index]));
+      are_all_likely = are_all_likely && index.has_value();
+      options +=
+          (options.empty() ? "" : " ") + ("--column " + role + "=" + (index ? argument(names_[*index]) : "NAME"));
     }
     const std::string unit = " (in degrees, or its name ends in its unit: _rad, _turns, _counts)";
     std::string message = "there is no column " + missing_.front().second;
     if (both) message += " and no " + missing_.back().second;
-    if (options.empty()) {
-      for (const auto& [role, usual] : missing_)
-        options += (options.empty() ? "" : " ") + ("--column " + role + "=NAME");
-      problem(message,
-              "the columns are " + list_of(names_) + "; select " + (both ? "them" : "one") + " with " + options + unit);
+    if (!are_all_likely) {
+      problem(message, "the columns are " + quoted_list(names_) + "; select " + (both ? "them" : "one") + " with " +
+                           options + unit);
     } else {
-      problem(message, "the columns are " + list_of(names_) + "; add " + options +
+      problem(message, "the columns are " + quoted_list(names_) + "; add " + options +
                            (both                                ? " if these are the angles of motor and joint"
                             : missing_.front().first == "alpha" ? " if that is the motor's angle"
                                                                 : " if that is the joint's angle"));
@@ -271,7 +315,7 @@ class ColumnFinder {
     problem(
         "there is no column " + quoted_if_required(wanted),
         nearest.empty()
-            ? "the columns are " + list_of(names_) + "; select one with --column " + role + "=NAME" + unit
+            ? "the columns are " + quoted_list(names_) + "; select one with --column " + role + "=NAME" + unit
             : "the nearest is " + shown(nearest) + ": --column " + role + "=" + argument(nearest) + " takes it" + unit);
   }
 
@@ -302,6 +346,7 @@ class ColumnFinder {
   const MeasurementOptions& options_;
   Header header_;
   AnglePair by_words_;
+  std::set<std::size_t> noted_;                               ///< columns without a role that a note names
   std::vector<std::pair<std::string, std::string>> missing_;  ///< roles and their usual names
 };
 

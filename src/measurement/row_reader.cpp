@@ -305,6 +305,8 @@ class RowReader {
     if (!problems_.empty()) refuse();
     columns_ = std::move(header.columns);
     found_.notes = std::move(header.notes);
+    found_.sources.clear();
+    if (!header.unused.empty()) found_.sources.push_back("columns that are not used: " + quoted_list(header.unused));
     count_ = names.size();
     begin_tracks();
     if (preamble_ > 0)
