@@ -9,6 +9,7 @@
 
 #include "base/text.h"
 #include "fusee/analysis.h"
+#include "fusee/kit.h"
 #include "fusee/profile.h"
 #include "fusee/solid.h"
 #include "fusee/transmission.h"
@@ -189,7 +190,8 @@ class Candidates {
       guides.bearing_radius = 3.3;
       guides.bearing_friction = 0.003;
     }
-    guides.radius = tidy(guides.radius);
+    const bool is_rod = guides.kind == GuideKind::pin;
+    guides.radius = is_rod ? 0.5 * kit::stock_rod(2.0 * guides.radius, joint_.units) : tidy(guides.radius);
     candidate.words += guides.kind == GuideKind::idler ? ", tendons over idlers" : ", tendons over pins";
     return candidate;
   }
