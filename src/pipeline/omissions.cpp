@@ -99,12 +99,12 @@ class OmissionSearch {
         const auto is_back = [](const std::optional<std::vector<std::string>>& omissions) {
           return [&omissions](const std::string& feature) { return omissions && !has(*omissions, feature); };
         };
-        if (std::none_of(open.begin(), open.end(), is_back(planned))) continue;
+        if (std::none_of(open.begin(), open.end(), is_back(planned)) || loses_fastening(*planned)) continue;
         context_.throw_if_stopped();
         ++builds_;
         const auto built = build_(trial->mechanism);
         for (const std::string& feature : open) {
-          if (is_back(built)(feature)) advice[feature] = sentence(*trial, *built);
+          if (is_back(built)(feature) && !loses_fastening(*built)) advice[feature] = sentence(*trial, *built);
         }
       }
     }
@@ -164,6 +164,12 @@ class OmissionSearch {
     return plan.is_possible() ? std::optional(features_of(plan.layout)) : std::nullopt;
   }
 
+  /// Without its set screw or hub the pulley has nothing that holds it: no advice for another feature.
+  bool loses_fastening(const std::vector<std::string>& built) const {
+    const auto loses = [&](const char* feature) { return has(built, feature) && !has(omitted_, feature); };
+    return loses("set_screw") || loses("hub") || loses("bore");
+  }
+
   /// "try pulley.r1_mm = 11 (now 9)", and what it costs.
   std::string sentence(const Trial& trial, const std::vector<std::string>& built) const {
     const double now = number_of(product_.file.mechanism, *find_field(trial.lever.key));
@@ -195,7 +201,7 @@ std::vector<std::string> notes_with_advice(const formats::Product& product, cons
   for (const solid::Omission& omission : layout.omissions) {
     const auto found = advice.find(omission.feature);
     notes.at(omission.note) +=
-        found != advice.end() ? "; " + found->second : "; none of the single numbers that were tried brings it back";
+        found != advice.end() ? "; " + found->second : "; no change of a single number that was tried brings it back";
   }
   return notes;
 }
