@@ -82,7 +82,7 @@ class Planner {
   void add(const fusee::EffectParameter& reading) {
     Option option;
     option.step.reading = &reading;
-    option.step.words = reading.by_hand.words;
+    option.step.words = reading_words(reading);
     option.step.minutes = option.step.setup_minutes = k_bench_minutes.reading;
     option.read = signatures_.of(reading);
     options_of_bench_.push_back(std::move(option));
