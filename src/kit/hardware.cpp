@@ -31,21 +31,21 @@ struct InchLength {
   double inches = 0;
   std::string_view words;
 };
-constexpr std::array k_inch_lengths{InchLength{0.25, "1/4"},
-                                    {0.375, "3/8"},
-                                    {0.5, "1/2"},
-                                    {0.625, "5/8"},
-                                    {0.75, "3/4"},
-                                    {1.0, "1"},
-                                    {1.25, "1 1/4"},
-                                    {1.5, "1 1/2"},
-                                    {1.75, "1 3/4"},
-                                    {2.0, "2"},
-                                    {2.25, "2 1/4"},
-                                    {2.5, "2 1/2"},
-                                    {3.0, "3"},
-                                    {3.5, "3 1/2"},
-                                    {4.0, "4"}};
+constexpr std::array<InchLength, 15> k_inch_lengths{{{0.25, "1/4"},
+                                                     {0.375, "3/8"},
+                                                     {0.5, "1/2"},
+                                                     {0.625, "5/8"},
+                                                     {0.75, "3/4"},
+                                                     {1.0, "1"},
+                                                     {1.25, "1 1/4"},
+                                                     {1.5, "1 1/2"},
+                                                     {1.75, "1 3/4"},
+                                                     {2.0, "2"},
+                                                     {2.25, "2 1/4"},
+                                                     {2.5, "2 1/2"},
+                                                     {3.0, "3"},
+                                                     {3.5, "3 1/2"},
+                                                     {4.0, "4"}}};
 
 std::string inch_length_words(double length) {
   for (const InchLength& stock : k_inch_lengths) {
@@ -60,7 +60,7 @@ double stock_rod(double at_least, LengthUnit units) {
   constexpr std::array k_metric{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0};
   // In sixteenths of an inch.
   constexpr std::array k_inch{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0};
-  constexpr double k_tolerance = 0.02;  // mm
+  constexpr double k_tolerance = 1e-6;  // mm
   if (units == LengthUnit::mm) {
     for (const double rod : k_metric) {
       if (at_least <= rod + k_tolerance) return rod;

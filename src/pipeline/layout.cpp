@@ -190,8 +190,8 @@ class Candidates {
       guides.bearing_radius = 3.3;
       guides.bearing_friction = 0.003;
     }
-    const bool is_rod = guides.kind == GuideKind::pin;
-    guides.radius = is_rod ? 0.5 * kit::stock_rod(2.0 * guides.radius, joint_.units) : tidy(guides.radius);
+    guides.radius = tidy(guides.radius);
+    if (guides.kind == GuideKind::pin) guides.radius = 0.5 * kit::stock_rod(2.0 * guides.radius, joint_.units);
     candidate.words += guides.kind == GuideKind::idler ? ", tendons over idlers" : ", tendons over pins";
     return candidate;
   }
