@@ -60,6 +60,16 @@ class Ac1015Writer {
   }
 
  private:
+  /// Each vertex of a 3-D polyline and its SEQEND has a handle too.
+  int entity_handles() const {
+    std::size_t handles = document_.paths.size();
+    for (const DxfPath& path : document_.paths) {
+      const bool is_3d = !path.circle && !path.heights.empty();
+      if (is_3d) handles += path.vertices.size() + 1;
+    }
+    return static_cast<int>(handles);
+  }
+
   void write_header() {
     tags_.begin_section("HEADER");
     write_variables(tags_, "AC1015", box_);
@@ -68,9 +78,9 @@ class Ac1015Writer {
     tags_.text(9, "$MEASUREMENT");
     tags_.integer(70, 1);  // metric
     tags_.text(9, "$HANDSEED");
-    // Above all handles of table records, layers and entities; vertices of 3-D polylines are not counted.
+    // Above all handles of table records, layers and entities.
     constexpr int k_most_records = 64;
-    tags_.handle(5, k_first_free + k_most_records + static_cast<int>(document_.layers.size() + document_.paths.size()));
+    tags_.handle(5, k_first_free + k_most_records + static_cast<int>(document_.layers.size()) + entity_handles());
     tags_.end_section();
   }
 

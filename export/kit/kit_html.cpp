@@ -15,6 +15,7 @@
 #include "fusee/base.h"
 #include "fusee/export.h"
 #include "mechanism/catalogue.h"
+#include "mechanism/lengths.h"
 
 namespace fusee::formats {
 namespace {
@@ -336,16 +337,19 @@ std::string kit_html(const KitProduct& product) {
   if (!product.plan.notes.empty())
     notes = "<section class=\"warnings\">" + html_list(product.plan.notes) + "</section>";
   const bool drilled = product.plan.drilled;
+  const LengthUnit units = product.pulley.joint.mechanism.units;
+  const std::string body =
+      notes + (drilled ? std::string() : key_section(product)) + coupon_section(product.pulley.joint.mechanism) +
+      parts_section(product) + items_section(product) +
+      (drilled ? template_sections(product) : pictures(product) + tendon_section(product) + fit_section(product)) +
+      plan_steps_html(product.bench);
   Page page{.title = "test rig",
             .kicker = "Test rig",
             .name = product.pulley.joint.mechanism.name,
             .source = "for " + source_html(product.pulley.file),
-            .body = notes + (drilled ? std::string() : key_section(product)) +
-                    coupon_section(product.pulley.joint.mechanism) + parts_section(product) + items_section(product) +
-                    (drilled ? template_sections(product)
-                             : pictures(product) + tendon_section(product) + fit_section(product)) +
-                    plan_steps_html(product.bench),
-            .foot = "Lengths in mm. Values that were not measured are marked as assumed.",
+            .body = lengths_in(units, body),
+            .foot = std::string(units == LengthUnit::mm ? "Lengths in mm." : "Lengths as marked; files are in mm.") +
+                    " Values that were not measured are marked as assumed.",
             .styles = {embedded::page_css, embedded::plan_css, embedded::kit_css, embedded::figure_css},
             .scripts = {}};
   return html_page(page);

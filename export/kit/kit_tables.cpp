@@ -11,6 +11,7 @@
 #include "fusee/base.h"
 #include "fusee/export.h"
 #include "mechanism/catalogue.h"
+#include "mechanism/lengths.h"
 
 namespace fusee::formats {
 namespace {
@@ -99,8 +100,10 @@ std::vector<KitCut> kit_cuts(const KitProduct& product) { return rig_cuts(produc
 
 std::string bom_csv(const KitProduct& product) {
   std::string text = "count,item,use\n";
+  const LengthUnit units = product.pulley.joint.mechanism.units;
   for (const kit::KitItem& item : product.plan.items)
-    text += std::to_string(item.count) + "," + csv_quoted(item.what) + "," + csv_quoted(item.use) + "\n";
+    text += std::to_string(item.count) + "," + csv_quoted(lengths_in(units, item.what)) + "," +
+            csv_quoted(lengths_in(units, item.use)) + "\n";
   for (const kit::KitPart& part : product.plan.parts)
     text += std::to_string(part.count) + "," + csv_quoted("print " + kit_file_name(part, "stl")) + "," +
             csv_quoted(part.words) + "\n";

@@ -42,6 +42,10 @@ struct Regression {
     const double spread = this->spread(rows);
     return spread > 0 ? (products - sum * sum_error / rows) / spread : 0.0;
   }
+  /// Coefficient of an error that is proportional to the predictor.
+  double proportion() const { return squares > 0 ? products / squares : 0.0; }
+  /// Part of the sum of squares that the proportion explains.
+  double explained_by_proportion() const { return proportion() * products; }
   /// Part of the sum of squares that the regression explains.
   double explained(double rows) const { return slope(rows) * slope(rows) * std::max(0.0, spread(rows)); }
 };
@@ -76,6 +80,10 @@ ErrorRegressions error_regressions(const measurement::Measurement& measurement,
   return all;
 }
 
+std::string gain_text(double slope) {
+  return "The joint turns " + readable_rounded(std::abs(100 * slope), 2) + " % too " + (slope < 0 ? "little" : "far");
+}
+
 /// The mean, or the regression, that explains more than half of the squared error. If none does: the largest error.
 std::string problem_words(const CalibrationProduct& product) {
   const calibration::Calibration& calibration = product.calibration;
@@ -84,11 +92,15 @@ std::string problem_words(const CalibrationProduct& product) {
     return "The joint does what its file declares, within " + angle_words(calibration.before.rms) + " rms.";
   const double mean = all.error / all.rows;
   const double slope = all.angle.slope(all.rows);
+  const double explained_by_mean = all.rows * mean * mean;
+  // Share of the squared error from which a constant error is one at every angle.
+  constexpr double k_everywhere = 0.9;
+  const std::string where = explained_by_mean > k_everywhere * all.squares ? " everywhere" : " on average";
   // Explained sum of squares, and the sentence.
-  const std::array<std::pair<double, std::string>, 4> explanations = {{
-      {all.rows * mean * mean, "The joint reads " + angle_words(mean) + (mean > 0 ? " high" : " low") + " everywhere"},
-      {all.angle.explained(all.rows),
-       "The joint turns " + readable_rounded(std::abs(100 * slope), 2) + " % too " + (slope < 0 ? "little" : "far")},
+  const std::array<std::pair<double, std::string>, 5> explanations = {{
+      {explained_by_mean, "The joint reads " + angle_words(mean) + (mean > 0 ? " high" : " low") + where},
+      {all.angle.explained(all.rows), gain_text(slope)},
+      {all.angle.explained_by_proportion(), gain_text(all.angle.proportion())},
       {all.direction.explained(all.rows),
        "The joint angle differs by " + angle_words(2 * all.direction.slope(all.rows)) + " between the two directions"},
       {all.load.explained(all.rows),
@@ -188,9 +200,14 @@ std::string cause_words(const CalibrationProduct& product) {
 
 // ---- the action -----------------------------------------------------------------------------------------------------
 
-/// The instruction up to its first colon. The page shows all of it in the section "What to do".
+/// The instruction up to its first colon outside brackets. The page shows all of it in the section "What to do".
 std::string first_clause(const std::string& sentence) {
-  return first_upper(sentence.substr(0, sentence.find(": "))) + ".";
+  std::size_t end = 0;
+  for (int depth = 0; end < sentence.size(); ++end) {
+    depth += sentence[end] == '(' ? 1 : sentence[end] == ')' ? -1 : 0;
+    if (depth == 0 && sentence.compare(end, 2, ": ") == 0) break;
+  }
+  return first_upper(sentence.substr(0, end)) + ".";
 }
 
 /// The repair of an effect that is best corrected at its source; "" for others.
@@ -237,8 +254,7 @@ void add_rows(const std::string& cause, const std::vector<calibration::FittedPar
     const std::string unit = name_and_unit(number.name, load_unit).unit;
     // A searched number, such as the order of a harmonic, has no interval.
     const bool has_interval = number.low_if_only < number.high_if_only;
-    const std::string interval =
-        readable_rounded(number.low_if_only, 3) + " … " + readable_rounded(number.high_if_only, 3) + unit;
+    const std::string interval = interval_words(number.low_if_only, number.high_if_only, 3) + unit;
     rows.push_back({i == 0 ? cause : "", number_words(number, load_unit), has_interval ? interval : "–", "", ""});
   }
   if (numbers.empty()) rows.push_back({cause, "", "", "", ""});

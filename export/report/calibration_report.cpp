@@ -66,12 +66,15 @@ std::string cause_table_section(const CalibrationProduct& product) {
                       html_table({titles[0], titles[1], titles[2], std::string("#") + titles[3], titles[4]}, rows));
 }
 
-/// The section, closed until its title is clicked.
+/// The section, closed until its title is clicked. What to do, and the picture of the errors, begin open.
 std::string folded(const std::string& section) {
+  const bool is_open =
+      section.find("id=\"actions\"") != std::string::npos || section.find("id=\"residuals\"") != std::string::npos;
   const std::size_t title = section.find("<h2>"), end = section.find("</h2>");
   if (title == std::string::npos) return section;
-  return section.substr(0, title) + "<details><summary><h2>" + section.substr(title + 4, end - title - 4) +
-         "</h2></summary>" + section.substr(end + 5, section.rfind("</section>") - end - 5) + "</details></section>\n";
+  return section.substr(0, title) + (is_open ? "<details open=\"open\">" : "<details>") + "<summary><h2>" +
+         section.substr(title + 4, end - title - 4) + "</h2></summary>" +
+         section.substr(end + 5, section.rfind("</section>") - end - 5) + "</details></section>\n";
 }
 
 std::string summary_section(const calibration::Calibration& calibration) {

@@ -105,12 +105,11 @@ NameAndUnit name_and_unit(const std::string& parameter, const std::string& load_
 
 std::string parameter_words(const calibration::FittedParameter& parameter, const std::string& load_unit) {
   const auto [name, unit] = name_and_unit(parameter.name, load_unit);
-  const std::string if_only =
-      readable_rounded(parameter.low_if_only) + " … " + readable_rounded(parameter.high_if_only);
-  const std::string otherwise = readable_rounded(parameter.low) + " … " + readable_rounded(parameter.high);
-  return name + " = " + readable_rounded(parameter.value) + unit + " (95 %: " + if_only +
-         (if_only == otherwise ? "" : " if it is the only cause, otherwise " + otherwise) + ")" +
-         (parameter.sense.empty() ? "" : ", " + parameter.sense);
+  const std::string if_only = interval_words(parameter.low_if_only, parameter.high_if_only);
+  const std::string otherwise = interval_words(parameter.low, parameter.high);
+  return name + " = " + readable_rounded(parameter.value) + unit +
+         (parameter.sense.empty() ? "" : ": " + parameter.sense) + " (95 %: " + if_only +
+         (if_only == otherwise ? "" : " if this is the only cause, else " + otherwise) + ")";
 }
 
 std::vector<std::string> rivals_of(const calibration::FoundEffect& effect) {

@@ -557,7 +557,7 @@ std::optional<Figure> polar_figure(const profile::SynthesisResult& synthesis, tr
     magnified.push_back((radius_towards(outline, point.angle) + factor * point.r) * unit(point.angle));
 
   const std::string name(transmission::pulley_name(side));
-  Figure figure{k_profile_width, k_profile_height, "The polar drawing of " + name + " name_offset its profile", {}, {}};
+  Figure figure{k_profile_width, k_profile_height, "The polar drawing of " + name + " beside its profile", {}, {}};
   View view;
   for (const std::vector<Vec2>* points : {&drawn, &magnified}) {
     for (const Vec2& point : *points) view.include(point);

@@ -60,7 +60,7 @@ std::string step_item(const PlanProduct& product, std::size_t i) {
   }
   const bool is_inspection = !step.run && step.reading == nullptr;
   if (!is_inspection) html += "<p class=\"tells\">" + safe_text(open_words(gain_words(step))) + "</p>";
-  return html + "</div><div class=\"when\">" + safe_text(minutes_words(step.minutes)) + " <br/>by " +
+  return html + "</div><div class=\"when\">" + safe_text(minutes_words(step.minutes)) + ", <br/>done after " +
          safe_text(minutes_words(step.end_minute)) + "</div></li>";
 }
 

@@ -20,8 +20,8 @@ std::vector<std::string> false_positive_words(const plan::Plan& plan) {
   return {"in " + joints(plan.nothing.samples) + "as declared, these runs would have reported a false cause in " +
               std::to_string(plan.nothing.wrong),
           "in " + joints(plan.one.samples) +
-              "with one of these causes, of its usual sizes, they would have identified it alone in " +
-              std::to_string(plan.one.alone) + ", in a group in " + std::to_string(plan.one.group) +
+              "with one of these causes in its usual size, they would have identified that cause alone in " +
+              std::to_string(plan.one.alone) + ", as one of several in " + std::to_string(plan.one.group) +
               ", and reported a false cause in " + std::to_string(plan.one.wrong),
           "in " + joints(plan.unmodelled.samples) +
               "with a cause outside the catalogue, they would have reported a false cause in " +

@@ -376,7 +376,8 @@ std::string forces_section(const Product& product) {
   if (plots.empty()) return torques;
   return torques + "<section id=\"forces\"><h2>Forces</h2><p class=\"lead\">" +
          safe_text(with_unit(product.joint.mechanism.load.tip_force, "N")) +
-         " at the tip, across OC, tendon 1 slack: the paper’s equations 6 to 11.</p><div class=\"plots\">" +
+         " at the tip, across OC, with tendon 1 slack: the tension of tendon 2, and the joint angle that its stretch "
+         "costs (the paper’s equations 6 to 11).</p><div class=\"plots\">" +
          all_in_divs(plots) + "</div></section>";
 }
 

@@ -154,4 +154,12 @@ std::string readable_rounded(double value, int digits) {
   return with_true_minus(number.substr(0, exponent)) + "·10" + superscript(std::stoi(number.substr(exponent + 1)));
 }
 
+std::string interval_words(double low, double high, int digits) {
+  constexpr int k_most_digits = 9;
+  if (low < high) {
+    while (digits < k_most_digits && rounded(low, digits) == rounded(high, digits)) ++digits;
+  }
+  return readable_rounded(low, digits) + " … " + readable_rounded(high, digits);
+}
+
 }  // namespace fusee::formats

@@ -50,5 +50,7 @@ std::vector<Vec2> thinned(const std::vector<Vec2>& points, double tolerance);
 std::string readable(double value, int decimals);
 /// A number to significant digits, "9·10⁻⁵" if it is very small or large.
 std::string readable_rounded(double value, int digits = 4);
+/// "12.18 … 12.23": the ends to as many digits as it takes to be different.
+std::string interval_words(double low, double high, int digits = 4);
 
 }  // namespace fusee::formats

@@ -95,6 +95,10 @@ struct Thread {
   double nut_height = 0;
 };
 
+/// Diameter of the thinnest rod on sale that is at least this thick: metric, or sixteenths of an inch in an inch file.
+/// Beyond the thickest one, `at_least`. mm
+double stock_rod(double at_least, LengthUnit units);
+
 /// A guide pin: a bare rod, or a screw in a sleeve.
 struct KitPin {
   transmission::Side side = transmission::Side::left;
@@ -112,8 +116,8 @@ struct KitSizes {
   const fusee::BearingType* bearing = nullptr;
   const fusee::BoardType* board = nullptr;
   const fusee::MotorType* motor = nullptr;  ///< null: the catalogue has none with this shaft or horn
-  /// Threads of the joint's axle, of the rods on the feet, and of the screws in the post and the tensioner.
-  const Thread *axle = nullptr, *foot = nullptr, *small = nullptr;
+  /// Threads of the joint's axle, of the rods on the feet, of the screws in the post and the tensioner, and of the cap.
+  const Thread *axle = nullptr, *foot = nullptr, *small = nullptr, *cap_screw = nullptr;
   double base = 0;        ///< thickness of the base plate
   double pulley_low = 0;  ///< height of the pulley's lower face
   double pulley_high = 0;

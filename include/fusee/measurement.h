@@ -36,6 +36,8 @@ struct MeasurementOptions {
   std::map<std::string, double> zero_ticks;  ///< alpha, theta → counts at home
   double alpha_span = 0;                     ///< range of α of the declared joint, rad; 0: unknown. See expecting()
   double theta_span = 0;                     ///< range of θ of the declared joint, rad; 0: unknown
+  double tip_force = 0;                      ///< declared tip force, N: assumed for a run without a load
+  double load_scale = 0;  ///< size of the declared load as a tip force, N; 0: unknown. See expecting()
 };
 
 /// Adds the ranges of a declared joint, which distinguish degrees from radians where no name states the unit.
@@ -95,7 +97,7 @@ struct Measurement {
   double theta_quantum = 0;               ///< step of the joint's sensor, rad; 0 if it is too fine to be detected
   std::string load_unit;                  ///< of the loads: "N", "Nm", "Nmm"; "" without loads
   std::vector<std::string> notes;         ///< rows dropped or repaired and likely faults, with file and line
-  std::vector<std::string> sources;       ///< of bags: topics and clock of the rows. No part of results
+  std::vector<std::string> sources;       ///< topics and clock of a bag's rows; columns not used. No part of results
   std::vector<std::string> not_testable;  ///< reasons why the data cannot be evaluated; empty if they can
 };
 

@@ -371,6 +371,8 @@ struct RewoundPart {
   std::vector<solid::Placement> placements;
   /// Set if the file has only this pulley: only its tendon is wound, and the excess length is unknown.
   std::optional<transmission::Side> alone = std::nullopt;
+  /// Size of the grooves relative to the declared ones, where it explains most of their deviation; 1 otherwise.
+  double scale = 1;
 };
 /// As rewind_part(), but a mesh that was moved, turned about its axis or turned over is moved back first. Throws
 /// InputError also for a mirrored mesh or one of another size.

@@ -72,6 +72,9 @@ struct NextMeasurement {
 };
 /// A run with its instruction and minutes. `slow` and `load_unit` as in words().
 NextMeasurement next_run(const PlannedRun& run, double slow, const std::string& load_unit);
+/// Instruction of a hand measurement, with the form of the key that receives it: "enter it as prior.length_mm = [value,
+/// uncertainty]".
+std::string reading_words(const fusee::EffectParameter& reading);
 /// Hand measurements of the parameters of one effect, at least one.
 NextMeasurement next_reading(const std::vector<const fusee::EffectParameter*>& readings);
 /// Any other measurement.

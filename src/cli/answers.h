@@ -57,6 +57,7 @@ struct TypedTendon {
   double diameter = 0;    ///< mm
   double modulus = 0;     ///< MPa
   double bend_ratio = 0;  ///< minimum bend diameter / tendon diameter
+  double strength = 0;    ///< by the section of the nearest tendon of the catalogue, N; 0: the catalogue's own
   std::string words;      ///< for the summary
 };
 /// A diameter, a name of the catalogue, or both: "0.6", "hmpe-0.56", "Dyneema 0.6 mm", "steel 1/16 in", "nylon".

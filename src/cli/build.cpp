@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/output_list.h"
@@ -86,6 +87,16 @@ std::string tendons_text(const formats::Product& product) {
   return text + titled("", rig + " for the test rig of fusee kit");
 }
 
+/// The files are larger than the part by the shrinkage of a print.
+std::string mesh_size_text(const solid::BodyLayout& layout, const solid::OuterSize& size) {
+  if (layout.scale == 1) return "";
+  const std::string larger =
+      rounded(100 * std::abs(layout.scale - 1), 2) + (layout.scale > 1 ? " % larger" : " % smaller");
+  return titled("", "in the mesh ⌀ " + fixed(size.diameter * layout.scale, 1) + " mm, " +
+                        fixed(size.height * layout.scale, 1) + " mm high: " + larger +
+                        ", for the shrinkage of the print (material.shrinkage_percent)");
+}
+
 std::string size_text(const solid::Pulley& pulley) {
   const solid::OuterSize size = solid::outer_size(pulley);
   const solid::BodyLayout& layout = pulley.layout;
@@ -93,7 +104,7 @@ std::string size_text(const solid::Pulley& pulley) {
   if (layout.hub_radius > 0) text += "; hub ⌀ " + rounded(2.0 * layout.hub_radius, 3) + " mm";
   if (layout.set_screw.present)
     text += ", set screw " + layout.set_screw.thread + (layout.set_screw.nut_trap ? " and nut" : " (no nut)");
-  return titled("size", text);
+  return titled("size", text) + mesh_size_text(layout, size);
 }
 
 std::string knots_text(const solid::Holding& holding) {

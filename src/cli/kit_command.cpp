@@ -71,7 +71,7 @@ std::string kit_summary(const pipeline::KitResult& made, const pipeline::KitOpti
     std::string name = tightest->name;
     std::replace(name.begin(), name.end(), '_', ' ');
     text += "  clearance   " + fixed(tightest->value, 2) + " mm or more, " + name +
-            " (required: " + fixed(tightest->limit, 2) + ")\n";
+            " (required: " + fixed(tightest->limit, 2) + " mm)\n";
   }
   if (options.dry_run) return text + "  files       none written (--dry-run)\n";
   if (!made.published)

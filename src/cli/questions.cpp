@@ -222,6 +222,7 @@ DeclaredMechanism joint_of(const Answers& answers) {
   mechanism.tendon.diameter = answers.tendon.diameter;
   mechanism.tendon.modulus = answers.tendon.modulus;
   mechanism.tendon.bend_ratio = answers.tendon.bend_ratio;
+  mechanism.tendon.strength = answers.tendon.strength;
   Body& body = mechanism.body;
   if (!answers.motor.shaft.empty()) {
     body.shaft = answers.motor.shaft;
@@ -262,6 +263,7 @@ std::vector<std::string> keys_to_write(const DeclaredMechanism& mechanism) {
   keys +=
       "name joint.length_mm joint.range_deg guides.EB_mm guides.ED_mm guides.OE_mm guides.radius_mm pulley.EF_mm "
       "pulley.r1_mm pulley.law tendon.diameter_mm tendon.modulus_MPa tendon.bend_ratio ";
+  if (mechanism.tendon.strength > 0) keys += "tendon.strength_N ";
   if (mechanism.joint.drum_radius > 0) keys += "joint.drum_radius_mm joint.attachment1_mm joint.attachment2_mm ";
   if (mechanism.guides.kind == GuideKind::idler)
     keys += "guides.kind guides.bearing_radius_mm guides.bearing_friction ";

@@ -94,10 +94,12 @@ void add_advice(const std::string& file, const std::vector<profile::Change>& adv
     reply.diagnostics.push_back(about_file(Severity::note, file, "try " + profile::setting_words(change)));
   const auto is_number = [](const profile::Change& change) { return change.to_word.empty(); };
   if (std::none_of(advice.begin(), advice.end(), is_number))
-    reply.diagnostics.push_back(about_file(Severity::note, file,
-                                           is_exhausted
-                                               ? "no change of a single number makes it feasible"
-                                               : "no change of a single number was found that makes it feasible"));
+    reply.diagnostics.push_back(
+        about_file(Severity::note, file,
+                   (advice.empty() ? "" : "besides this, ") +
+                       std::string(is_exhausted ? "no change of a single number makes it feasible"
+                                                : "no change of a single number was found that makes "
+                                                  "it feasible")));
 }
 
 void add_layout_advice(const std::string& file, const std::optional<profile::LayoutAdvice>& advice, Reply& reply) {

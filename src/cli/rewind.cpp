@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/text.h"
@@ -99,6 +100,11 @@ void add_place_notes(const std::string& file, const pipeline::RewoundPart& part,
     add(Severity::warning,
         "a single groove upside down cannot be distinguished from a mirrored one: upside down is assumed",
         "check that the file is not mirrored");
+  if (part.scale != 1)
+    add(Severity::warning,
+        "the part is " + rounded(100 * std::abs(part.scale - 1), 2) + " % " + (part.scale > 1 ? "larger" : "smaller") +
+            " than the mechanism file's pulley",
+        "scale the mesh by " + rounded(1 / part.scale, 4) + "; a slicer may have scaled it against shrinkage");
   if (part.place == pipeline::PartPlace::not_recognised)
     add(Severity::warning,
         "the grooves of this part do not fit those of the mechanism anywhere: it is wound in its present position",
@@ -169,6 +175,7 @@ Reply run_rewind(const Arguments& arguments, Console& console, const RunContext&
                "\n" + points_table(part.as_built.points, console.verbose()) + "\n" + checks_table(checks);
   reply.fields["file"] = file;
   reply.fields["placements"] = placements_json(part);
+  reply.fields["scale"] = part.scale;
   reply.fields["alone"] = part.alone ? Json(word(*part.alone)) : Json();
   reply.fields["as_built"] = to_json(part.as_built);
   reply.fields["checks"] = to_json(checks);
@@ -193,8 +200,8 @@ Command rewind_command() {
           "by hand, and compares the resulting joint angle with that of the mechanism\n"
           "file SPEC. A mesh that was moved, turned about its axis or turned over, for\n"
           "example by a slicer, is found by its grooves and moved back, with a note.\n"
-          "A mirrored mesh, or one of another size, is refused. A pulley of several\n"
-          "turns is wound in its present position.",
+          "A mirrored mesh, or one more than 2 % too large or small, is refused; a smaller\n"
+          "difference of size is reported. A pulley of several turns is wound in its present position.",
           options,
           {{"fusee rewind arm.toml out/arm/pulley.stl", "check the mesh"},
            {"fusee rewind arm.toml out/arm/profile.dxf", "check the drawing"},

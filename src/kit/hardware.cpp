@@ -6,9 +6,9 @@
 
 namespace fusee::kit {
 
-const Thread& thread_within(double diameter) {
-  const Thread* found = &k_threads.front();
-  for (const Thread& thread : k_threads) {
+const Thread& thread_within(double diameter, LengthUnit units) {
+  const Thread* found = &threads_of(units).front();
+  for (const Thread& thread : threads_of(units)) {
     if (thread.diameter <= diameter + 1e-9) found = &thread;
   }
   return *found;
@@ -24,7 +24,57 @@ double stock_length(double length) {
   return 10 * std::ceil(length / 10);
 }
 
+namespace {
+
+/// Stock lengths of inch screws.
+struct InchLength {
+  double inches = 0;
+  std::string_view words;
+};
+constexpr std::array<InchLength, 15> k_inch_lengths{{{0.25, "1/4"},
+                                                     {0.375, "3/8"},
+                                                     {0.5, "1/2"},
+                                                     {0.625, "5/8"},
+                                                     {0.75, "3/4"},
+                                                     {1.0, "1"},
+                                                     {1.25, "1 1/4"},
+                                                     {1.5, "1 1/2"},
+                                                     {1.75, "1 3/4"},
+                                                     {2.0, "2"},
+                                                     {2.25, "2 1/4"},
+                                                     {2.5, "2 1/2"},
+                                                     {3.0, "3"},
+                                                     {3.5, "3 1/2"},
+                                                     {4.0, "4"}}};
+
+std::string inch_length_words(double length) {
+  for (const InchLength& stock : k_inch_lengths) {
+    if (length <= 25.4 * stock.inches) return std::string(stock.words);
+  }
+  return rounded(0.5 * std::ceil(2 * length / 25.4));
+}
+
+}  // namespace
+
+double stock_rod(double at_least, LengthUnit units) {
+  constexpr std::array k_metric{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0};
+  // In sixteenths of an inch.
+  constexpr std::array k_inch{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0};
+  constexpr double k_tolerance = 1e-6;  // mm
+  if (units == LengthUnit::mm) {
+    for (const double rod : k_metric) {
+      if (at_least <= rod + k_tolerance) return rod;
+    }
+  } else {
+    for (const double rod : k_inch) {
+      if (at_least <= rod * 25.4 / 16 + k_tolerance) return rod * 25.4 / 16;
+    }
+  }
+  return at_least;
+}
+
 std::string screw_words(const Thread& thread, double length) {
+  if (thread.name.starts_with('#')) return std::string(thread.name) + " × " + inch_length_words(length) + " in";
   return std::string(thread.name) + " × " + rounded(stock_length(length));
 }
 

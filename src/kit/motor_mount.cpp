@@ -80,7 +80,7 @@ void buy_motor(KitPlan& plan, const fusee::MotorType& motor, double plate) {
     plan.items.push_back(
         {motor.two_holes ? 2 : 4, motor_screw(motor, plate + 4) + " with low head", "motor, from above"});
   else
-    plan.items.push_back({4, motor_screw(motor, plate + 8) + " with nuts", "motor, from above"});
+    plan.items.push_back({4, motor_screw(motor, plate + 8) + " with low head and nuts", "motor, from above"});
 }
 
 }  // namespace fusee::kit

@@ -49,7 +49,7 @@ DiscHull link_hull(const KitSizes& sizes, double R) {
   const double end = half_width(sizes) - 1;
   std::vector<Disc> discs{{{0, 0}, sizes.hub}, {{0, -sizes.pointer + 0.8}, 0.8}};
   for (const double x : {-1.0, 1.0}) {
-    discs.push_back({{x * sizes.cap_screws, 0}, 0.5 * k_threads.front().clearance + k_wall});
+    discs.push_back({{x * sizes.cap_screws, 0}, 0.5 * sizes.cap_screw->clearance + k_wall});
     discs.push_back({{x * sizes.post_screws, R}, 0.5 * sizes.small->clearance + k_wall});
     discs.push_back({{x * end, sizes.link_end - 1}, 1});
   }
@@ -124,7 +124,7 @@ class PartMaker {
     if (sizes_.motor) buy_motor(plan_, *sizes_.motor, sizes_.base);
   }
 
-  const Thread& leg_screw() const { return thread_within(3); }
+  const Thread& leg_screw() const { return thread_within(3.2, mechanism_.units); }
 
   std::vector<SlabLoop> holes_of_motor() const {
     if (sizes_.motor) return motor_holes(*sizes_.motor, pulley_, sizes_.motor_front);
@@ -148,7 +148,9 @@ class PartMaker {
         collar("sleeve", pin.radius, pin.gap_low, pin.gap_high, "sleeve on which the tendon runs, pin " + name);
         buy(1, screw_words(*pin.screw, sizes_.base + pin.top + 1) + " with nut", "pin " + name + ", from below");
       } else {
-        buy(1, "steel rod ⌀ " + rounded(2 * pin.radius, 4) + " × " + rounded(std::ceil(sizes_.base + pin.top), 4),
+        buy(1,
+            "steel rod ⌀ " + rounded(2 * pin.radius, 4) + " mm × " + rounded(std::ceil(sizes_.base + pin.top), 4) +
+                " mm",
             "pin " + name + ", pressed into the base plate; its spacer glued to the plate");
       }
       collar("collar", pin.collar, pin.gap_high, pin.gap_high + k_collar_height,
@@ -174,7 +176,8 @@ class PartMaker {
     const double stack = sizes_.base + sizes_.link_low + sizes_.link + sizes_.axle->nut_height + 1;
     buy(1, screw_words(*sizes_.axle, stack) + " with nut", "the joint's axle, from below");
     const double rod = sizes_.base + sizes_.bracket_low + sizes_.bracket + 2 * sizes_.foot->nut_height + 4;
-    buy(2, "threaded rod " + std::string(sizes_.foot->name) + " × " + rounded(std::ceil(rod), 4) + " with 2 nuts each",
+    buy(2,
+        "threaded rod " + std::string(sizes_.foot->name) + " × " + rounded(std::ceil(rod), 4) + " mm with 2 nuts each",
         "feet of scale and bracket");
   }
 
@@ -217,7 +220,7 @@ class PartMaker {
     const SlabLoop rim = edge(link_hull(sizes_, R));
     std::vector<SlabLoop> through{round_hole({0, R}, 2 * sizes_.post + 0.2)};
     for (const double x : {-1.0, 1.0}) {
-      through.push_back(round_hole({x * sizes_.cap_screws, 0}, k_threads.front().tapping));
+      through.push_back(round_hole({x * sizes_.cap_screws, 0}, sizes_.cap_screw->tapping));
       through.push_back(round_hole({x * sizes_.post_screws, R}, small.tapping));
     }
     Slab ledge{0, sizes_.ledge, {rim, round_hole({0, 0}, ledge_hole())}};
@@ -306,7 +309,7 @@ class PartMaker {
   // Adds the magnet's cap and the board with its bracket.
   void add_sensor() {
     const fusee::BoardType& board = *sizes_.board;
-    const Thread& screw = k_threads.front();
+    const Thread& screw = *sizes_.cap_screw;
     std::vector<Disc> shape{{{0, 0}, sizes_.cap}};
     std::vector<SlabLoop> screws;
     for (const double x : {-1.0, 1.0}) {
@@ -354,7 +357,9 @@ class PartMaker {
     add_plate("bracket", "bracket: the board hangs under it, chip down", {{plate}},
               {fixed_at({0, 0}, sizes_.bracket_low)});
     buy(1, board.name + ": " + board.description, "reads the joint's angle; assumed: " + board.source);
-    buy(4, screw_words(thread_within(board.hole), sizes_.bracket + 3 + board.thickness + 4) + " with nuts",
+    buy(4,
+        screw_words(thread_within(board.hole, mechanism_.units), sizes_.bracket + 3 + board.thickness + 4) +
+            " with nuts",
         "board, under the bracket");
   }
 

@@ -19,10 +19,14 @@ constexpr double k_infinite = std::numeric_limits<double>::infinity();
 constexpr double k_clear = 0.5;  // clearance of moving parts: a desktop printer is accurate to 0.2 mm
 constexpr int k_places = 49;     // number of places of the stroke at which distances are checked
 
-/// True for commercial rod diameters, mm.
+/// True for commercial rod diameters of either unit, mm.
 bool is_stock_rod(double diameter) {
-  constexpr std::array k_rods{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0};
-  return std::any_of(k_rods.begin(), k_rods.end(), [=](double rod) { return std::abs(rod - diameter) < 0.02; });
+  constexpr double k_thickest = 12.72, k_tolerance = 0.025;
+  if (diameter > k_thickest) return false;
+  for (const LengthUnit units : {LengthUnit::mm, LengthUnit::inch}) {
+    if (std::abs(stock_rod(diameter - k_tolerance, units) - diameter) < k_tolerance + 1e-9) return true;
+  }
+  return false;
 }
 
 /// Distance outside a convex polygon, negative inside; a lower bound near corners.
@@ -93,12 +97,13 @@ struct Minimum {
 
 // ---- sizes ----------------------------------------------------------------------------------------------------------
 
-/// Sets the sizes that follow from the bearing.
-void size_axle(KitSizes& sizes, const fusee::BearingType& bearing) {
+/// Sets the sizes that follow from the bearing. The axle's thread is metric, as the bearing's bore is.
+void size_axle(KitSizes& sizes, const fusee::BearingType& bearing, LengthUnit units) {
   sizes.bearing = &bearing;
   sizes.axle = &thread_within(bearing.bore);
-  sizes.foot = &thread_within(bearing.bore >= 5 ? 4 : bearing.bore);
-  sizes.small = &thread_within(bearing.bore >= 5 ? 3 : 2);
+  sizes.foot = &thread_within(bearing.bore >= 5 ? 4.2 : bearing.bore, units);
+  sizes.small = &thread_within(bearing.bore >= 5 ? 3 : 2, units);
+  sizes.cap_screw = &threads_of(units).front();
   sizes.base = bearing.bore >= 5 ? 6 : 4;
   sizes.axle_tube = std::max(0.5 * sizes.axle->clearance + k_wall, 0.5 * bearing.spacer);
 }
@@ -129,8 +134,8 @@ KitPin pin_of(const KitSizes& sizes, const Scene& scene, transmission::Side side
   const double height = side == transmission::Side::left ? sizes.z_tendon1 : sizes.z_tendon2;
   pin.gap_low = height - 0.5 * sizes.tendon_gap;
   pin.gap_high = height + 0.5 * sizes.tendon_gap;
-  for (const Thread& thread : k_threads) {
-    if (thread.diameter >= 3 && thread.clearance + 2 * k_wall <= 2 * guides.radius) pin.screw = &thread;
+  for (const Thread& thread : threads_of(scene.mechanism.units)) {
+    if (thread.diameter >= 2.8 && thread.clearance + 2 * k_wall <= 2 * guides.radius) pin.screw = &thread;
   }
   const double inner = pin.screw ? 0.5 * pin.screw->clearance : guides.radius + 0.1;
   pin.collar = std::max(guides.radius + std::max(scene.mechanism.tendon.diameter, 0.8), inner + k_wall);
@@ -143,7 +148,7 @@ void size_link(KitSizes& sizes, const Scene& scene, double pins_top) {
   const Mechanism& mechanism = scene.mechanism;
   const double R = mechanism.joint.R, d = mechanism.tendon.diameter;
   const fusee::BearingType& bearing = *sizes.bearing;
-  const Thread &small = *sizes.small, &cap_screw = k_threads.front();
+  const Thread &small = *sizes.small, &cap_screw = *sizes.cap_screw;
   sizes.scale_low = std::max(pins_top, sizes.pulley_high) + 1.5;
   sizes.scale_plate = 3;
   sizes.ledge = k_wall;
@@ -419,7 +424,7 @@ KitPlan plan_with_bearing(const Scene& scene, const profile::SynthesisResult& sy
   KitPlan plan;
   KitSizes& sizes = plan.sizes;
   sizes.board = &board_types().front();
-  size_axle(sizes, bearing);
+  size_axle(sizes, bearing, scene.mechanism.units);
   size_pulley(sizes, scene.mechanism, synthesis, layout);
   plan.pins = {pin_of(sizes, scene, transmission::Side::left), pin_of(sizes, scene, transmission::Side::right)};
   size_link(sizes, scene, std::max(plan.pins[0].top, plan.pins[1].top));

@@ -74,7 +74,7 @@ class TemplateMaker {
       : mechanism_(mechanism),
         layout_(layout),
         bearing_(largest_bearing()),
-        axle_(thread_within(bearing_ ? bearing_->bore : 0.5 * smallest_lever())) {
+        axle_(bearing_ ? thread_within(bearing_->bore) : thread_within(0.5 * smallest_lever(), mechanism.units)) {
     plan_.heights = heights;
   }
 
@@ -256,11 +256,11 @@ class TemplateMaker {
       plan_.items.push_back(
           {2,
            std::string(plan_.heights && !guides.collar ? "roller" : "idler") + " on a ball bearing, ⌀ " +
-               rounded(2 * guides.radius, 4) + (plan_.heights && !guides.collar ? "" : " at its groove's floor"),
+               rounded(2 * guides.radius, 4) + (plan_.heights && !guides.collar ? " mm" : " mm at its groove's floor"),
            "B and D, on " + std::string(thread_within(guides.bearing_radius).name) + " bolts" + height_words()});
     else
-      plan_.items.push_back(
-          {2, "steel rod ⌀ " + rounded(2 * guides.radius, 4), "pins B and D, pressed into the base" + height_words()});
+      plan_.items.push_back({2, "steel rod ⌀ " + rounded(2 * guides.radius, 4) + " mm",
+                             "pins B and D, pressed into the base" + height_words()});
     if (mechanism_.sheath.is_there())
       plan_.items.push_back(
           {2, "Bowden sheath, " + rounded(mechanism_.sheath.length, 4) + " mm, with ferrules",

@@ -18,26 +18,57 @@ constexpr std::array<std::string_view, 9> k_motor_words = {"motor", "alpha",  "a
 constexpr std::array<std::string_view, 5> k_joint_words = {"joint", "joints", "theta", "output", "link"};
 
 /// Further words of the two sides, in tables alone.
-constexpr std::array<std::string_view, 5> k_table_motor_words = {"stepper", "spool", "winch", "antrieb", "motorwinkel"};
-constexpr std::array<std::string_view, 11> k_table_joint_words = {
-    "gelenk", "gelenkwinkel", "finger", "elbow", "knee", "wrist", "shoulder", "thumb", "hip", "ankle", "limb"};
+constexpr std::array<std::string_view, 12> k_table_motor_words = {"stepper",     "spool",  "winch",    "antrieb",
+                                                                  "motorwinkel", "motore", "moteur",   "stellmotor",
+                                                                  "motorhoek",   "silnik", "actuador", "actionneur"};
+constexpr std::array<std::string_view, 27> k_table_joint_words = {
+    "gelenk",       "gelenkwinkel", "finger",      "elbow", "knee",     "wrist",      "shoulder", "thumb", "hip",
+    "ankle",        "limb",         "arm",         "staw",  "gewricht", "giunto",     "junta",    "doigt", "dedo",
+    "articulation", "articulacion", "articulacao", "dito",  "ellbogen", "handgelenk", "knie",     "coude", "codo"};
 /// Words of an angle sensor of either side.
-constexpr std::array<std::string_view, 15> k_sensor_words = {"encoder", "enc",   "pot",      "poti", "potentiometer",
-                                                             "sensor",  "angle", "winkel",   "pos",  "position",
-                                                             "hall",    "adc",   "resolver", "imu",  "as"};
+constexpr std::array<std::string_view, 19> k_sensor_words = {
+    "encoder", "enc",      "pot", "poti", "potentiometer", "sensor", "angle", "winkel", "pos", "position", "hall",
+    "adc",     "resolver", "imu", "as",   "angolo",        "angulo", "hoek",  "kat"};
 /// Words of a commanded angle.
 constexpr std::array<std::string_view, 12> k_command_words = {
     "cmd", "command", "commanded", "setpoint", "set", "target", "ref", "sp", "demand", "reference", "desired", "goal"};
 /// Words of quantities other than an angle, and of their units.
-constexpr std::array<std::string_view, 50> k_other_words = {
-    "velocity", "speed",   "vel",    "rate",  "omega", "current", "torque", "tau",   "force",    "load",
-    "temp",     "effort",  "volt",   "pwm",   "duty",  "power",   "error",  "err",   "time",     "timestamp",
-    "millis",   "micros",  "t",      "ms",    "us",    "s",       "sec",    "index", "id",       "row",
-    "sample",   "voltage", "status", "state", "mode",  "acc",     "accel",  "a",     "ma",       "v",
-    "mv",       "nm",      "rpm",    "rps",   "dps",   "w",       "hz",     "date",  "pressure", "temperature"};
+constexpr std::array<std::string_view, 66> k_other_words = {
+    "velocity", "speed",   "vel",       "rate",       "omega",
+    "current",  "torque",  "tau",       "force",      "load",
+    "temp",     "effort",  "volt",      "pwm",        "duty",
+    "power",    "error",   "err",       "time",       "timestamp",
+    "millis",   "micros",  "t",         "ms",         "us",
+    "s",        "sec",     "index",     "id",         "row",
+    "sample",   "voltage", "status",    "state",      "mode",
+    "acc",      "accel",   "a",         "ma",         "v",
+    "mv",       "nm",      "rpm",       "rps",        "dps",
+    "w",        "hz",      "date",      "pressure",   "temperature",
+    "last",     "kraft",   "fuerza",    "forza",      "carga",
+    "charge",   "carico",  "belastung", "zeit",       "temps",
+    "tiempo",   "strom",   "spannung",  "drehmoment", "geschwindigkeit",
+    "datum"};
+
+/// The letter without its accent, for the letters of Latin-1 in UTF-8, where `second` follows 0xC3; else a blank.
+char without_accent(char second) {
+  constexpr std::string_view k_letters = "aaaaaaaceeeeiiiidnooooo ouuuuytsaaaaaaaceeeeiiiidnooooo ouuuuyty";
+  const auto at = static_cast<unsigned char>(second) - 0x80U;
+  return at < k_letters.size() ? k_letters[at] : ' ';
+}
+
+std::string without_accents(std::string_view name) {
+  std::string letters;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool is_latin = name[i] == '\xC3' && i + 1 < name.size();
+    letters += is_latin ? without_accent(name[++i]) : name[i];
+  }
+  return letters;
+}
 
 /// A word ends at a character that is no letter, and before a capital that follows a small letter.
-NameWords words_in(std::string_view name) {
+NameWords words_in(std::string_view accented) {
+  const std::string letters = without_accents(accented);
+  const std::string_view name = letters;
   NameWords words;
   std::string word;
   const auto end_word = [&] {

@@ -1,9 +1,11 @@
 #include "measurement/columns.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "base/text.h"
@@ -17,21 +19,29 @@ namespace {
 /// Names that are recognised for a role without --column, in any unit, besides the default name.
 const std::vector<std::string>& words_of(const std::string& role) {
   static const std::map<std::string, std::vector<std::string>> words = {
-      {"alpha", {"alpha"}},       {"theta", {"theta"}},
-      {"load", {"load"}},         {"time", {"time", "timestamp", "time_stamp", "%time", "__time"}},
-      {"tension1", {"tension1"}}, {"temperature", {"temperature", "temp"}},
+      {"alpha", {"alpha"}},
+      {"theta", {"theta"}},
+      {"load", {"load"}},
+      {"time", {"time", "timestamp", "time_stamp", "%time", "__time", "zeit", "temps", "tiempo", "tijd", "czas"}},
+      {"tension1", {"tension1"}},
+      {"temperature", {"temperature", "temp"}},
       {"tension2", {"tension2"}}};
   static const std::vector<std::string> none;
   const auto found = words.find(role);
   return found == words.end() ? none : found->second;
 }
 
-std::string list_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) {
-    if (!name.empty() && list.size() < 300) list += (list.empty() ? "" : ", ") + shown(name);
-  }
-  return list;
+/// Load and force in the languages of builders. With a unit of a load, the first kind is the joint's load. A force may
+/// be a tendon's.
+constexpr std::array<std::string_view, 7> k_load_words = {"last",   "belastung", "carga",     "carico",
+                                                          "charge", "lading",    "obciążenie"};
+constexpr std::array<std::string_view, 14> k_force_words = {"force",  "kraft",  "fuerza",  "forza",  "força",
+                                                            "kracht", "weight", "gewicht", "peso",   "poids",
+                                                            "mass",   "masse",  "torque",  "payload"};
+
+template <typename Words>
+bool is_one_of(const Words& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
 }
 
 /// A column name as an shell_argument of --column, quoted if the shell requires it.
@@ -55,6 +65,7 @@ class ColumnFinder {
       std::optional<std::size_t> index = is_given ? index_of(to_utf8(given->second)) : usual_index(role, usual);
       if (!index && !is_given) index = ros_index(role);
       if (!index && !is_given) index = index_by_words(role);
+      if (!index && !is_given && role == "load") index = load_in_other_languages();
       const bool is_needed = role == "alpha" || (role == "theta" && options_.needs_theta);
       if (index) {
         add_column(role, *index, is_given);
@@ -67,6 +78,7 @@ class ColumnFinder {
     report_missing_angles();
     report_shared_columns();
     note_unread_load();
+    list_unused();
     return std::move(header_);
   }
 
@@ -130,6 +142,21 @@ class ColumnFinder {
     return index;
   }
 
+  /// The one column that is called load in another language and states a unit of a load: "Last [g]".
+  std::optional<std::size_t> load_in_other_languages() {
+    std::optional<std::size_t> index;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const ColumnName name = parse_column_name(names_[i], Quantity::load);
+      if (name.unit == nullptr || !is_one_of(k_load_words, name.base)) continue;
+      if (index) return std::nullopt;
+      index = i;
+    }
+    if (index)
+      header_.notes.push_back("load: taken from the column " + shown(names_[*index]) +
+                              ", by its name (--column load=NAME overrides this)");
+    return index;
+  }
+
   /// A column with the usual name of the role, or with another recognised name in any unit.
   std::optional<std::size_t> usual_index(const std::string& role, const std::string& usual) {
     if (const auto index = index_of(usual)) return index;
@@ -146,6 +173,7 @@ class ColumnFinder {
                               (is_load ? " is no unit of a load" : " is no unit of time") +
                               "; select the column and its unit with --column " + role + "=" +
                               shell_argument(names_[i]) + " --unit " + role + (is_load ? "=N" : "=s"));
+      noted_.insert(i);
     }
     return std::nullopt;
   }
@@ -196,22 +224,40 @@ class ColumnFinder {
     const bool values_decide = column.quantity == Quantity::angle || column.quantity == Quantity::time;
     if (values_decide) return;  // see settle_units()
     column.unit = usual_unit(column.quantity);
+    column.is_unit_stated = false;
     if (is_load)
       header_.notes.push_back("load: taken as N, as the name " + shown(column.name) +
                               " states no unit (--unit load=kg overrides this)");
   }
 
-  /// If there is no load, a column whose name ends in a unit of load ("Last_N") may be the load.
+  /// If there is no load, a column whose name ends in a unit of load ("pull_N") or is a word for it ("Last") may be the
+  /// load.
   void note_unread_load() {
     const auto has_role = [&](const Column& column) { return column.role == "load"; };
     if (std::any_of(header_.columns.begin(), header_.columns.end(), has_role)) return;
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const auto is_this = [&](const Column& column) { return column.index == i; };
       const ColumnName name = parse_column_name(names_[i], Quantity::load);
-      if (name.unit == nullptr || name.base.empty()) continue;
+      const bool is_word = is_one_of(k_load_words, name.base) || is_one_of(k_force_words, name.base);
+      if ((name.unit == nullptr && !is_word) || name.base.empty()) continue;
       if (std::any_of(header_.columns.begin(), header_.columns.end(), is_this)) continue;
-      header_.notes.push_back("column " + shown(names_[i]) +
-                              " is not used: if it is the load, add --column load=" + shell_argument(names_[i]));
+      header_.notes.push_back("column " + shown(names_[i]) + " is not used" + assumed_load() +
+                              ": if it is the load, add --column load=" + shell_argument(names_[i]) +
+                              (name.unit == nullptr ? " --unit load=N, or its unit" : ""));
+      noted_.insert(i);
+    }
+  }
+
+  std::string assumed_load() const {
+    return options_.tip_force == 0 ? ""
+                                   : ", and the load of the file, " + rounded(options_.tip_force, 3) + " N, is assumed";
+  }
+
+  void list_unused() {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const auto is_this = [&](const Column& column) { return column.index == i; };
+      if (names_[i].empty() || is_ros_name(names_[i]) || noted_.count(i) > 0) continue;
+      if (std::none_of(header_.columns.begin(), header_.columns.end(), is_this)) header_.unused.push_back(names_[i]);
     }
   }
 
@@ -233,22 +279,21 @@ class ColumnFinder {
     const bool both = missing_.size() > 1;
     const AnglePair likely = likely_table_angles(names_, known_angles());
     std::string options;
+    bool are_all_likely = true;
     for (const auto& [role, usual] : missing_) {
       const std::optional<std::size_t> index = role == "alpha" ? likely.alpha : likely.theta;
-      if (!index) options.clear();
-      if (!index) break;
-      options += (options.empty() ? "" : " ") + ("--column " + role + "=" + shell_argument(names_[*index]));
+      are_all_likely = are_all_likely && index.has_value();
+      options +=
+          (options.empty() ? "" : " ") + ("--column " + role + "=" + (index ? shell_argument(names_[*index]) : "NAME"));
     }
     const std::string unit = " (in degrees, or its name ends in its unit: _rad, _turns, _counts)";
     std::string message = "there is no column " + missing_.front().second;
     if (both) message += " and no " + missing_.back().second;
-    if (options.empty()) {
-      for (const auto& [role, usual] : missing_)
-        options += (options.empty() ? "" : " ") + ("--column " + role + "=NAME");
-      add_problem(message, "the columns are " + list_of(names_) + "; select " + (both ? "them" : "one") + " with " +
+    if (!are_all_likely) {
+      add_problem(message, "the columns are " + quoted_list(names_) + "; select " + (both ? "them" : "one") + " with " +
                                options + unit);
     } else {
-      add_problem(message, "the columns are " + list_of(names_) + "; add " + options +
+      add_problem(message, "the columns are " + quoted_list(names_) + "; add " + options +
                                (both                                ? " if these are the angles of motor and joint"
                                 : missing_.front().first == "alpha" ? " if that is the motor's angle"
                                                                     : " if that is the joint's angle"));
@@ -277,7 +322,7 @@ class ColumnFinder {
                                  : "";
     add_problem("there is no column " + quoted_if_required(wanted),
                 nearest.empty()
-                    ? "the columns are " + list_of(names_) + "; select one with --column " + role + "=NAME" + unit
+                    ? "the columns are " + quoted_list(names_) + "; select one with --column " + role + "=NAME" + unit
                     : "the nearest is " + shown(nearest) + ": --column " + role + "=" + shell_argument(nearest) +
                           " takes it" + unit);
   }
@@ -312,6 +357,7 @@ class ColumnFinder {
   const MeasurementOptions& options_;
   Header header_;
   AnglePair by_words_;                                        ///< angles chosen by words of their names
+  std::set<std::size_t> noted_;                               ///< columns without a role that a note names
   std::vector<std::pair<std::string, std::string>> missing_;  ///< angles: roles and usual names
 };
 

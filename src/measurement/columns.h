@@ -29,6 +29,7 @@ struct Column {
   Quantity quantity = Quantity::none;
   const Unit* unit = nullptr;  ///< nullptr: determined from the values, see settle_units()
   bool is_given = false;       ///< by an option
+  bool is_unit_stated = true;  ///< false: a load that is taken as N, because no unit is stated
   double ticks_per_turn = 0;   ///< for counts; 0: determined from the values
   double zero_ticks = 0;       ///< counts at home
   bool is_date = false;        ///< its cells are time stamps, read as s
@@ -49,6 +50,7 @@ struct Column {
 struct Header {
   std::vector<Column> columns;
   std::vector<std::string> notes;
+  std::vector<std::string> unused;   ///< names of columns without a role
   std::vector<Diagnostic> problems;  ///< without file and line
   bool has_angles = false;           ///< every required angle is named, so this line is the header
 };

@@ -52,6 +52,14 @@ std::string shown(std::string_view text) {
   return "\"" + characters + (i < text.size() ? "…\"" : "\"");
 }
 
+std::string quoted_list(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) {
+    if (!name.empty() && list.size() < 300) list += (list.empty() ? "" : ", ") + shown(name);
+  }
+  return list;
+}
+
 std::string to_utf8(std::string_view bytes) {
   // The bytes 0x80 to 0x9F of Windows-1252, which Windows writes where Latin-1 has controls.
   constexpr std::array<unsigned, 32> k_windows = {0x20AC, 0x81,   0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,

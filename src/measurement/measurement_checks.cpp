@@ -7,6 +7,7 @@
 #include "fusee/measurement.h"
 #include "fusee/transmission.h"
 #include "measurement/strokes.h"
+#include "transmission/load.h"
 #include "transmission/target_motion.h"
 
 namespace fusee::measurement {
@@ -83,12 +84,12 @@ void remove_whole_turns(const transmission::TargetMotion& law, Measurement& meas
       sample.theta += turns.theta;
     }
     const auto words = [](const char* name, double turn) {
-      return std::string(name) + " " + rounded(degrees(turn)) + " deg";
+      return rounded(degrees(turn)) + " deg to " + std::string(name);
     };
     std::string moved = turns.alpha != 0 ? words("alpha", turns.alpha) : "";
-    if (turns.theta != 0) moved += (moved.empty() ? "" : ", ") + words("theta", turns.theta);
+    if (turns.theta != 0) moved += (moved.empty() ? "" : " and ") + words("theta", turns.theta);
     measurement.notes.push_back(run.name + ": the log begins whole turns away from " +
-                                (law.has_zero() ? "what is declared" : "the first run") + ": added to " + moved);
+                                (law.has_zero() ? "the declared angles" : "the first run") + ": added " + moved);
   }
 }
 
@@ -225,6 +226,12 @@ double force_of_unit(const std::string& unit, double length) {
 }  // namespace
 
 MeasurementOptions expecting(const Mechanism& declared, MeasurementOptions options) {
+  if (!declared.transmission) {
+    const Load& load = declared.load;
+    options.tip_force = load.tip_force;
+    options.load_scale =
+        std::abs(load.tip_force) + (std::abs(load.torque) + transmission::weight_moment(load)) / declared.joint.R;
+  }
   const transmission::TargetMotion law(declared);
   if (!law.exists() || !std::isfinite(law.slope())) return options;
   options.alpha_span = law.alpha_range();

@@ -313,6 +313,8 @@ class RowReader {
     if (!problems_.empty()) refuse();
     columns_ = std::move(header.columns);
     logged_.notes = std::move(header.notes);
+    logged_.sources.clear();
+    if (!header.unused.empty()) logged_.sources.push_back("columns that are not used: " + quoted_list(header.unused));
     column_count_ = names.size();
     begin_tracks();
     if (preamble_lines_ > 0)

@@ -89,6 +89,7 @@ class UnitFinder {
     for (Column& column : columns_) {
       if (column.quantity == Quantity::time) find_time_unit(column);
       if (column.quantity == Quantity::angle && member_of(column.role) != nullptr) find_angle_unit(column);
+      if (column.role == "load") compare_with_declared_load(column);
     }
     if (!problems_.empty()) throw InputError(problems_);
     for (Column& column : columns_) convert(column);
@@ -216,6 +217,30 @@ class UnitFinder {
   static const char* likely_unit(const Column& column) {
     const bool is_position = lower(column.name).find("position") != std::string::npos;
     return is_position || column.most - column.least <= k_two_pi ? "rad" : "deg";
+  }
+
+  /// Loads without a stated unit that are far from the declared one are in another unit: 200 g are not 200 N. A stated
+  /// unit is trusted, with a note.
+  void compare_with_declared_load(const Column& column) {
+    constexpr double k_far = 10;
+    const double largest = std::max(std::abs(column.least), std::abs(column.most));
+    if (options_.load_scale == 0 || column.is_given || column.unit->base != "N" || !(largest > 0)) return;
+    if (!std::isfinite(largest)) return;  // empty
+    const double ratio = largest * column.unit->factor / options_.load_scale;
+    if (ratio < k_far && ratio > 1 / k_far) return;
+    const std::string words = " reaches " + rounded(largest, 4) +
+                              (column.is_unit_stated ? " " + std::string(column.unit->name) : "") +
+                              (column.is_unit_stated ? ", " : ": as N, ") + rounded(ratio, 2) +
+                              " times the declared load of " + rounded(options_.load_scale, 3) + " N";
+    if (column.is_unit_stated) {
+      if (ratio > 1)
+        add_note("load: " + shown(column.name) + words + "; if its unit is another, add --unit load=g or the like");
+      return;
+    }
+    const Unit* const other = find_unit(Quantity::load, ratio > 1 ? "g" : "kg");
+    refuse("the unit of " + shown(column.name) + " is unknown: it" + words,
+           "state the unit: --unit load=" + std::string(other->name) + " (" + rounded(largest, 4) + " " +
+               std::string(other->name) + " is " + rounded(largest * other->factor, 3) + " N), or --unit load=N");
   }
 
   void convert(const Column& column) {

@@ -422,7 +422,7 @@ void add_mechanism(std::vector<Field>& table) {
   table.push_back(
       attachment_field<&Joint::attachment1>("joint.attachment1_mm",
                                             "end of tendon 1 in the link at home: [to the right, along OC]; between "
-                                            "the drum and its pitch circle it is moved onto that circle"));
+                                            "the drum and its pitch circle an end is moved onto that circle"));
   table.push_back(attachment_field<&Joint::attachment2>(
       "joint.attachment2_mm",
       "end of tendon 2 in the link at home: [to the right, along OC]; over the drum's top it may be left of O"));

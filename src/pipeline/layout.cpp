@@ -9,6 +9,7 @@
 
 #include "base/text.h"
 #include "fusee/analysis.h"
+#include "fusee/kit.h"
 #include "fusee/profile.h"
 #include "fusee/solid.h"
 #include "fusee/transmission.h"
@@ -194,6 +195,7 @@ class Candidates {
       guides.bearing_friction = 0.003;
     }
     guides.radius = in_three_digits(guides.radius);
+    if (guides.kind == GuideKind::pin) guides.radius = 0.5 * kit::stock_rod(2.0 * guides.radius, joint_.units);
     candidate.words += guides.kind == GuideKind::idler ? ", tendons over idlers" : ", tendons over pins";
     return candidate;
   }

@@ -98,12 +98,13 @@ class OmissionSearch {
         const auto planned = planned_omissions(*trial);
         const bool brings_one_back = planned && std::any_of(without_advice.begin(), without_advice.end(),
                                                             [&](const std::string& f) { return !has(*planned, f); });
-        if (!brings_one_back) continue;
+        if (!brings_one_back || loses_fastening(*planned)) continue;
         context_.throw_if_stopped();
         ++builds_;
         const auto built = build_(trial->mechanism);
+        if (!built || loses_fastening(*built)) continue;
         for (const std::string& feature : without_advice) {
-          if (built && !has(*built, feature)) advice[feature] = sentence(*trial, *built);
+          if (!has(*built, feature)) advice[feature] = sentence(*trial, *built);
         }
       }
     }
@@ -164,6 +165,12 @@ class OmissionSearch {
     return plan.is_possible() ? std::optional(features_of(plan.layout)) : std::nullopt;
   }
 
+  /// Without its set screw or hub the pulley has nothing that holds it: no advice for another feature.
+  bool loses_fastening(const std::vector<std::string>& built) const {
+    const auto loses = [&](const char* feature) { return has(built, feature) && !has(omitted_, feature); };
+    return loses("set_screw") || loses("hub") || loses("bore");
+  }
+
   /// "try pulley.r1_mm = 11 (now 9)", and the further features that it omits.
   std::string sentence(const Trial& trial, const std::vector<std::string>& built) const {
     const double now = number_of(product_.file.mechanism, *find_field(trial.change.key));
@@ -195,7 +202,7 @@ std::vector<std::string> notes_with_advice(const formats::Product& product, cons
   for (const solid::Omission& omission : layout.omissions) {
     const auto found = advice.find(omission.feature);
     notes.at(omission.note) +=
-        found != advice.end() ? "; " + found->second : "; none of the single numbers that were tried brings it back";
+        found != advice.end() ? "; " + found->second : "; no change of a single number that was tried brings it back";
   }
   return notes;
 }

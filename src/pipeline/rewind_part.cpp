@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/golden_section.h"
 #include "base/text.h"
 #include "fusee/export.h"
 #include "fusee/joint.h"
@@ -248,6 +249,25 @@ RewoundPart rewind_unrecognised(const joint::IdentifiedJoint& joint, const solid
   }
 }
 
+/// Size of the floors at which they fit the declared ones best, if it explains most of their deviation; else 1.
+double scale_of(const std::vector<solid::Placement>& placements, const solid::GrooveFloors& expected) {
+  solid::GrooveFloors found, declared;
+  for (const auto side : {transmission::Side::left, transmission::Side::right}) {
+    const solid::PlacedGroove* groove = groove_of(placements, side);
+    if (groove == nullptr) continue;
+    const bool is_left = side == transmission::Side::left;
+    (is_left ? found.p1 : found.p2) = groove->floor;
+    (is_left ? declared.p1 : declared.p2) = is_left ? expected.p1 : expected.p2;
+  }
+  if (found.p1.empty() || found.p2.empty()) return 1;
+  const auto deviation_at = [&](double scale) {
+    return solid::outline_deviation({shrunk(found.p1, scale), shrunk(found.p2, scale)}, declared);
+  };
+  constexpr double k_largest_change = 0.05;
+  const double scale = golden_section({1 - k_largest_change, 1 + k_largest_change}, 30, deviation_at).middle();
+  return deviation_at(scale) < k_clearly_better * deviation_at(1) ? scale : 1;
+}
+
 RewoundPart rewind_moved_mesh(const joint::IdentifiedJoint& joint, const solid::TriangleMesh& mesh) {
   const auto [layout, expected] = expected_part(joint);
   if (!is_finite(mesh)) return rewind_unrecognised(joint, layout, mesh);
@@ -262,9 +282,15 @@ RewoundPart rewind_moved_mesh(const joint::IdentifiedJoint& joint, const solid::
     worst = std::max(worst, result.placement.deviation);
     placements.push_back(result.placement);
   }
-  if (!(worst < k_clearly_better * in_place)) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
-  for (const solid::PlacementResult& result : found) refuse_scaled_or_mirrored(result);
-  return rewind_placed(joint, placements, layout.scale);
+  RewoundPart part{{}, PartPlace::as_made, {}};
+  if (worst < k_clearly_better * in_place) {
+    for (const solid::PlacementResult& result : found) refuse_scaled_or_mirrored(result);
+    part = rewind_placed(joint, placements, layout.scale);
+  } else {
+    part.as_built = rewind_mesh(joint, layout, mesh);
+  }
+  part.scale = scale_of(placements, expected);
+  return part;
 }
 
 }  // namespace

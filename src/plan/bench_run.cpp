@@ -98,11 +98,19 @@ NextMeasurement next_run(const PlannedRun& run, double slow, const std::string& 
   return next;
 }
 
+std::string reading_words(const fusee::EffectParameter& reading) {
+  std::string text(reading.by_hand.words);
+  const std::string key(reading.by_hand.key);
+  const std::size_t at = text.find(key);
+  if (key.empty() || at == std::string::npos) return text;
+  return text.insert(at + key.size(), " = [value, uncertainty]");
+}
+
 NextMeasurement next_reading(const std::vector<const fusee::EffectParameter*>& readings) {
   NextMeasurement next;
   next.readings = readings;
   for (const fusee::EffectParameter* reading : readings)
-    next.words += (next.words.empty() ? "" : "; ") + std::string(reading->by_hand.words);
+    next.words += (next.words.empty() ? "" : "; ") + reading_words(*reading);
   next.minutes = k_bench_minutes.reading * static_cast<double>(readings.size());
   return next;
 }

@@ -85,7 +85,7 @@ class Planner {
   void add(const fusee::EffectParameter& reading) {
     Candidate candidate;
     candidate.step.reading = &reading;
-    candidate.step.words = reading.by_hand.words;
+    candidate.step.words = reading_words(reading);
     candidate.step.minutes = candidate.step.setup_minutes = k_bench_minutes.reading;
     candidate.reading_equations = signatures_.of(reading);
     candidates_.push_back(std::move(candidate));

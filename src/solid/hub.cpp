@@ -182,15 +182,17 @@ void set_hub(BodyLayout& layout, const Mechanism& mechanism, const HubChoice& ch
   if (!wants_set_screw(body)) return;
   const SetScrewLayout& screw = choice.set_screw;
   if (!screw.present) {
-    layout.omit("set_screw",
-                choice.radius > 0 ? "no space for a hub with a set screw: screw omitted" : "no hub: set screw omitted");
+    layout.omit("set_screw", choice.radius > 0 ? "set screw omitted, as there is no space for a hub with one"
+                                               : "set screw omitted, as there is no hub for it");
     return;
   }
   const bool is_smaller = body.set_screw == "auto" && screw.thread != k_automatic_screws.front();
-  const std::string thread = is_smaller ? ", the set screw is " + screw.thread : "";
+  const std::string thread = is_smaller ? " (" + screw.thread + ")" : "";
   if (body.nut_trap && !screw.nut_trap) {
-    layout.omit("nut",
-                fmt::format("no space for a hub with a nut: the set screw's thread is cut into the hub{}", thread));
+    layout.omit(
+        "nut",
+        fmt::format("nut omitted, as the hub has no space for it: the set screw{} is screwed into a thread of the hub",
+                    thread));
   } else if (is_smaller) {
     layout.notes.push_back(fmt::format("no space for a hub with a larger set screw: it is {}", screw.thread));
   }

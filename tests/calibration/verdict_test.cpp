@@ -345,7 +345,9 @@ TEST(FoundEffects, DescribeTheirSign) {
 TEST(Effects, CaliperEffectsAskForReading) {
   const std::vector<std::pair<std::string, std::string>> words = {
       {"guide_radius", "diameter with a caliper and enter half of it as prior.guide_radius_mm"},
-      {"radius_offset", "enter half of their total excess (negative: too small)"},
+      {"radius_offset",
+       "add what each is larger than declared (negative: smaller), and enter half of the sum as "
+       "prior.radius_offset_mm"},
       {"guide_position", "the right pin is below the joint's axis (above it: negative) and enter it as prior.OE2_mm"}};
   for (const auto& [name, expected] : words) {
     const Effect* effect = find_effect(name, JointKind::tendons);

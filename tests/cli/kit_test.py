@@ -5,6 +5,7 @@ import hashlib
 import io
 import json
 import os
+import re
 
 import harness
 
@@ -45,6 +46,18 @@ class Kit(harness.Scratch):
             page = (self.folder / "kit/kit.html").read_text()
             for letter in "OBDGC":
                 self.assertRegex(page, rf"<text[^>]*halo[^>]*>{letter}</text>", template)
+
+    def test_inch_file_has_an_inch_kit(self):
+        inch = (self.folder / "arm.toml").read_text().replace("schema = 1", 'schema = 1\nunits = "inch"')
+        for key, length in re.findall(r"^(\w+_mm) = (-?[\d.]+)", inch, re.M):
+            inch = re.sub(rf"^{key} = {re.escape(length)}\b", f"{key} = {float(length) / 25.4:.6g}", inch, flags=re.M)
+        (self.folder / "inch.toml").write_text(inch)
+        self.expect("kit inch.toml -o model", 0, r"clearance +[\d.]+ in or more, .* \(required: [\d.]+ in\)")
+        files = self.files("model")
+        bill = files["bom.csv"].decode()
+        self.assertNotRegex(bill, r"\d mm")
+        self.assertRegex(bill, r"#4-40 × [\d /]+ in with low head")
+        self.assertNotRegex(re.sub(r"<style.*?</style>", "", files["kit.html"].decode(), flags=re.S), "\\d[ \u00a0]mm")
 
     def test_is_reproducible(self):
         self.expect("kit arm.toml -o one", 0)

@@ -107,6 +107,9 @@ class Questions(harness.Scratch):
             text, _ = self.ask(answers(room="60", tendon=typed))
             tendon = tomllib.loads(text)["tendon"]
             self.assertEqual((tendon["diameter_mm"], tendon["modulus_MPa"]), (0.6, modulus))
+        for typed, strength in (("Dyneema 0.6", 511), ("Vectran 0.6", 324), ("hmpe-0.56", None)):
+            text, _ = self.ask(answers(room="60", tendon=typed))
+            self.assertEqual(tomllib.loads(text)["tendon"].get("strength_N"), strength, typed)
 
     def test_family_of_shafts_takes_the_usual_one(self):
         begun = ("a", "45", "0 80", "30", "10 N")

@@ -13,6 +13,7 @@
 #include "fusee/joint.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
+#include "kit/hardware.h"
 #include "mechanism/catalogue.h"
 
 namespace {
@@ -408,6 +409,16 @@ TEST(TemplatePage, DrawsDrumIdlersAndSheaths) {
     EXPECT_EQ(page->bytes.find("class=\"kit-sheath\"") != std::string::npos, sheathed);
     EXPECT_EQ(page->bytes.find("Idlers onto bolts") != std::string::npos, !sheathed);
   }
+}
+
+TEST(KitHardware, ChoosesStockOfTheUnit) {
+  EXPECT_EQ(kit::stock_rod(2.2, LengthUnit::mm), 2.5);
+  EXPECT_EQ(kit::stock_rod(4.2, LengthUnit::mm), 5);
+  EXPECT_DOUBLE_EQ(kit::stock_rod(4.26, LengthUnit::inch), 4.7625);  // 3/16 in
+  EXPECT_EQ(kit::stock_rod(40, LengthUnit::mm), 40);
+  EXPECT_EQ(kit::screw_words(kit::thread_within(3, LengthUnit::mm), 14), "M3 × 16");
+  EXPECT_EQ(kit::screw_words(kit::thread_within(3, LengthUnit::inch), 14), "#4-40 × 5/8 in");
+  EXPECT_EQ(kit::screw_words(kit::thread_within(1, LengthUnit::inch), 120), "#2-56 × 5 in");
 }
 
 }  // namespace

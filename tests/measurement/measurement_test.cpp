@@ -649,7 +649,10 @@ TEST(MeasurementAgainstDeclared, RemovesWholeTurns) {
   measurement.runs.push_back(parse_run(text, "run.csv", {}, measurement));
   compare_with_declared(testing::forearm(), measurement);
   EXPECT_EQ(reasons_of(measurement), "");
-  EXPECT_THAT(notes_of(measurement), HasSubstr("added to alpha -360 deg, theta -360 deg"));
+  EXPECT_THAT(
+      notes_of(measurement),
+      HasSubstr(
+          "the log begins whole turns away from the declared angles: added -360 deg to alpha and -360 deg to theta"));
   for (std::size_t i = 0; i < alphas.size(); ++i) {
     EXPECT_NEAR(degrees(measurement.runs[0].samples[i].alpha), alphas[i], 1e-9);
     EXPECT_NEAR(measurement.runs[0].samples[i].theta, law.theta(radians(alphas[i])), 1e-9);

@@ -15,6 +15,7 @@
 namespace fusee::measurement {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
@@ -463,14 +464,60 @@ TEST(LoggedLoads, RejectUnknownUnit) {
   EXPECT_THAT(error_of(logged("load_stone"), with_columns({{"load", "load_stone"}})), HasSubstr("units: N, mN, cN"));
   EXPECT_THAT(error_of(logged("pull"), in_units({{"load", "stone"}})), HasSubstr("there is no unit \"stone\" of load"));
   EXPECT_THAT(read(logged("load_cell")).notes, HasSubstr("column \"load_cell\" is not used"));
-  EXPECT_THAT(read(logged("Last_N")).notes,
-              HasSubstr("column \"Last_N\" is not used: if it is the load, add --column load=Last_N"));
-  EXPECT_EQ(read(logged("Last_N"), with_columns({{"load", "Last_N"}})).notes, read(logged("load_N")).notes);
+  EXPECT_THAT(read(logged("pull_N")).notes,
+              HasSubstr("column \"pull_N\" is not used: if it is the load, add --column load=pull_N"));
+  EXPECT_EQ(read(logged("pull_N"), with_columns({{"load", "pull_N"}})).notes, read(logged("load_N")).notes);
   EXPECT_EQ(read(logged("tension1_N")).notes, read(logged("load_N")).notes);
   const ReadRun bare = read(logged("pull"), with_columns({{"load", "pull"}}));
   EXPECT_THAT(bare.notes, HasSubstr("load: taken as N, as the name \"pull\" states no unit"));
   EXPECT_THAT(error_of("alpha_deg,theta_deg,tension1_Nm\n1,2,3\n", with_columns({{"tension1", "tension1_Nm"}})),
               HasSubstr("is a torque"));
+}
+
+TEST(LoggedLoads, RejectGramsTakenAsNewtons) {
+  const auto logged = [](const std::string& name, const std::string& load) {
+    return table("alpha_deg,theta_deg," + name, {alpha(), theta(), [load](int) { return load; }});
+  };
+  MeasurementOptions finger = named({{"load", "Last"}});
+  finger.tip_force = finger.load_scale = 10;
+  const std::string message = error_of(logged("Last", "200"), finger);
+  EXPECT_THAT(message, HasSubstr("the unit of \"Last\" is unknown: it reaches 200: as N, 20 times the declared load of "
+                                 "10 N"));
+  EXPECT_THAT(message, HasSubstr("state the unit: --unit load=g (200 g is 1.96 N), or --unit load=N"));
+  EXPECT_THAT(error_of(logged("Last", "0.5"), finger), HasSubstr("--unit load=kg (0.5 kg is 4.9 N)"));
+  EXPECT_EQ(error_of(logged("Last", "12"), finger), "none");
+  finger.units = {{"load", "N"}};
+  EXPECT_EQ(read(logged("Last", "200"), finger).run.samples[3].load, 200);
+  finger.units = {{"load", "g"}};
+  EXPECT_NEAR(read(logged("Last", "200"), finger).run.samples[3].load, 1.96133, 1e-9);
+  // A stated unit is trusted, with a note.
+  MeasurementOptions stated;
+  stated.tip_force = stated.load_scale = 10;
+  const ReadRun far = read(logged("load_N", "200"), stated);
+  EXPECT_EQ(far.run.samples[3].load, 200);
+  EXPECT_THAT(far.notes, HasSubstr("load: \"load_N\" reaches 200 N, 20 times the declared load of 10 N"));
+}
+
+TEST(LoggedLoads, ReportUnusedColumnsAndAssumedLoad) {
+  const auto logged = [](const std::string& name) {
+    return table("alpha_deg,theta_deg," + name, {alpha(), theta(), [](int) { return "2"; }});
+  };
+  MeasurementOptions finger;
+  finger.tip_force = finger.load_scale = 10;
+  for (const std::string name : {"Last", "Kraft", "force", "carga"})
+    EXPECT_THAT(read(logged(name), finger).notes,
+                HasSubstr("column \"" + name +
+                          "\" is not used, and the load of the file, 10 N, is assumed: if it is the load, add "
+                          "--column load=" +
+                          name + " --unit load=N, or its unit"));
+  for (const std::string name : {"Last (N)", "Belastung_N", "carga [N]"}) {
+    const ReadRun found = read(logged(name), finger);
+    EXPECT_EQ(found.run.samples[3].load, 2) << name;
+    EXPECT_THAT(found.notes, HasSubstr("load: taken from the column \"" + name + "\", by its name"));
+  }
+  EXPECT_THAT(read(logged("battery")).measurement.sources,
+              ElementsAre("run.csv: columns that are not used: \"battery\""));
+  EXPECT_THAT(read(logged("load_N")).measurement.sources, ElementsAre());
 }
 
 // ---- text -----------------------------------------------------------------------------------------------------------
@@ -527,6 +574,9 @@ TEST(ColumnNames, ChooseAnglesByWords) {
   for (const auto& [names, alpha_name, theta_name] : std::vector<std::tuple<std::string, std::string, std::string>>{
            {"time_s,motor_deg,joint_deg", "motor_deg", "joint_deg"},
            {"time_s,Motor,Gelenk", "Motor", "Gelenk"},
+           {"Zeit,Motor,Gelenk", "Motor", "Gelenk"},
+           {"temps,moteur,articulation", "moteur", "articulation"},
+           {"tiempo,motor,articulaci\xC3\xB3n", "motor", "articulaci\xC3\xB3n"},
            {"time_s,servo,pot", "servo", "pot"},
            {"time_s,servo_cmd,joint", "servo_cmd", "joint"},
            {"time_s,servoAngle,A0", "servoAngle", "A0"},
@@ -552,6 +602,11 @@ TEST(ColumnNames, ChooseAnglesByWords) {
     stamped += "10:00:" + fixed(10 + time_of(row), 3) + " -> " + alpha()(row) + "," + theta()(row) + "\n";
   EXPECT_TRUE(read(stamped).run.has_time);
   expect_motion(read(stamped).run);
+}
+
+TEST(ColumnNames, OfferTheAngleThatIsKnown) {
+  EXPECT_THAT(error_of(table("time_s,Motor,xyz", {seconds(), alpha(), theta()})),
+              HasSubstr("select them with --column alpha=Motor --column theta=NAME"));
 }
 
 TEST(ColumnNames, GiveTheOptionThatReadsAmbiguousAngles) {

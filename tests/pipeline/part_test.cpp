@@ -129,6 +129,18 @@ TEST_F(MadePart, MovedPartHasSameAngles) {
   }
 }
 
+TEST_F(MadePart, ReportsScaleOfMesh) {
+  EXPECT_EQ(pipeline::rewind_moved_part({*mechanism_, {}}, *mesh_).scale, 1);
+  for (const double scale : {1.015, 0.995}) {
+    const solid::TriangleMesh mesh = changed([&](Vec3& v) { v *= scale; });
+    EXPECT_NEAR(pipeline::rewind_moved_part({*mechanism_, {}}, mesh).scale, scale, 3e-4);
+    EXPECT_NEAR(pipeline::rewind_moved_part({*mechanism_, {}}, placed(mesh, true, 40, Vec3(125, 105, 30))).scale, scale,
+                3e-4);
+  }
+  // Another fault is no scale.
+  EXPECT_EQ(pipeline::rewind_moved_part({*mechanism_, {}}, changed([](Vec3& v) { v.x() *= 1.01; })).scale, 1);
+}
+
 TEST_F(MadePart, FaultRemainsAfterMove) {
   // Half a percent too small: the part fits no better elsewhere, so it is not moved, and its error remains.
   const solid::TriangleMesh small = changed([](Vec3& v) { v.head<2>() *= 0.995; });

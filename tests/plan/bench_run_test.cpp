@@ -101,7 +101,7 @@ TEST(NextMeasurement, DescribesEachKind) {
   EXPECT_GT(next_run(turned, k_run.speed, "N").minutes, run.minutes);
   const fusee::EffectParameter& pin = find_effect("guide_radius", JointKind::tendons)->parameters.front();
   EXPECT_EQ(next_reading({&pin}).kind(), "caliper");
-  EXPECT_EQ(next_reading({&pin}).words, pin.by_hand.words);
+  EXPECT_EQ(next_reading({&pin}).words, std::string(pin.by_hand.words) + " = [value, uncertainty]");
   EXPECT_DOUBLE_EQ(next_reading({&pin, &pin}).minutes, 2 * next_reading({&pin}).minutes);
   const NextMeasurement inspection = next_inspection("tighten it");
   EXPECT_EQ(inspection.kind(), "inspect");

@@ -32,9 +32,10 @@ Effect radius_offset(JointKind) {
        .shown = shown::as_is,
        .key = key::plain("radius_offset_mm", "mm", -100, 100, "outward offset of the tendons on the made pulley"),
        .merge_rule = MergeRule::add,
-       .by_hand = {"measure the diameter of the pulley's groove floor and of the tendon with a caliper and enter half "
-                   "of their total excess (negative: too small) as prior.radius_offset_mm",
-                   k_two_diameters, offset_by_caliper, "prior.radius_offset_mm"},
+       .by_hand =
+           {"measure the diameters of the groove's floor and of the tendon with a caliper, add what each is larger "
+            "than declared (negative: smaller), and enter half of the sum as prior.radius_offset_mm",
+            k_two_diameters, offset_by_caliper, "prior.radius_offset_mm"},
        .sign = {"both pulleys are too small", "both pulleys are too large"}}};
   return effect;
 }

@@ -3,6 +3,7 @@
 
 #include "drawing_tools.h"
 #include "export/drawings/cut_shapes.h"
+#include "export/drawings/dxf_writer.h"
 #include "export/drawings/fitted_arcs.h"
 #include "fusee/base.h"
 #include "solid/nearest_segment.h"
@@ -52,6 +53,26 @@ TEST_P(BothVersions, RoundPulleyIsCircle) {
     EXPECT_EQ(paths[0].entity, "CIRCLE") << layer;
     EXPECT_NEAR(paths[0].diameter.value_or(0), diameter, 1e-6) << layer;
   }
+}
+
+/// The number behind a tag, in hexadecimal digits; the largest of several.
+int largest_handle(const std::string& text, const std::string& tag) {
+  int largest = 0;
+  for (std::size_t at = text.find(tag); at != std::string::npos; at = text.find(tag, at + 1))
+    largest = std::max(largest, std::stoi(text.substr(at + tag.size(), 8), nullptr, 16));
+  return largest;
+}
+
+TEST(ProfileDxf, SeedsHandlesAboveVerticesInSpace) {
+  DxfDocument document;
+  document.layers = {{"PATH"}};
+  std::vector<Vec3> points;
+  for (int i = 0; i < 300; ++i) points.emplace_back(i, 0, 0.1 * i);
+  document.add_in_space("PATH", points);
+  const std::string text = dxf_text(document, DxfVersion::ac1015);
+  const int seed = largest_handle(text, "$HANDSEED\n  5\n");
+  ASSERT_GT(seed, 0) << text.substr(0, 2000);
+  EXPECT_GT(seed, largest_handle(text.substr(text.find("$HANDSEED") + 20), "\n  5\n"));
 }
 
 TEST(ProfileDxf, FitsFewTangentArcs) {

@@ -1,20 +1,77 @@
 // Texts of identified parameters.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "export/report/svg.h"
+#include "fusee/base.h"
 #include "fusee/export.h"
 
 namespace fusee::formats {
 namespace {
 
+using ::testing::StartsWith;
+
 TEST(ParameterWords, DescribeSign) {
   EXPECT_EQ(parameter_words({"scale_percent", -1.2, -1.3, -1.1, -1.3, -1.1, "both pulleys are too small"}, ""),
-            "scale = −1.2 % (95 %: −1.3 … −1.1), both pulleys are too small");
+            "scale = −1.2 %: both pulleys are too small (95 %: −1.3 … −1.1)");
   EXPECT_EQ(parameter_words({"EA_N", 4500, 4400, 4600, 4400, 4600}, ""), "EA = 4500 N (95 %: 4400 … 4600)");
 }
 
 TEST(ParameterWords, GiveTheNarrowerIntervalFirst) {
   EXPECT_EQ(parameter_words({"scale_percent", -1.2, -3.2, 0.8, -1.3, -1.1}, ""),
-            "scale = −1.2 % (95 %: −1.3 … −1.1 if it is the only cause, otherwise −3.2 … 0.8)");
+            "scale = −1.2 % (95 %: −1.3 … −1.1 if this is the only cause, else −3.2 … 0.8)");
+}
+
+TEST(ParameterWords, DistinguishTheEndsOfAnInterval) {
+  EXPECT_EQ(interval_words(12.1812, 12.2241, 3), "12.18 … 12.22");
+  EXPECT_EQ(interval_words(12.1, 12.9, 3), "12.1 … 12.9");
+  EXPECT_EQ(interval_words(5, 5, 3), "5 … 5");
+}
+
+/// A joint with one stroke up and one down, and these errors of its angle, deg.
+CalibrationProduct joint_with_errors(double (*error)(double theta)) {
+  CalibrationProduct product;
+  measurement::Run run;
+  std::vector<double> residuals;
+  for (const int direction : {1, -1}) {
+    const std::size_t first = run.samples.size();
+    for (int i = 0; i <= 80; ++i) {
+      const double theta = direction > 0 ? i : 80 - i;
+      measurement::Sample sample;
+      sample.theta = radians(theta + error(theta));
+      run.samples.push_back(sample);
+      residuals.push_back(radians(error(theta)));
+    }
+    measurement::Stroke stroke;
+    stroke.first = first;
+    stroke.last = run.samples.size() - 1;
+    stroke.direction = direction;
+    run.strokes.push_back(stroke);
+  }
+  product.measurement.runs = {run};
+  product.calibration.residuals_before = {residuals};
+  product.calibration.verdict = calibration::CalibrationVerdict::unexplained;
+  return product;
+}
+
+TEST(Headline, SaysEverywhereOnlyOfAConstantError) {
+  const auto problem = [](double (*error)(double)) { return headline(joint_with_errors(error)).problem; };
+  EXPECT_THAT(problem([](double) { return -0.6; }), StartsWith("The joint reads 0.6° low everywhere: "));
+  // 0 at 0, −1.2° at 80°: the mean is −0.6°, and the cause is a gain.
+  EXPECT_THAT(problem([](double theta) { return -0.015 * theta; }), StartsWith("The joint turns 1.5 % too little: "));
+  EXPECT_THAT(problem([](double theta) { return theta < 60 ? -0.6 : 0.0; }),
+              StartsWith("The joint reads 0.44° low on average: "));
+}
+
+TEST(Headline, KeepsAnInstructionWhole) {
+  CalibrationProduct product = joint_with_errors([](double) { return -0.6; });
+  plan::NextMeasurement next;
+  next.words = "measure the tendon and enter half of its excess (negative: too small) as prior.radius_offset_mm";
+  product.calibration.next = {next};
+  EXPECT_EQ(headline(product).action,
+            "Measure the tendon and enter half of its excess (negative: too small) as prior.radius_offset_mm.");
+  product.calibration.next.front().words = "drive slowly: the pulley is tied";
+  EXPECT_EQ(headline(product).action, "Drive slowly.");
 }
 
 }  // namespace
