@@ -478,7 +478,7 @@ TEST(LoggedLoads, RejectGramsTakenAsNewtons) {
   const auto logged = [](const std::string& name, const std::string& load) {
     return table("alpha_deg,theta_deg," + name, {alpha(), theta(), [load](int) { return load; }});
   };
-  MeasurementOptions finger = named({{"load", "Last"}});
+  MeasurementOptions finger = with_columns({{"load", "Last"}});
   finger.tip_force = finger.load_scale = 10;
   const std::string message = error_of(logged("Last", "200"), finger);
   EXPECT_THAT(message, HasSubstr("the unit of \"Last\" is unknown: it reaches 200: as N, 20 times the declared load of "
