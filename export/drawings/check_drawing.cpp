@@ -430,6 +430,7 @@ struct RequiredNesting {
 constexpr auto k_inside = std::to_array<RequiredNesting>({{"CUT_INNER", "CUT_OUTER"},
                                                           {"ENGRAVE", "CUT_OUTER"},
                                                           {"CUT_OUTER", "SHEET"},
+                                                          {"CHECK_10MM", "SHEET"},
                                                           {"BORE", "P1_FLOOR"},
                                                           {"BORE", "P2_FLOOR"},
                                                           {"P1_FLOOR", "P1_PITCH"},

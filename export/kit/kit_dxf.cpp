@@ -1,5 +1,5 @@
-// kit.dxf: base plate, scale, link and bracket as plates to cut, nested on sheets. Engravings come first, then holes,
-// then outlines, because a plate that is cut free may move.
+// kit.dxf: base plate, scale, link and bracket as plates to cut, nested on sheets. Engravings and the check square come
+// first, then holes, then outlines, because a plate that is cut free may move.
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include "export/drawings/dxf_writer.h"
 #include "export/drawings/nesting.h"
 #include "export/drawings/plates.h"
+#include "export/drawings/sheet_notes.h"
 #include "export/drawings/stroke_font.h"
 #include "fusee/export.h"
 
@@ -120,14 +121,21 @@ class KitSheets {
         sheet_ = sheet_.cwiseMax(sizes.back() + Vec2(2 * k_sheet_margin, 2 * k_sheet_margin));
       }
     }
+    sizes.push_back(bounding_box(check_square(cut.kerf)).size());
+    sheet_ = sheet_.cwiseMax(sizes.back() + Vec2(2 * k_sheet_margin, 2 * k_sheet_margin));
     const std::vector<NestedPlace> places = nest(sizes, sheet_, k_sheet_margin);
-    for (std::size_t i = 0; i < placed_.size(); ++i) {
-      placed_[i].shift = places[i].corner - boxes[i].low + Vec2(places[i].sheet * (sheet_.x() + k_sheet_gap), 0);
-      count_ = std::max(count_, places[i].sheet + 1);
-    }
+    const auto corner = [this](const NestedPlace& place) {
+      return Vec2(place.corner + Vec2(place.sheet * (sheet_.x() + k_sheet_gap), 0));
+    };
+    for (std::size_t i = 0; i < placed_.size(); ++i) placed_[i].shift = corner(places[i]) - boxes[i].low;
+    check_square_ = corner(places.back());
+    for (const NestedPlace& place : places) count_ = std::max(count_, place.sheet + 1);
   }
 
   const std::vector<ShiftedPlate>& placed() const { return placed_; }
+  /// Lower left corner of the check square.
+  const Vec2& check_square_corner() const { return check_square_; }
+  double width() const { return sheet_.x(); }
   void draw(DxfDocument& drawing) const {
     for (int i = 0; i < count_; ++i) {
       const Vec2 corner(i * (sheet_.x() + k_sheet_gap), 0);
@@ -139,6 +147,7 @@ class KitSheets {
   Vec2 sheet_;
   int count_ = 1;
   std::vector<ShiftedPlate> placed_;
+  Vec2 check_square_ = Vec2::Zero();
 };
 
 Polygon moved(Polygon points, const Vec2& shift) {
@@ -149,9 +158,7 @@ Polygon moved(Polygon points, const Vec2& shift) {
 std::vector<std::string> remarks_of(const KitProduct& product, const std::vector<KitPlate>& plates) {
   const Mechanism& mechanism = product.pulley.joint.mechanism;
   std::vector<std::string> remarks{
-      mechanism.name + ": the test rig's plates to cut, true size in mm",
-      "lines are the centre of the cut: outlines half a kerf (" + rounded(0.5 * mechanism.cut.kerf) +
-          " mm) outside, holes half a kerf inside; the square is 10 mm wide",
+      mechanism.name + ": the test rig's plates to cut, true size in mm", kerf_remark(mechanism.cut.kerf),
       "sheets of " + rounded(mechanism.cut.plate) + " mm; plates of one name are glued one upon another"};
   for (const KitPlate& plate : plates) {
     for (const kit::DiscHull& hole : plate.holes) {
@@ -180,6 +187,7 @@ std::string kit_dxf(const KitProduct& product, DxfVersion version) {
       drawing.open("ENGRAVE", {line.discs.front().centre + shift, line.discs.back().centre + shift});
     if (const auto corner = label_corner(*plate)) drawing.text("ENGRAVE", plate->label, *corner + shift, k_note_height);
   }
+  drawing.closed("CHECK_10MM", moved(check_square(cut.kerf), sheets.check_square_corner()));
   for (const auto& [plate, shift] : sheets.placed()) {
     for (const kit::DiscHull& hole : plate->holes) {
       if (thinnest(hole) - cut.kerf >= k_least_cut)
@@ -189,12 +197,7 @@ std::string kit_dxf(const KitProduct& product, DxfVersion version) {
   for (const auto& [plate, shift] : sheets.placed())
     drawing.closed("CUT_OUTER", moved(kit::outline_of(plate->rim, 0.5 * cut.kerf), shift));
   sheets.draw(drawing);
-  drawing.closed("CHECK_10MM", rectangle({0, -15}, {10, -5}));
-  double y = -5 - k_note_height;
-  for (const std::string& remark : drawing.remarks) {
-    drawing.text("NOTES", remark, {15, y}, k_note_height);
-    y -= 5;
-  }
+  add_sheet_notes(drawing, drawing.remarks, sheets.width());
   return dxf_text(drawing, version);
 }
 
