@@ -90,7 +90,7 @@ void mark_lengths(std::string_view text, std::vector<NumberInText>& numbers) {
     const std::string_view between = i == 0 ? "" : text.substr(numbers[i - 1].end, number.begin - numbers[i - 1].end);
     const bool follows = i > 0 && numbers[i - 1].is_length &&
                          (between == " or less (now " || between == " or more (now " || between == " (now " ||
-                          between == " (now automatic, " ||
+                          between == " (now automatic, " || between == " to " ||
                           (between == ", " && before.substr(0, numbers[i - 1].begin).ends_with("_mm = [")));
     const bool is_quoted = before.ends_with('"');  // a text of the file or an example of one
     number.is_length = !is_quoted && (!gap_before_mm(rest).empty() || is_value_of_key(before, rest) || follows);
