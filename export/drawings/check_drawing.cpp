@@ -435,6 +435,7 @@ struct RequiredNesting {
 constexpr auto k_required_nesting = std::to_array<RequiredNesting>({{"CUT_INNER", "CUT_OUTER"},
                                                                     {"ENGRAVE", "CUT_OUTER"},
                                                                     {"CUT_OUTER", "SHEET"},
+                                                                    {"CHECK_10MM", "SHEET"},
                                                                     {"BORE", "P1_FLOOR"},
                                                                     {"BORE", "P2_FLOOR"},
                                                                     {"P1_FLOOR", "P1_PITCH"},

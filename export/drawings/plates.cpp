@@ -12,6 +12,7 @@
 #include "export/drawings/nesting.h"
 #include "export/drawings/plane_shapes.h"
 #include "export/drawings/polygon_cgal.h"
+#include "export/drawings/sheet_notes.h"
 #include "export/drawings/stroke_font.h"
 #include "fusee/base.h"
 #include "solid/body.h"
@@ -338,7 +339,7 @@ void note_small_features(Plates& plates, const CutFeatures& features) {
 // ---- Sheets ---------------------------------------------------------------------------------------------------------
 
 /// The sheet of [cut], or the size that the largest plate requires, in whole mm. A larger sheet changes no cut, and
-/// another machine may take it.
+/// another machine may take it. `sizes`: of the plates, and of the check square.
 void choose_sheet(Plates& plates, const Cut& cut, const std::vector<Vec2>& sizes, double gap) {
   const Vec2 declared(cut.sheet_width, cut.sheet_height);
   plates.sheet = declared;
@@ -348,7 +349,8 @@ void choose_sheet(Plates& plates, const Cut& cut, const std::vector<Vec2>& sizes
     if ((needed.array() <= declared.array()).all()) continue;
     plates.sheet = plates.sheet.cwiseMax(needed);
     larger += fmt::format("{}{} requires {} x {} mm", larger.empty() ? "" : ", ",
-                          plates.layers[plates.placed[i].layer].name, rounded(needed.x()), rounded(needed.y()));
+                          i < plates.placed.size() ? plates.layers[plates.placed[i].layer].name : "CHECK SQUARE",
+                          rounded(needed.x()), rounded(needed.y()));
   }
   if (larger.empty()) return;
   plates.notes.push_back(fmt::format(
@@ -368,12 +370,15 @@ void lay_on_sheets(Plates& plates, const Cut& cut) {
     }
   }
   const double gap = std::max(2.0, 2 * cut.kerf);
+  sizes.push_back(bounding_box(check_square(cut.kerf)).size());
   choose_sheet(plates, cut, sizes, gap);
   const std::vector<NestedPlace> places = nest(sizes, plates.sheet, gap);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    plates.placed[i].shift = places[i].corner + axes[i] + Vec2(places[i].sheet * (plates.sheet.x() + k_sheet_gap), 0);
-    plates.sheets = std::max(plates.sheets, places[i].sheet + 1);
-  }
+  const auto corner = [&](const NestedPlace& place) {
+    return Vec2(place.corner + Vec2(place.sheet * (plates.sheet.x() + k_sheet_gap), 0));
+  };
+  for (std::size_t i = 0; i < plates.placed.size(); ++i) plates.placed[i].shift = corner(places[i]) + axes[i];
+  plates.check_square = corner(places.back());
+  for (const NestedPlace& place : places) plates.sheets = std::max(plates.sheets, place.sheet + 1);
 }
 
 }  // namespace

@@ -41,9 +41,10 @@ struct Plates {
   /// Centres, on different radii and not in line with the axis, so that plates fit in one orientation only.
   std::vector<Vec2> dowels;
   double dowel_diameter = 0;
-  Vec2 sheet = Vec2::Zero();       ///< the sheet of [cut], or a larger one if a plate requires it
-  int sheets = 1;                  ///< side by side from x = 0, k_sheet_gap between them
-  std::vector<std::string> notes;  ///< the role of the plates, and omitted features
+  Vec2 sheet = Vec2::Zero();         ///< the sheet of [cut], or a larger one if a plate requires it
+  Vec2 check_square = Vec2::Zero();  ///< position of its lower left corner on the drawing
+  int sheets = 1;                    ///< side by side from x = 0, k_sheet_gap between them
+  std::vector<std::string> notes;    ///< the role of the plates, and omitted features
 };
 
 inline constexpr double k_sheet_gap = 20;  // mm

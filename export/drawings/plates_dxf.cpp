@@ -1,20 +1,17 @@
 /// \file
-/// plates.dxf: all plates flat on their sheets, ready to cut. Engravings come first, then holes, then outlines, because
-/// a plate that is cut free may move.
+/// plates.dxf: all plates flat on their sheets, ready to cut. Engravings and the check square come first, then holes,
+/// then outlines, because a plate that is cut free may move.
 #include <algorithm>
 
 #include "base/text.h"
 #include "export/drawings/dxf_writer.h"
 #include "export/drawings/plane_shapes.h"
 #include "export/drawings/plates.h"
-#include "export/drawings/stroke_font.h"
+#include "export/drawings/sheet_notes.h"
 #include "fusee/export.h"
 
 namespace fusee::formats {
 namespace {
-
-constexpr double k_text_height = 3;  // mm
-constexpr double k_line_pitch = 5;   // mm
 
 Polygon shifted(Polygon points, const Vec2& shift) {
   for (Vec2& p : points) p += shift;
@@ -47,18 +44,6 @@ void add_cuts(DxfDocument& drawing, const Plates& plates) {
   }
 }
 
-/// Adds the notes and a 10 mm square for checking the scale, below the sheets, where nothing is cut.
-void add_notes(DxfDocument& drawing, const std::vector<std::string>& notes) {
-  constexpr double k_top = -5;         // y, mm
-  constexpr double k_text_begin = 15;  // x, mm: right of the square
-  drawing.add_closed("CHECK_10MM", rectangle({0, k_top - 10}, {10, k_top}));
-  double y = k_top - k_text_height;
-  for (const std::string& note : notes) {
-    drawing.add_text("NOTES", note, {k_text_begin, y}, k_text_height);
-    y -= k_line_pitch;
-  }
-}
-
 }  // namespace
 
 std::string plates_dxf(const Product& product, DxfVersion version) {
@@ -68,15 +53,14 @@ std::string plates_dxf(const Product& product, DxfVersion version) {
   drawing.layers = {{"ENGRAVE", 3},      {"CUT_INNER", 5},    {"CUT_OUTER", 1},
                     {"SHEET", 8, false}, {"NOTES", 8, false}, {"CHECK_10MM", 9, false}};
   drawing.remarks = plates.notes;
-  drawing.remarks.insert(
-      drawing.remarks.begin(),
-      {mechanism.name + ": plates to cut, true size in mm, not scaled for a print's shrinkage",
-       "lines are the centre of the cut: outlines half a kerf (" + rounded(0.5 * mechanism.cut.kerf) +
-           " mm) outside, holes half a kerf inside; the square is 10 mm wide"});
+  drawing.remarks.insert(drawing.remarks.begin(),
+                         {mechanism.name + ": plates to cut, true size in mm, not scaled for a print's shrinkage",
+                          kerf_remark(mechanism.cut.kerf)});
   add_engraving(drawing, plates);
+  drawing.add_closed("CHECK_10MM", shifted(check_square(mechanism.cut.kerf), plates.check_square));
   add_cuts(drawing, plates);
   add_sheets(drawing, plates);
-  add_notes(drawing, drawing.remarks);
+  add_sheet_notes(drawing, drawing.remarks, plates.sheet.x());
   return dxf_text(drawing, version);
 }
 

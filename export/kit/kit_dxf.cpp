@@ -1,5 +1,5 @@
-// kit.dxf: base plate, scale, link and bracket as plates to cut, nested on sheets. Engravings come first, then holes,
-// then outlines, because a plate that is cut free may move.
+// kit.dxf: base plate, scale, link and bracket as plates to cut, nested on sheets. Engravings and the check square come
+// first, then holes, then outlines, because a plate that is cut free may move.
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include "export/drawings/dxf_writer.h"
 #include "export/drawings/nesting.h"
 #include "export/drawings/plates.h"
+#include "export/drawings/sheet_notes.h"
 #include "export/drawings/stroke_font.h"
 #include "fusee/export.h"
 
@@ -126,14 +127,21 @@ class KitSheets {
         sheet_ = sheet_.cwiseMax(sizes.back() + Vec2(2 * k_sheet_margin, 2 * k_sheet_margin));
       }
     }
+    sizes.push_back(bounding_box(check_square(cut.kerf)).size());
+    sheet_ = sheet_.cwiseMax(sizes.back() + Vec2(2 * k_sheet_margin, 2 * k_sheet_margin));
     const std::vector<NestedPlace> places = nest(sizes, sheet_, k_sheet_margin);
-    for (std::size_t i = 0; i < placed_.size(); ++i) {
-      placed_[i].shift = places[i].corner - boxes[i].low + Vec2(places[i].sheet * (sheet_.x() + k_sheet_gap), 0);
-      count_ = std::max(count_, places[i].sheet + 1);
-    }
+    const auto corner = [this](const NestedPlace& place) {
+      return Vec2(place.corner + Vec2(place.sheet * (sheet_.x() + k_sheet_gap), 0));
+    };
+    for (std::size_t i = 0; i < placed_.size(); ++i) placed_[i].shift = corner(places[i]) - boxes[i].low;
+    check_square_ = corner(places.back());
+    for (const NestedPlace& place : places) count_ = std::max(count_, place.sheet + 1);
   }
 
   const std::vector<ShiftedPlate>& placed() const { return placed_; }
+  /// Lower left corner of the check square.
+  const Vec2& check_square_corner() const { return check_square_; }
+  double width() const { return sheet_.x(); }
   void draw(DxfDocument& drawing) const {
     for (int i = 0; i < count_; ++i) {
       const Vec2 corner(i * (sheet_.x() + k_sheet_gap), 0);
@@ -145,6 +153,7 @@ class KitSheets {
   Vec2 sheet_;
   int count_ = 1;
   std::vector<ShiftedPlate> placed_;
+  Vec2 check_square_ = Vec2::Zero();
 };
 
 Polygon moved(Polygon points, const Vec2& shift) {
@@ -155,9 +164,7 @@ Polygon moved(Polygon points, const Vec2& shift) {
 std::vector<std::string> remarks_of(const KitProduct& product, const std::vector<KitPlate>& plates) {
   const Mechanism& mechanism = product.pulley.joint.mechanism;
   std::vector<std::string> remarks{
-      mechanism.name + ": the test rig's plates to cut, true size in mm",
-      "lines are the centre of the cut: outlines half a kerf (" + rounded(0.5 * mechanism.cut.kerf) +
-          " mm) outside, holes half a kerf inside; the square is 10 mm wide",
+      mechanism.name + ": the test rig's plates to cut, true size in mm", kerf_remark(mechanism.cut.kerf),
       "sheets of " + rounded(mechanism.cut.plate) + " mm; plates of one name are glued one upon another"};
   for (const KitPlate& plate : plates) {
     for (const kit::DiscHull& hole : plate.holes) {
@@ -187,6 +194,7 @@ std::string kit_dxf(const KitProduct& product, DxfVersion version) {
     if (const auto corner = label_corner(*plate))
       drawing.add_text("ENGRAVE", plate->label, *corner + shift, k_note_height);
   }
+  drawing.add_closed("CHECK_10MM", moved(check_square(cut.kerf), sheets.check_square_corner()));
   for (const auto& [plate, shift] : sheets.placed()) {
     for (const kit::DiscHull& hole : plate->holes) {
       if (smallest_width(hole) - cut.kerf >= k_least_cut)
@@ -196,13 +204,7 @@ std::string kit_dxf(const KitProduct& product, DxfVersion version) {
   for (const auto& [plate, shift] : sheets.placed())
     drawing.add_closed("CUT_OUTER", moved(kit::outline_of(plate->rim, 0.5 * cut.kerf), shift));
   sheets.draw(drawing);
-  constexpr double k_notes_top = -5, k_notes_left = 15;  // mm: below the sheets, right of the square
-  drawing.add_closed("CHECK_10MM", rectangle({0, k_notes_top - 10}, {10, k_notes_top}));
-  double y = k_notes_top - k_note_height;
-  for (const std::string& remark : drawing.remarks) {
-    drawing.add_text("NOTES", remark, {k_notes_left, y}, k_note_height);
-    y -= k_note_pitch;
-  }
+  add_sheet_notes(drawing, drawing.remarks, sheets.width());
   return dxf_text(drawing, version);
 }
 

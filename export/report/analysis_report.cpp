@@ -1,7 +1,9 @@
 // The page of an analysis: the moving joint, its loads, its angular error and the causes of that error.
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <iterator>
 
 #include "base/text.h"
 #include "export/report/analysis.h"
@@ -57,6 +59,32 @@ PlotAxis axis_of(const std::string& label, const std::string& unit, double least
   return {label, unit, {}, {}, least_span};
 }
 
+/// The torque that law = torque wants at a joint angle; between two rows of its table, along a straight line.
+double wanted_torque(const PulleyDrive& drive, double theta) {
+  const std::vector<TorqueRow>& rows = drive.torque_rows;
+  if (rows.empty()) return drive.motor_torque;
+  const auto above =
+      std::find_if(rows.begin(), rows.end(), [theta](const TorqueRow& row) { return row.theta >= theta; });
+  if (above == rows.begin() || above == rows.end())
+    return above == rows.end() ? rows.back().torque : rows.front().torque;
+  const TorqueRow& below = *std::prev(above);
+  return below.torque + (above->torque - below.torque) * (theta - below.theta) / (above->theta - below.theta);
+}
+
+/// With law = torque, the wanted torque is drawn, and the axis is no narrower than half of it: a nearly constant torque
+/// looks constant.
+Plot torque_plot(const analysis::AnalysisResult& result, const Mechanism& mechanism) {
+  Plot torque{"Motor torque", axis_of("pulley angle α", "°", 1e-6), axis_of("torque", "N·mm", 0.1), {}, {}, {}};
+  torque.series = {{"α growing", Ink::main, over_rows(result, [](const auto& r) { return r.rising.motor_torque; })},
+                   {"α falling", Ink::p2, over_rows(result, [](const auto& r) { return r.falling.motor_torque; })}};
+  if (mechanism.pulley.law != Law::torque) return torque;
+  const std::vector<Vec2> wanted =
+      over_rows(result, [&](const auto& r) { return wanted_torque(mechanism.pulley, r.declared.theta); });
+  torque.series.push_back({"wanted", Ink::third, wanted});
+  for (const Vec2& point : wanted) torque.y.least_span = std::max(torque.y.least_span, 0.5 * std::abs(point.y()));
+  return torque;
+}
+
 std::vector<Figure> figures(const analysis::AnalysisResult& result, const Mechanism& mechanism) {
   const PlotAxis alpha = axis_of("pulley angle α", "°", 1e-6);
   const std::string where = mechanism.sheath.is_there()                 ? "behind the sheaths, at the pulley"
@@ -66,9 +94,6 @@ std::vector<Figure> figures(const analysis::AnalysisResult& result, const Mechan
   tension.series = {{"tendon 1", Ink::p1, over_rows(result, [](const auto& r) { return r.rising.t1.lower; })},
                     {"tendon 2", Ink::p2, over_rows(result, [](const auto& r) { return r.rising.t2.lower; })},
                     {"the paper’s T_b", Ink::third, over_rows(result, [](const auto& r) { return r.paper.Tb; }), true}};
-  Plot torque{"Motor torque", alpha, axis_of("torque", "N·mm", 0.1), {}, {}, {}};
-  torque.series = {{"α growing", Ink::main, over_rows(result, [](const auto& r) { return r.rising.motor_torque; })},
-                   {"α falling", Ink::p2, over_rows(result, [](const auto& r) { return r.falling.motor_torque; })}};
   Plot error{"Joint angle minus the target motion", alpha, axis_of("Δθ", "°", 1e-3), {}, {}, {}};
   const auto theta_error = [](const joint::EquilibriumPoint& point, const analysis::AnalysisRow& row) {
     return degrees(point.theta - row.declared.theta);
@@ -81,7 +106,8 @@ std::vector<Figure> figures(const analysis::AnalysisResult& result, const Mechan
       {"small disturbances", Ink::main,
        over_rows(result, [&](const auto& r) { return per_degree(r.rising.stiffness_stuck); })},
       {"large ones", Ink::p2, over_rows(result, [&](const auto& r) { return per_degree(r.rising.stiffness); })}};
-  return {plot_figure(tension), plot_figure(torque), plot_figure(error), plot_figure(stiffness)};
+  return {plot_figure(tension), plot_figure(torque_plot(result, mechanism)), plot_figure(error),
+          plot_figure(stiffness)};
 }
 
 std::string plots(const analysis::AnalysisResult& result, const Mechanism& mechanism) {

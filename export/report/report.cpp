@@ -88,7 +88,8 @@ PageVerdict verdict_of(const Product& product) {
   const std::string words = verdict_words(product);
   if (product.checks.empty() || !all_ok(product.checks)) return {"bad", "✕", words};
   const analysis::UnderLoad& load = product.under_load;
-  const bool suffices = !load.lost_at && (!load.motor || load.motor->ok());
+  const bool is_taut = load.slack1.empty() && load.slack2.empty();
+  const bool suffices = !load.lost_at && is_taut && (!load.motor || (load.motor->ok() && load.motor->misfit.empty()));
   if (product.joint.mechanism.pulley.method == Method::paper || !suffices) return {"noted", "!", words};
   return {"good", "✓", words};
 }

@@ -50,6 +50,7 @@ constexpr PlainName k_plain_names[] = {
     {"set_screw", "Space for the set screw"},
     {"set_screw_wall", "Wall around the set screw’s nut"},
     {"set_screw_height", "Height for the set screw in the hub"},
+    {"room", "Diameter of the part"},
     {"pin_clear_@", "Gap between the flanges and pin @"},
     {"mouth_clear_#", "Gap between the flanges and the exit of sheath #"},
     {"horn_recess", "Depth of the horn’s recess"},

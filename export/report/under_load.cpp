@@ -92,6 +92,9 @@ Json motor_json(const analysis::MotorCheck& motor) {
                                   : Json()},
                    {"ok", is_ok(motor, "motor_speed")}};
   json["sufficient_models"] = motor.sufficient_models;
+  json["fitting_models"] = motor.fitting_models;
+  json["strongest_fitting_model"] = motor.strongest_model.empty() ? Json() : Json(motor.strongest_model);
+  json["fits_bore"] = motor.misfit.empty();
   json["advice"] = Json::array();
   for (const profile::Change& change : motor.advice.alone) json["advice"].push_back(change_json(change));
   for (const profile::Change& change : motor.advice.together) json["advice_together"].push_back(change_json(change));

@@ -109,11 +109,19 @@ struct MotorCheck {
   /// "motor_travel", "motor_torque", "motor_speed": those with a known limit.
   std::vector<profile::Condition> conditions;
   std::vector<std::string> sufficient_models;  ///< of the catalogue: those that fit the bore first, the weakest first
+  std::size_t fitting_models = 0;              ///< number of sufficient_models that fit the bore
+  std::string strongest_model;                 ///< of the catalogue, of those that fit the bore; "" without one
+  std::string misfit;                          ///< why the model does not fit the bore; "" if it does
+  std::string misfit_hint;
   /// Set by the caller: changes with which every condition holds and the pulley passes every check of a full build.
   profile::Advice advice;
 
   bool ok() const { return profile::failed_of(conditions).empty(); }
-  /// "XL330-M288, XC330-M288 or 12 more"; "" if no model of the catalogue suffices.
+  /// "N20-298-LP, the strongest that fits the bore, has margin 1.03, and 2 is advised"; "" if that model suffices, or if
+  /// the catalogue has none that fits.
+  std::string strongest_text() const;
+  /// "suitable: XL330-M288 (margin 2.4) or 12 more", "suitable with another bore: …", "no motor of the catalogue
+  /// suffices". The margin is that of the torque.
   std::string models_text() const;
 };
 

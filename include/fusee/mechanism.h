@@ -441,12 +441,14 @@ struct Spring {
 
 /// The motor that turns the pulley. Zero: not written; a model of the catalogue supplies it (mechanism/catalogue.h).
 struct Motor {
-  std::string model = "none";  ///< a name of the catalogue
-  double travel = 0;           ///< angle from one end of its range to the other, rad
-  double stall_torque = 0;     ///< N·mm
-  double speed = 0;            ///< without load, rad/s
-  double joint_speed = 0;      ///< required of the joint under the load, rad/s
-  bool enforce = false;        ///< a joint that needs more than the motor gives is refused
+  std::string model = "none";    ///< a name of the catalogue
+  double travel = 0;             ///< angle from one end of its range to the other, rad
+  double stall_torque = 0;       ///< N·mm
+  double speed = 0;              ///< without load, rad/s
+  double gear_ratio = 1;         ///< turns of the motor per turn of the pulley, by a gearbox between them
+  double gear_efficiency = 0.9;  ///< of that gearbox; not used for gear_ratio = 1
+  double joint_speed = 0;        ///< required of the joint under the load, rad/s
+  bool enforce = false;          ///< a joint that needs more than the motor gives is refused
 
   bool operator==(const Motor&) const = default;
 
@@ -498,6 +500,7 @@ struct Body {
   Marks marks = Marks::engraved;
   double mark_depth = 0;
   double min_wall = 0;     ///< 0: 1.2 mm, thinner on small pulleys
+  double room = 0;         ///< largest diameter of the part; 0: no limit
   double lead = 0;         ///< minimum pitch of helical grooves; 0: as groove and rib require
   double spare_turns = 1;  ///< turns of helical grooves before and after those that the range winds
 

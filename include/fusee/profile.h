@@ -71,6 +71,7 @@ struct Change {
   std::string text;            ///< "r1 ≤ 18.9 mm"
   std::string from_word = {};  ///< for a key that is not a number: "M3"
   std::string to_word = {};
+  std::optional<double> until = {};  ///< the last value that suffices, if a value not far beyond `to` no longer does
 };
 
 /// Feasibility test of changed mechanisms during the search for advice.

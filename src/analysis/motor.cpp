@@ -54,18 +54,18 @@ Extreme lowest_joint_speed(const MotorModel& motor, const std::vector<Demand>& a
   return lowest;
 }
 
+double advised_margin(const MotorModel& model) { return model.holds ? 1.0 : k_advised_margin; }
+
 /// True if the model has the required travel, torque and speed.
 bool suffices(const MotorModel& model, const MotorCheck& need, const std::vector<Demand>& all) {
-  const double margin = model.holds ? 1.0 : k_advised_margin;
   if (model.travel > 0 && model.travel < need.travel * (1 - k_rounding)) return false;
-  if (model.stall_torque < margin * need.torque.value) return false;
+  if (model.stall_torque < advised_margin(model) * need.torque.value) return false;
   return need.joint_speed_needed == 0 ||
          (model.speed > 0 && lowest_joint_speed(model, all, true).value >= need.joint_speed_needed * (1 - k_rounding));
 }
 
-/// MotorCheck::sufficient_models.
-std::vector<std::string> sufficient_models(const Mechanism& mechanism, const MotorCheck& need,
-                                           const std::vector<Demand>& all) {
+/// Sets the models of the catalogue that suffice, and the strongest that fits.
+void add_models(MotorCheck& need, const Mechanism& mechanism, const std::vector<Demand>& all) {
   std::vector<const MotorModel*> found;
   for (const MotorModel& model : motor_models()) {
     if (suffices(model, need, all)) found.push_back(&model);
@@ -74,9 +74,47 @@ std::vector<std::string> sufficient_models(const Mechanism& mechanism, const Mot
     const bool one_fits = fits_bore(*one, mechanism.body), other_fits = fits_bore(*other, mechanism.body);
     return one_fits != other_fits ? one_fits : one->stall_torque < other->stall_torque;
   });
-  std::vector<std::string> names;
-  for (const MotorModel* model : found) names.push_back(model->name);
-  return names;
+  for (const MotorModel* model : found) {
+    need.sufficient_models.push_back(model->name);
+    need.fitting_models += fits_bore(*model, mechanism.body) ? 1 : 0;
+  }
+  if (const MotorModel* strongest = strongest_motor_that_fits(mechanism.body)) need.strongest_model = strongest->name;
+}
+
+/// True if a bore without a name has the diameter of one of the model's shafts.
+bool has_diameter_of_shaft(const Body& body, const MotorModel& model) {
+  constexpr double k_usual_bore = 5.0, k_same = 0.01;  // mm
+  if (find_shaft(body.shaft) != nullptr || body.bore == Bore::horn) return false;
+  const double bore = body.bore_diameter > 0 ? body.bore_diameter : k_usual_bore;
+  return std::any_of(model.fits.begin(), model.fits.end(), [bore](const std::string& name) {
+    const ShaftType* shaft = find_shaft(name);
+    return shaft != nullptr && std::abs(shaft->diameter - bore) < k_same;
+  });
+}
+
+/// "the bore is for the shaft n20-d3".
+std::string bore_words(const Body& body) {
+  if (find_shaft(body.shaft) != nullptr) return "the bore is for the shaft " + body.shaft;
+  if (body.bore == Bore::horn) return "the bore is for the horn " + body.horn;
+  return "the bore is for a shaft of " + (body.bore_diameter > 0 ? rounded(body.bore_diameter) : "5") + " mm";
+}
+
+/// A model whose shaft and horns are known, and none of which fits the bore. A gearbox has a shaft of its own.
+void add_misfit(MotorCheck& check, const Mechanism& mechanism) {
+  const MotorModel* model = find_motor_model(mechanism.motor.model);
+  const Body& body = mechanism.body;
+  if (model == nullptr || model->fits.empty() || mechanism.motor.gear_ratio != 1) return;
+  if (fits_bore(*model, body) || has_diameter_of_shaft(body, *model)) return;
+  if (body.bore == Bore::horn && body.horn == k_own_horn) return;
+  std::string names;
+  for (const std::string& name : model->fits) names += (names.empty() ? "" : " or ") + name;
+  const std::string& first = model->fits.front();
+  const bool has_shaft = find_shaft(first) != nullptr;
+  check.misfit = "the motor " + model->name + " does not fit the bore: it has the " + (has_shaft ? "shaft " : "horn ") +
+                 names + ", and " + bore_words(body);
+  check.misfit_hint = has_shaft ? "try body.shaft = \"" + first + "\""
+                                : "try body.bore = \"horn\" together with body.horn = \"" + first + "\"" +
+                                      (find_shaft(body.shaft) != nullptr ? ", without body.shaft" : "");
 }
 
 std::string motor_words(const MotorCheck& motor) {
@@ -132,20 +170,35 @@ std::string hint_of(const MotorCheck& motor) {
     advice += (advice.empty() ? "try " : ", or ") + profile::setting_words(change);
   for (const profile::Change& change : motor.advice.together)
     advice += (advice.empty() ? "try " : " together with ") + profile::setting_words(change);
-  const std::string models = motor.sufficient_models.empty() ? "no motor of the catalogue suffices"
-                                                             : "of the catalogue these suffice: " + motor.models_text();
-  return advice.empty() ? models : advice + "; " + models;
+  return advice.empty() ? motor.models_text() : advice + "; " + motor.models_text();
 }
 
 }  // namespace
 
+std::string MotorCheck::strongest_text() const {
+  const MotorModel* strongest = find_motor_model(strongest_model);
+  if (strongest == nullptr || !(strongest->stall_torque < advised_margin(*strongest) * torque.value)) return "";
+  return strongest->name + ", the strongest that fits the bore, has margin " +
+         rounded(strongest->stall_torque / torque.value, 3) + ", and " + rounded(advised_margin(*strongest)) +
+         " is advised";
+}
+
 std::string MotorCheck::models_text() const {
   constexpr std::size_t k_shown = 4;
+  if (sufficient_models.empty()) return "no motor of the catalogue suffices";
   const std::size_t shown = std::min(sufficient_models.size(), k_shown);
-  std::string text;
-  for (std::size_t i = 0; i < shown; ++i) text += (i == 0 ? "" : ", ") + sufficient_models[i];
-  return shown == sufficient_models.size() ? text
-                                           : text + " or " + std::to_string(sufficient_models.size() - shown) + " more";
+  // A bore that no model is named for excludes none.
+  const bool is_named = !strongest_model.empty();
+  std::string text = "suitable: ";
+  for (std::size_t i = 0; i < shown; ++i) {
+    text += i == 0 ? "" : ", ";
+    if (is_named && i == fitting_models) text = (i == 0 ? "suitable " : text) + "with another bore: ";
+    text += sufficient_models[i];
+    if (torque.value > 0)
+      text += " (margin " + rounded(find_motor_model(sufficient_models[i])->stall_torque / torque.value, 3) + ")";
+  }
+  if (shown == sufficient_models.size()) return text;
+  return text + " or " + std::to_string(sufficient_models.size() - shown) + " more";
 }
 
 MotorCheck travel_check(const Mechanism& mechanism, double travel) {
@@ -176,7 +229,8 @@ MotorCheck motor_check(const Mechanism& mechanism, const UnderLoad& load) {
     check.joint_speed_free = lowest_joint_speed(limits, all, false).value;
     if (check.joint_speed_needed > 0) check.conditions.push_back(speed_condition(check, slowest.alpha));
   }
-  check.sufficient_models = sufficient_models(mechanism, check, all);
+  add_models(check, mechanism, all);
+  add_misfit(check, mechanism);
   return check;
 }
 
@@ -189,6 +243,8 @@ std::vector<Diagnostic> motor_warnings(const MotorCheck& motor, const MechanismF
                         file.place_of(is_written ? key_of(condition.name) : "motor.model"), condition.message,
                         &condition == &failed.back() ? hint_of(motor) : ""});
   }
+  if (!motor.misfit.empty())
+    warnings.push_back({Severity::warning, file.place_of("motor.model"), motor.misfit, motor.misfit_hint});
   return warnings;
 }
 

@@ -492,16 +492,6 @@ Answer<TypedMotor> read_entry(const std::vector<std::string>& words, std::string
 
 }  // namespace
 
-Answer<TypedMotor> read_motor(std::string_view typed, LengthUnit plain) {
-  std::string simple = simplified(typed);
-  const double travel = extract_travel(simple);
-  const auto shaft = read_shaft(simple, plain);
-  Answer<TypedMotor> answer = shaft ? *shaft : read_entry(words_of_name(simple), typed);
-  if (TypedMotor* const motor = std::get_if<TypedMotor>(&answer); motor != nullptr && travel > 0)
-    motor->travel = motor->typed_travel = travel;
-  return answer;
-}
-
 namespace {
 
 /// The larger of a ratio and its inverse.
@@ -530,7 +520,75 @@ std::optional<double> extract_diameter(std::string& answer, LengthUnit plain) {
   return std::nullopt;
 }
 
+double times(double one, double other) { return std::max(one / other, other / one); }
+
+/// Removes "5:1" and the words of a gearbox from a motor's name and returns the ratio; 1 for none.
+double extract_gear_ratio(std::string& simple) {
+  for (std::size_t at = 0; at < simple.size(); ++at) {
+    if (!is_digit(simple[at]) || (at > 0 && simple[at - 1] != ' ' && simple[at - 1] != ',')) continue;
+    std::string_view rest = std::string_view(simple).substr(at);
+    const std::size_t before = rest.size();
+    const auto ratio = take_decimal(rest, false);
+    skip_blanks(rest);
+    if (!ratio || !skip(rest, ":")) continue;
+    skip_blanks(rest);
+    if (!skip(rest, "1") || (!rest.empty() && is_digit(rest.front()))) continue;
+    simple.replace(at, before - rest.size(), " ");
+    return *ratio;
+  }
+  return 1;
+}
+
+/// The model behind a gearbox. Its shaft is that of the gearbox if one was typed.
+Answer<TypedMotor> read_geared(std::string simple, double ratio, std::string_view typed, LengthUnit plain) {
+  const Field& field = *find_field("motor.gear_ratio");
+  if (ratio < field.least || ratio > field.most)
+    return Refusal{fmt::format("a gear ratio of {}:1 is not within {} to {}", rounded(ratio), rounded(field.least),
+                               rounded(field.most))};
+  const std::optional<double> bore = extract_diameter(simple, plain);
+  std::vector<std::string> words = words_of_name(simple);
+  bool flat = false;
+  std::erase_if(words, [&flat](const std::string& word) {
+    if (word == "d" || word == "d-shaft" || word == "flat") flat = true;
+    return word == "d" || word == "d-shaft" || word == "flat" || word == "shaft" || word == "round" ||
+           word.starts_with("gear") || word == "planetary";
+  });
+  const std::vector<const MotorModel*> models = matching_models(words);
+  if (models.size() != 1) {
+    std::string names;
+    add_names(names, models);
+    return Refusal{fmt::format("a gear ratio belongs to a motor of known torque: {}",
+                               names.empty() ? in_quotes(typed) + " names none, type such as NEMA17-48mm 5:1"
+                                             : in_quotes(typed) + " fits several: " + names + ". Which one?")};
+  }
+  TypedMotor motor = motor_of(*models.front());
+  motor.gear_ratio = ratio;
+  motor.travel /= ratio;
+  const std::string gear = fmt::format("{} with a gearbox {}:1", models.front()->name, rounded(ratio));
+  motor.words = gear + ", with the motor's own shaft: type the gearbox's shaft behind it if it differs, such as 8 mm D";
+  if (!bore) return motor;
+  motor.shaft.clear();
+  motor.horn.clear();
+  motor.bore = *bore;
+  motor.flat = flat;
+  motor.words = fmt::format("{}, a {} shaft of {} mm", gear, flat ? "D" : "round", rounded(*bore));
+  return motor;
+}
+
 }  // namespace
+
+Answer<TypedMotor> read_motor(std::string_view typed, LengthUnit plain) {
+  std::string simple = simplified(typed);
+  const double travel = extract_travel(simple);
+  const double gear_ratio = extract_gear_ratio(simple);
+  const auto shaft = read_shaft(simple, plain);
+  Answer<TypedMotor> answer = gear_ratio != 1 ? read_geared(simple, gear_ratio, typed, plain)
+                              : shaft         ? *shaft
+                                              : read_entry(words_of_name(simple), typed);
+  if (TypedMotor* const motor = std::get_if<TypedMotor>(&answer); motor != nullptr && travel > 0)
+    motor->travel = motor->typed_travel = travel;
+  return answer;
+}
 
 Answer<TypedTendon> read_tendon(std::string_view typed, LengthUnit plain) {
   std::string simple = simplified(typed);

@@ -46,11 +46,13 @@ struct TypedMotor {
   std::string model;        ///< a motor of the catalogue by its maker's name, or empty
   double travel = 0;        ///< rotation of a hobby servo, rad; 0: unlimited
   double typed_travel = 0;  ///< rotation that was typed beside its name, rad
+  double gear_ratio = 1;    ///< of a gearbox that was typed beside its name
   std::string words;        ///< for the summary
   std::string choice;       ///< name of the shaft that was chosen from a family, and the others; empty without a choice
 };
-/// Reads a name of the catalogue or part of it ("n20-d3", "MG996R horn", "nema 17 round"), a model ("XL430-W250"), or a
-/// shaft ("5 mm", "1/4 in D"). "180 deg" beside it is its travel. A plain number is in `plain`.
+/// A name of the catalogue or part of it ("n20-d3", "MG996R horn", "nema 17 round"), a model ("XL430-W250"), or a shaft
+/// ("5 mm", "1/4 in D"). "180 deg" beside it is its travel. "5:1" beside a model is a gearbox, whose own shaft may follow
+/// ("NEMA17-48mm 5:1, 8 mm D"). A plain number is in `plain`.
 Answer<TypedMotor> read_motor(std::string_view text, LengthUnit plain = LengthUnit::mm);
 
 struct TypedTendon {

@@ -65,16 +65,11 @@ Diagnostic motor_note(const pipeline::ChosenLayout& layout) {
   joint.motor = {};
   joint.motor.enforce = true;  // compares the models of the catalogue, without limits
   const analysis::MotorCheck motor = *analysis::under_load(joint).motor;
-  const MotorModel* strongest = strongest_motor_that_fits(joint.body);
-  const std::string suitable =
-      motor.sufficient_models.empty() ? "no motor of the catalogue does" : "suitable: " + motor.models_text();
-  std::string words = fmt::format("under the load the motor has to hold {} Nmm", rounded(motor.torque.value, 3));
-  if (strongest == nullptr || strongest->stall_torque >= motor.torque.value) {
-    return make_diagnostic(Severity::note, words + ": " + suitable);
-  }
-  words += fmt::format(", and {}, the strongest that fits in the catalogue, {} {} Nmm", strongest->name,
-                       strongest->holds ? "holds" : "stalls at", rounded(strongest->stall_torque, 3));
-  return make_diagnostic(Severity::warning, words, "take a smaller load, or another motor; " + suitable);
+  const std::string words = fmt::format("under the load the motor has to hold {} Nmm", rounded(motor.torque.value, 3));
+  const std::string strongest = motor.strongest_text();
+  if (strongest.empty()) return make_diagnostic(Severity::note, words + ": " + motor.models_text());
+  return make_diagnostic(Severity::warning, words + ": " + strongest,
+                         "take a smaller load, or another motor; " + motor.models_text());
 }
 
 /// The file of the answers, or why no layout fits them and which other answers would do.
@@ -114,6 +109,14 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
       Severity::note, fmt::format("{}: built and checked ({} checks), {} {} wide, turns {} deg", layout.words,
                                   product.checks.size(), rounded(from_mm(layout.diameter, asked.units), 3),
                                   unit_word(asked.units), rounded(degrees(layout.travel), 3))));
+  if (!layout.pretension_words.empty()) {
+    const bool is_taut = product.under_load.slack1.empty() && product.under_load.slack2.empty();
+    reply.diagnostics.push_back(
+        is_taut ? make_diagnostic(Severity::note, fmt::format("tendon.pretension_N = {}: {}",
+                                                              rounded(layout.file.mechanism.tendon.pretension),
+                                                              layout.pretension_words))
+                : make_diagnostic(Severity::warning, "a tendon is slack under the load: " + layout.pretension_words));
+  }
   if (!product.file.mechanism.motor.is_there()) reply.diagnostics.push_back(motor_note(layout));
   reply.diagnostics.push_back(make_diagnostic(Severity::note, "save this file, then run 'fusee build' on it"));
   reply.fields["text"] = reply.text;

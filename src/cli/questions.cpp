@@ -157,7 +157,8 @@ const std::vector<Question>& questions() {
        [](Answers& answers, std::string_view text) {
          return stored<TypedLoad>(read_load(text), answers.load, load_words);
        }},
-      {"motor", list_of_motors(), "The motor: a name of this list, or the diameter of its shaft (5 mm, 5 mm D)?",
+      {"motor", list_of_motors(),
+       "The motor: a name of this list, a model (XL430-W250, NEMA17-48mm 5:1), or its shaft (5 mm, 5 mm D)?",
        fixed_proposal("5 mm"),
        [](Answers& answers, std::string_view text) {
          return stored<TypedMotor>(read_motor(text, answers.plain), answers.motor, [&answers](const TypedMotor& motor) {
@@ -235,6 +236,7 @@ DeclaredMechanism joint_of(const Answers& answers) {
   }
   if (!answers.motor.model.empty()) mechanism.motor.model = answers.motor.model;
   mechanism.motor.travel = answers.motor.typed_travel;
+  mechanism.motor.gear_ratio = answers.motor.gear_ratio;
   return mechanism;
 }
 
@@ -274,12 +276,18 @@ std::vector<std::string> keys_to_write(const DeclaredMechanism& mechanism) {
     keys += mechanism.body.bore == Bore::horn ? "body.bore body.horn" : "body.bore body.bore_diameter_mm";
   if (mechanism.motor.model != Motor{}.model) keys += " motor.model";
   if (mechanism.motor.travel > 0) keys += " motor.travel_deg";
+  if (mechanism.motor.gear_ratio != 1) keys += " motor.gear_ratio";
+  if (mechanism.tendon.pretension != default_mechanism().tendon.pretension) keys += " tendon.pretension_N";
+  if (mechanism.body.room > 0) keys += " body.room_diameter_mm";
   return split(keys, ' ');
 }
 
-/// The mechanism file. `about`: a comment at its beginning.
-std::string file_of(const DeclaredMechanism& mechanism, const std::string& about) {
-  const std::vector<std::string> keys = keys_to_write(mechanism);
+/// The mechanism file. `about`: a comment at its beginning; `more`: further keys to write; `pretension`: the reason for
+/// the pretension.
+std::string file_of(const DeclaredMechanism& mechanism, const std::string& about,
+                    const std::vector<std::string>& more = {}, const std::string& pretension = {}) {
+  std::vector<std::string> keys = keys_to_write(mechanism);
+  keys.insert(keys.end(), more.begin(), more.end());
   std::string text = "# Made by 'fusee new --ask'. All other keys have their defaults: 'fusee explain' lists them.\n" +
                      (about.empty() ? "" : wrapped(about, "# ", "# ")) + "schema = 1\n";
   std::string_view table;
@@ -290,6 +298,7 @@ std::string file_of(const DeclaredMechanism& mechanism, const std::string& about
       text += fmt::format("\n[{}]\n", table);
     }
     text += wrapped(field.meaning, field.symbol.empty() ? "# " : fmt::format("# {}: ", field.symbol), "# ");
+    if (field.name() == "tendon.pretension_N" && !pretension.empty()) text += wrapped(pretension, "# ", "# ");
     text += fmt::format("{} = {}\n", field.key, value_text(field, mechanism));
   }
   return text;
@@ -343,8 +352,13 @@ class Layouts {
   }
 
  private:
+  /// False also if a setting does not suit the answers, such as motor.enforce for another motor.
   bool exists(const Answers& answers) const {
-    return search(answers, context_.without_progress(), /*any=*/true).chosen.has_value();
+    try {
+      return search(answers, context_.without_progress(), /*any=*/true).chosen.has_value();
+    } catch (const InputError&) {
+      return false;
+    }
   }
 
   /// Tries `factors` times the present value of `number` until a layout exists, then bisects towards the last value
@@ -389,11 +403,29 @@ std::string about(const pipeline::ChosenLayout& layout, const Answers& answers) 
       "{}. The pulley is {} mm wide (room {} mm) and turns {} deg over the range; the load pulls a tendon with {} N.",
       words, rounded(layout.diameter, 3), rounded(answers.room), rounded(degrees(layout.travel), 3),
       rounded(layout.tension, 3));
-  return fmt::format("{} Motor: {}. Tendon: {}.", lengths_in(answers.units, pulley), motor_words(answers),
-                     lengths_in(answers.units, answers.tendon.words));
+  // The reason for a pretension that is written stands beside it.
+  const analysis::UnderLoad& load = layout.built.product.under_load;
+  const bool is_slack = !layout.pretension_words.empty() && !(load.slack1.empty() && load.slack2.empty());
+  const std::string slack = is_slack ? " A tendon is slack under the load: " + layout.pretension_words + "." : "";
+  return fmt::format("{} Motor: {}. Tendon: {}.{}", lengths_in(answers.units, pulley), motor_words(answers),
+                     lengths_in(answers.units, answers.tendon.words), slack);
 }
 
 bool sets_units(const Setting& setting) { return setting.key == "units"; }
+
+/// The file of a layout: the keys of answers, layout and settings. A setting of a list needs every key.
+std::string text_of(const pipeline::ChosenLayout& layout, const Answers& answers,
+                    const std::vector<Setting>& settings) {
+  std::vector<std::string> keys;
+  for (const Setting& setting : settings) {
+    if (sets_units(setting)) continue;
+    const Field* field = find_field(setting.key);
+    if (field == nullptr || field->kind == FieldKind::numbers || field->kind == FieldKind::texts)
+      return write_mechanism(layout.file.mechanism);
+    keys.push_back(setting.key);
+  }
+  return file_of(layout.file.mechanism, about(layout, answers), keys, layout.pretension_words);
+}
 
 /// The unit of lengths that --set units=inch selects.
 LengthUnit units_of(const std::vector<Setting>& settings) {
@@ -428,9 +460,7 @@ AskedMechanism ask_for_mechanism(Console& console, const std::vector<Setting>& s
     AskedMechanism asked{layouts.search(answers, context), {}, {}, answers.units};
     if (asked.search.chosen) {
       const pipeline::ChosenLayout& layout = *asked.search.chosen;
-      const bool sets_units_alone = std::all_of(settings.begin(), settings.end(), sets_units);
-      asked.text = sets_units_alone ? file_of(layout.file.mechanism, about(layout, answers))
-                                    : write_mechanism(layout.file.mechanism);
+      asked.text = text_of(layout, answers, settings);
       console.write("\n" + lengths_in(answers.units, joint_picture(layout.built.product)) + "\n");
       return asked;
     }

@@ -74,6 +74,7 @@ Json to_json(const std::vector<profile::Change>& advice) {
   for (const profile::Change& change : advice) {
     Json entry{
         {"key", change.key}, {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"text", change.text}};
+    if (change.until) entry["until"] = *change.until;
     if (!change.to_word.empty()) {
       entry["from"] = change.from_word;
       entry["to"] = change.to_word;

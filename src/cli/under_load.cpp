@@ -85,8 +85,9 @@ std::string motor_lines(const analysis::UnderLoad& load, std::size_t column) {
                      alpha_text(motor.torque.alpha),
                  column);
   if (motor.speed_limit > 0) text += titled("", speed_text(motor), column);
-  const std::string models = motor.models_text();
-  return text + titled("", models.empty() ? "no motor of the catalogue is suitable" : "suitable: " + models, column);
+  if (const std::string strongest = motor.strongest_text(); !strongest.empty()) text += titled("", strongest, column);
+  text += titled("", motor.models_text(), column);
+  return text + titled("", "suitable: torque margin 2 or more, 1 or more for a motor that holds its torque", column);
 }
 
 }  // namespace fusee::cli

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "base/text.h"
 #include "fusee/base.h"
 #include "fusee/mechanism_file.h"
 #include "mechanism/embedded.h"
@@ -224,6 +225,11 @@ MotorModel motor_limits(const Motor& motor) {
     limits.stall_torque = motor.stall_torque;
     limits.holds = false;
   }
+  if (motor.gear_ratio == 1) return limits;
+  limits.name += (limits.name.empty() ? "" : " ") + rounded(motor.gear_ratio) + ":1";
+  limits.travel /= motor.gear_ratio;
+  limits.speed /= motor.gear_ratio;
+  limits.stall_torque *= motor.gear_ratio * motor.gear_efficiency;
   return limits;
 }
 

@@ -132,7 +132,8 @@ const MotorModel* strongest_motor_that_fits(const Body& body);
 
 /// True if the body is made for a shaft or horn of this motor.
 bool fits_bore(const MotorModel& model, const Body& body);
-/// Limits of the mechanism's motor: the numbers of [motor] and, where it has none, those of its model. 0: unknown.
+/// Limits of the mechanism's motor at the pulley, behind its gearbox: the numbers of [motor] and, where it has none,
+/// those of its model. 0: unknown.
 MotorModel motor_limits(const Motor& motor);
 
 /// The value of body.horn that selects Mechanism::horn.

@@ -89,9 +89,8 @@ std::string tendon_list() {
 std::string motor_list() {
   std::string text = "  Known motors (profiles/catalogue/motors.toml):\n";
   for (const MotorModel& model : motor_models()) {
-    const std::string travel =
-        model.travel > 0 ? shortest(degrees_as_read(model.travel)) + " deg" : "turns without end";
-    const std::string speed = model.speed > 0 ? ", " + shortest(degrees_as_read(model.speed)) + " deg/s" : "";
+    const std::string travel = model.travel > 0 ? rounded(degrees(model.travel), 10) + " deg" : "turns without end";
+    const std::string speed = model.speed > 0 ? ", " + rounded(degrees(model.speed), 10) + " deg/s" : "";
     text += entry(model.name + ": " + travel + ", " + shortest(model.stall_torque) + " Nmm" +
                   (model.holds ? " held" : " at stall") + speed + ". " + model.description + ". " + model.source);
   }
@@ -215,9 +214,9 @@ Json catalogue_json() {
     json["motors"].push_back({{"name", model.name},
                               {"description", model.description},
                               {"source", model.source},
-                              {"travel_deg", degrees_as_read(model.travel)},
+                              {"travel_deg", std::stod(rounded(degrees(model.travel), 12))},
                               {"stall_torque_Nmm", model.stall_torque},
-                              {"speed_deg_per_s", degrees_as_read(model.speed)},
+                              {"speed_deg_per_s", std::stod(rounded(degrees(model.speed), 12))},
                               {"holds", model.holds}});
   }
   return json;

@@ -390,6 +390,15 @@ void add_motor(std::vector<Field>& table) {
           {"motor.speed_rpm", "", "", "speed of the motor without load, in place of speed_deg_per_s"}, "rpm", 0.001,
           100000),
       "motor.speed_deg_per_s", [](const DeclaredMechanism&) { return false; });
+  table.push_back(number<motor, &Motor::gear_ratio>(
+      {"motor.gear_ratio", "", "1",
+       "turns of the motor per turn of the pulley, by a gearbox between them: the motor's torque is multiplied by it, "
+       "its speed and travel are divided"},
+      "", 0.001, 100000));
+  table.back().is_set = [](const DeclaredMechanism& m) { return m.motor.gear_ratio != 1; };
+  table.push_back(number<motor, &Motor::gear_efficiency>(
+      {"motor.gear_efficiency", "", "0.9", "share of the torque that the gearbox passes on"}, "", 0.01, 1));
+  table.back().is_set = [](const DeclaredMechanism& m) { return m.motor.gear_efficiency != 0.9; };
   add(number<motor, &Motor::joint_speed, degrees_as_read, radians>(
           {"motor.joint_speed_deg_per_s", "", "", "speed that the joint must reach at every angle under [load]"},
           "deg/s", 0.001, 1000000),
@@ -601,6 +610,11 @@ void add_body(std::vector<Field>& table) {
   table.push_back(number<body, &Body::min_wall>(
       {"body.min_wall_mm", "", "0", "minimum wall thickness of the part; 0: 1.2 mm, thinner on small pulleys"}, "mm", 0,
       50));
+  table.push_back(
+      number<body, &Body::room>({"body.room_diameter_mm", "", "0",
+                                 "the part must fit into a circle of this diameter about its axis; 0: no limit"},
+                                "mm", 0, 10000));
+  table.back().is_set = [](const DeclaredMechanism& m) { return m.body.room != 0; };
   table.push_back(number<body, &Body::lead>(
       {"body.lead_mm", "", "0",
        "helical grooves: minimum height from one turn to the next; 0: as groove and rib require"},

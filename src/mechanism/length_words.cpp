@@ -91,10 +91,12 @@ void mark_lengths(std::string_view text, std::vector<NumberInText>& numbers) {
     const std::string_view between = i == 0 ? "" : text.substr(numbers[i - 1].end, number.begin - numbers[i - 1].end);
     const bool is_present_value = between == " or less (now " || between == " or more (now " || between == " (now " ||
                                   between == " (now automatic, ";
+    const bool is_end_of_interval = between == " to ";
     const bool is_second_of_pair =
         i > 0 && between == ", " && before.substr(0, numbers[i - 1].begin).ends_with("_mm = [");
     // "pulley.r1_mm = 22 or less (now 25)", "joint.attachment1_mm = [3, 40]": both numbers have the key's unit.
-    const bool follows = i > 0 && numbers[i - 1].is_length && (is_present_value || is_second_of_pair);
+    const bool follows =
+        i > 0 && numbers[i - 1].is_length && (is_present_value || is_end_of_interval || is_second_of_pair);
     const bool is_quoted = before.ends_with('"');  // a text of the file or an example of one
     number.is_length = !is_quoted && (!gap_before_mm(rest).empty() || is_value_of_key(before, rest) || follows);
   }

@@ -695,7 +695,8 @@ void MechanismReader::check_motor() {
   if (has("motor.joint_speed_deg_per_s") && limits.speed == 0)
     warn(entries_["motor.joint_speed_deg_per_s"].place,
          "motor.joint_speed_deg_per_s is not compared: the motor's speed is unknown",
-         "add motor.speed_deg_per_s or motor.speed_rpm");
+         "choose motor.model (fusee explain motor.model lists the motors), or add motor.speed_deg_per_s; motors of the "
+         "catalogue that suffice are listed in either case");
 }
 
 /// A shaft supplies omitted keys; written keys must agree with it.

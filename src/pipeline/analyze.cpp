@@ -51,8 +51,8 @@ analysis::AnalysisResult analyze(const MechanismFile& file, const analysis::Anal
     result.warnings.push_back(*turns);
     for (Diagnostic& warning : warnings_of_turns(file)) result.warnings.push_back(std::move(warning));
   }
-  if (result.motor && !result.motor->ok()) {
-    result.motor->advice = advice_on_motor(file, context);
+  if (result.motor) {
+    if (!result.motor->ok()) result.motor->advice = advice_on_motor(file, context);
     for (Diagnostic& warning : analysis::motor_warnings(*result.motor, file))
       result.warnings.push_back(std::move(warning));
   }

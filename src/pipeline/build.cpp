@@ -20,6 +20,7 @@
 #include "pipeline/multi_turn.h"
 #include "pipeline/omissions.h"
 #include "pipeline/thin_walls.h"
+#include "pipeline/wide_parts.h"
 #include "solid/print.h"
 
 namespace fusee::pipeline {
@@ -471,8 +472,8 @@ profile::Advice advice_for(const formats::Product& product, const BuildOptions& 
 /// Adds the warnings about a motor that does not suffice, with advice.
 void compare_with_motor(BuildContext& context) {
   formats::Product& product = context.result.product;
-  if (!product.under_load.motor || product.under_load.motor->ok()) return;
-  if (context.options.advice) {
+  if (!product.under_load.motor) return;
+  if (context.options.advice && !product.under_load.motor->ok()) {
     context.step("searching for changes that suit the motor");
     product.under_load.motor->advice = motor_advice(product, context.options, context.run.without_progress());
   }
@@ -541,6 +542,7 @@ void write_and_check(BuildContext& context) {
   }
   compare_with_motor(context);
   for (Diagnostic& thin : thin_wall_warnings(product)) product.file.warnings.push_back(std::move(thin));
+  if (auto wide = wide_part_warning(product)) product.file.warnings.push_back(std::move(*wide));
   write_texts(context, std::move(tables));
   context.result.status = all_ok(context.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
 }

@@ -40,6 +40,10 @@ constexpr double k_widest_drum = 0.5;
 constexpr double k_widest_drum_for_features = 0.45;
 // Links up to this length get a lever, mm: the proportions of a longer one exceed the bounds of the keys.
 constexpr double k_longest_lever = 5000.0;
+// Motor torque with friction in pulley, guides and joint over that without.
+constexpr double k_friction = 1.15;
+// Least safety factor of tendons with the pretension that keeps both taut.
+constexpr double k_least_safety = 2.0;
 // Full builds of candidates for one search.
 constexpr int k_max_layout_builds = 6;
 // Full builds if the first layout that builds suffices.
@@ -93,7 +97,17 @@ struct Candidate {
   DeclaredMechanism mechanism;
   std::string words;
   bool is_spare = false;  ///< used only if no other candidate builds: the motor needs more torque than the joint
+  double torque = 0;      ///< estimate of the motor's, N·mm
 };
+
+/// The torque that the motor should be asked for, N·mm: that of the file's motor, or of the strongest in the catalogue
+/// that fits, over the advised margin. 0: unknown.
+double usable_torque(const Mechanism& mechanism) {
+  MotorModel motor = motor_limits(mechanism.motor);
+  if (motor.stall_torque == 0)
+    if (const MotorModel* strongest = strongest_motor_that_fits(mechanism.body)) motor = *strongest;
+  return motor.holds ? motor.stall_torque : 0.5 * motor.stall_torque;
+}
 
 /// The candidates for one set of requirements, in order of preference.
 class Candidates {
@@ -108,6 +122,7 @@ class Candidates {
     const auto strength = analysis::likely_strength(joint_.tendon);
     // Twice the load, since knots and friction are known to a factor only.
     strong_ = strength ? std::min(2.0 * torque_of(joint_) / strength->at_knot, k_widest_drum * joint_.joint.R) : 0;
+    usable_ = usable_torque(joint_);
     joint_.pulley.law = Law::compensate;
     joint_.joint.drum_radius = 0;
     joint_.joint.attachment1 = joint_.joint.attachment2 = std::nullopt;
@@ -126,6 +141,7 @@ class Candidates {
     if (requirements_.travel == 0) add_turns(usual);
     // Last, a drum beyond a limit of bends or strength: its build has warnings.
     add_drum(std::min(fitting, usual));
+    prefer_motor(usual);
     return std::move(all_);
   }
 
@@ -139,6 +155,7 @@ class Candidates {
       if (larger * r1 > largest_) return;
       Candidate candidate = with_guides(0.6 * joint.R, "a lever");
       put_lever(candidate.mechanism, larger * r1);
+      candidate.torque = k_friction * torque_of(joint_) * larger * r1 / (0.6 * joint.R);
       all_.push_back(std::move(candidate));
     }
   }
@@ -168,10 +185,31 @@ class Candidates {
     }
   }
 
+  /// Where a candidate asks too much of the motor: wider drums and smaller pulleys that do not, with several turns where
+  /// one is not enough. Candidates within the motor's torque come first.
+  void prefer_motor(double rho) {
+    const auto is_within = [this](const Candidate& candidate) { return candidate.torque <= usable_; };
+    if (usable_ == 0 || std::all_of(all_.begin(), all_.end(), is_within)) return;
+    constexpr double k_three_digits = 1.01;  // the radius is rounded
+    const double reduction = k_three_digits * k_friction * torque_of(joint_) / usable_;
+    const double widest = k_widest_drum_for_features * joint_.joint.R;
+    for (double wider = std::min(rho, widest); wider > 0; wider = std::min(1.35 * wider, widest)) {
+      const double r1 = std::min(std::floor(1e3 * wider / reduction) / 1e3, largest_);
+      const double turn = span_ * wider / r1;
+      const bool is_possible = r1 >= std::max(bend_, 0.5 * joint_.tendon.diameter + 1.0);
+      if (is_possible && !(requirements_.travel > 0 && turn > 0.95 * requirements_.travel))
+        add_drum_with(wider, r1,
+                      turn > k_one_turn ? "a drum on the joint, several turns of the pulley" : "a drum on the joint");
+      if (wider == widest) break;
+    }
+    std::stable_partition(all_.begin(), all_.end(), is_within);
+  }
+
   void add_drum_with(double rho, double r1, const char* words) {
     if (!(rho > 0.6 * joint_.tendon.diameter)) return;
     Candidate candidate = with_guides(rho, words);
     candidate.mechanism.pulley.r1 = std::min(in_three_digits(r1), std::floor(1e3 * largest_) / 1e3);
+    candidate.torque = k_friction * torque_of(joint_) * candidate.mechanism.pulley.r1 / rho;
     put_drum(candidate.mechanism, rho, candidate.mechanism.pulley.r1);
     candidate.is_spare = candidate.mechanism.pulley.r1 > rho;
     const auto is_same = [&candidate](const Candidate& other) {
@@ -206,6 +244,7 @@ class Candidates {
   double bend_ = 0;          ///< least pitch radius around which the tendon may be bent, mm
   double largest_ = 0;       ///< largest pitch radius of a pulley within the room, mm
   double turn_ = 0;          ///< largest rotation of a pulley of one turn, rad
+  double usable_ = 0;        ///< torque of the motor, N·mm; 0: unknown
   double strong_ = 0;        ///< least moment arm at which the knots hold twice the load, mm
   std::vector<Candidate> all_;
 };
@@ -237,20 +276,10 @@ DeclaredMechanism with_rounded_radius(DeclaredMechanism mechanism) {
   return mechanism;
 }
 
-/// True if the catalogue has motors of this shaft or horn, and none of them holds the load.
-bool exceeds_its_motors(const Mechanism& mechanism) {
-  const MotorModel* strongest = strongest_motor_that_fits(mechanism.body);
-  if (strongest == nullptr) return false;
-  Mechanism joint = mechanism;
-  joint.motor = {};
-  joint.motor.enforce = true;  // computes the torque without limits
-  return analysis::under_load(joint).motor->torque.value > strongest->stall_torque;
-}
-
 /// Sum of weighted shortcomings: the set screw holds the pulley, the channels hold the tendons, the home mark aligns
 /// it.
-std::size_t shortcomings(const solid::BodyLayout& layout, const Mechanism& mechanism) {
-  std::size_t weight = layout.notes.size() + (exceeds_its_motors(mechanism) ? 4 : 0);
+std::size_t shortcomings(const solid::BodyLayout& layout) {
+  std::size_t weight = layout.notes.size();
   for (const solid::Omission& omission : layout.omissions) {
     if (omission.feature == "set_screw") weight += 4;
     if (omission.feature == "home_mark" || omission.feature.starts_with("channel_")) weight += 2;
@@ -263,20 +292,22 @@ std::size_t planned_shortcomings(const DeclaredMechanism& declared) {
   const Curves curves = curves_of(declared);
   if (!curves.obstacles.empty()) return 0;
   const solid::BodyPlan plan = solid::plan_body(curves.joint.mechanism, curves.synthesis);
-  return plan.is_possible() ? shortcomings(plan.layout, curves.joint.mechanism) : 0;
+  return plan.is_possible() ? shortcomings(plan.layout) : 0;
 }
 
 /// Fewer warnings are better, then fewer shortcomings.
 struct Rank {
-  std::size_t warnings = 0;
+  std::size_t warnings = 0;      ///< a motor without its advised margin counts as one
   std::size_t shortcomings = 0;  ///< of a pulley of one turn; several turns always have the same notes
 
   auto operator<=>(const Rank&) const = default;
 };
 
 Rank rank_of(const formats::Product& product) {
-  return {product.file.warnings.size() + product.synthesis.warnings.size() + product.holding.warnings.size(),
-          product.helix ? 0 : shortcomings(product.pulley.layout, product.joint.mechanism)};
+  const double usable = usable_torque(product.joint.mechanism);
+  const std::size_t weak = usable > 0 && product.under_load.largest_torque.value > usable ? 1 : 0;
+  return {product.file.warnings.size() + product.synthesis.warnings.size() + product.holding.warnings.size() + weak,
+          product.helix ? 0 : shortcomings(product.pulley.layout)};
 }
 
 /// The tendons' moment arm at home, mm.
@@ -316,6 +347,51 @@ std::optional<std::string> build_layout(const LayoutRequirements& needs, ChosenL
   return std::nullopt;
 }
 
+/// Rounded up to two digits.
+double rounded_up(double value) {
+  const double step = elementary::pow(10.0, std::floor(std::log10(value)) - 1);
+  return std::stod(rounded(std::ceil(value / step - 1e-9) * step, 2));
+}
+
+/// Gives a layout with a slack tendon the least pretension that keeps both taut, or explains why not.
+void keep_taut(ChosenLayout& chosen, const LayoutRequirements& needs, const CandidateFile& file_of,
+               const RunContext& context) {
+  const std::optional<double> least = chosen.built.product.under_load.taut_pretension;
+  if (!least) return;
+  DeclaredMechanism mechanism = chosen.file.mechanism;
+  mechanism.tendon.pretension = rounded_up(*least);
+  ChosenLayout taut = chosen;
+  taut.file = file_of(mechanism);
+  if (taut.file.mechanism.tendon.pretension != mechanism.tendon.pretension) return;  // by a setting
+  const std::optional<std::string> obstacle = built_or_reason(needs, taut, context);
+  const analysis::UnderLoad& load = taut.built.product.under_load;
+  const std::string words = rounded(*least, 3) + " N or more keeps both tendons taut under the load";
+  std::string against;
+  if (obstacle)
+    against = *obstacle;
+  else if (load.safety_factor().value_or(k_least_safety) < k_least_safety)
+    against = "the tendons' safety factor would be " + rounded(*load.safety_factor(), 3);
+  else if (rank_of(taut.built.product) > rank_of(chosen.built.product))
+    against = taut.built.product.file.warnings.size() > chosen.built.product.file.warnings.size()
+                  ? taut.built.product.file.warnings.back().message
+                  : "the motor would have to hold " + rounded(load.largest_torque.value, 3) + " Nmm";
+  if (!against.empty()) {
+    chosen.pretension_words = "a pretension of " + words + ", but " + against;
+    return;
+  }
+  chosen = std::move(taut);
+  chosen.pretension_words = words;
+}
+
+/// Writes the room as a key of the file, so that later changes keep it.
+void keep_room(ChosenLayout& chosen, const LayoutRequirements& needs, const CandidateFile& file_of) {
+  DeclaredMechanism mechanism = chosen.file.mechanism;
+  if (mechanism.body.room > 0) return;  // by a setting
+  mechanism.body.room = needs.room;
+  MechanismFile file = file_of(mechanism);
+  if (!quick_obstacle(file.mechanism)) chosen.file = std::move(file);
+}
+
 }  // namespace
 
 LayoutSearch choose_layout(const LayoutRequirements& requirements, const CandidateFile& file_of,
@@ -329,7 +405,7 @@ LayoutSearch choose_layout(const LayoutRequirements& requirements, const Candida
     if (search.chosen && best.warnings == 0 && (best.shortcomings == 0 || candidate.words != search.chosen->words))
       break;
     context.begin_step("trying " + candidate.words);
-    ChosenLayout layout{file_of(candidate.mechanism), candidate.words, {}, 0, 0, 0};
+    ChosenLayout layout{file_of(candidate.mechanism), candidate.words, {}, 0, 0, 0, {}};
     if (std::optional<std::string> obstacle = quick_obstacle(layout.file.mechanism)) {
       if (builds == 0)
         search.obstacle = std::move(*obstacle);  // the last one remains: its candidate has the most space
@@ -356,6 +432,11 @@ LayoutSearch choose_layout(const LayoutRequirements& requirements, const Candida
     best = rank;
     layout.tension = torque_of(layout.file.mechanism) / arm_of(layout);
     search.chosen = std::move(layout);
+  }
+  if (search.chosen && !requirements.any) {
+    context.begin_step("keeping both tendons taut");
+    keep_taut(*search.chosen, requirements, file_of, context);
+    keep_room(*search.chosen, requirements, file_of);
   }
   if (search.obstacle.empty()) search.obstacle = "the room is smaller than the tendon's groove";
   return search;

@@ -33,6 +33,8 @@ struct ChosenLayout {
   double diameter = 0;  ///< of the pulley, mm
   double travel = 0;    ///< rotation of the pulley over the range, rad
   double tension = 0;   ///< tension by the declared load, without pretension, N
+  /// About a pretension that keeps both tendons taut under the load; "" if the usual one does.
+  std::string pretension_words;
 };
 
 struct LayoutSearch {
@@ -42,7 +44,9 @@ struct LayoutSearch {
 
 /// Tries candidates by a quick check, then by full dry builds, in order of preference: a lever where the range allows
 /// it, a drum with one turn of the pulley, a drum with several turns. A candidate whose build has fewer warnings is
-/// preferred over an earlier one, and a larger pulley of the same layout if fewer features are omitted on it.
+/// preferred over an earlier one, and a larger pulley of the same layout if fewer features are omitted on it. Candidates
+/// that the motor turns with its advised margin come first. The choice keeps its room as body.room_diameter_mm, and has
+/// the pretension that keeps both tendons taut under the load if tendons and motor bear it.
 LayoutSearch choose_layout(const LayoutRequirements& requirements, const CandidateFile& file_of,
                            const RunContext& context);
 

@@ -14,6 +14,7 @@
 #include "fusee/pipeline.h"
 #include "fusee/solid.h"
 #include "pipeline/design.h"
+#include "solid/conditions.h"
 #include "solid/groove.h"
 #include "solid/print.h"
 
@@ -64,6 +65,11 @@ std::vector<profile::Condition> faults_of(const Mechanism& mechanism, const heli
     for (Check& check : solid::check_print(mesh, limits)) checks.push_back(std::move(check));
   }
   std::vector<profile::Condition> faults;
+  double reach = 0;
+  for (const Vec3& vertex : mesh.vertices) reach = std::max(reach, vertex.head<2>().norm());
+  if (const profile::Condition room = solid::room_condition(mechanism, 2.0 * reach / pulley.layout.scale);
+      mechanism.body.room > 0 && !room.ok)
+    faults.push_back(room);
   for (const Check& check : checks) {
     if (check.ok) continue;
     profile::Condition fault;

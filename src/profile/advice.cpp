@@ -144,15 +144,21 @@ std::vector<DesignVariable> design_variables(const Mechanism& mechanism, const s
   return all;
 }
 
+/// "12.3 mm" in the file's unit.
+std::string value_text(const DesignVariable& variable, double value) {
+  const std::string word = variable.units == LengthUnit::mm ? variable.unit : std::string(unit_word(variable.units));
+  const std::string unit = word == "deg" ? "°" : word.empty() ? "" : " " + word;
+  return rounded(from_mm(value, variable.units), 3) + unit;
+}
+
 std::string change_text(const DesignVariable& variable, double to) {
-  const std::string amount = rounded(from_mm(to, variable.units), 3);
-  if (variable.symbol == "the range") return "the range ±" + amount + "°";
-  std::string unit = variable.units == LengthUnit::mm ? variable.unit : std::string(unit_word(variable.units));
-  if (unit == "deg")
-    unit = "°";
-  else if (!unit.empty())
-    unit = " " + unit;
-  return variable.symbol + (to > variable.value ? " ≥ " : " ≤ ") + amount + unit;
+  if (variable.symbol == "the range") return "the range ±" + rounded(to, 3) + "°";
+  return variable.symbol + (to > variable.value ? " ≥ " : " ≤ ") + value_text(variable, to);
+}
+
+std::string interval_text(const DesignVariable& variable, double least, double most) {
+  if (least == most) return variable.symbol + " = " + value_text(variable, least);
+  return value_text(variable, least) + " ≤ " + variable.symbol + " ≤ " + value_text(variable, most);
 }
 
 /// A number rounded to three digits in the file's unit: [0] to the nearest, [1] towards `direction`.
@@ -192,6 +198,9 @@ constexpr double k_last_step = 4.0;
 constexpr double k_sweep_ratio = 1.3;
 // Bisection ends at this width of the step: three digits of the number.
 constexpr double k_border_width = 5e-4;
+// The end of the values that suffice is searched in these steps of the value, up to a quarter of it.
+constexpr double k_limit_step = 0.05;
+constexpr int k_limit_steps = 5;
 // Sufficient number of changes, with the fast test only and with full builds.
 constexpr std::size_t k_sufficient = 3;
 constexpr std::size_t k_sufficient_builds = 2;
@@ -227,9 +236,11 @@ class AdviceSearch {
     std::vector<Change> found;
     search(found, {k_sweep_ratio, HUGE_VAL, true});
     search(found, {k_step_ratio, k_last_step, false});
-    if (!found.empty()) return found;
-    max_evaluations_ = oracle_.is_expensive ? k_max_evaluations - k_pair_evaluations : k_max_sweep_evaluations;
-    search(found, {k_sweep_ratio, HUGE_VAL, false});
+    if (found.empty()) {
+      max_evaluations_ = oracle_.is_expensive ? k_max_evaluations - k_pair_evaluations : k_max_sweep_evaluations;
+      search(found, {k_sweep_ratio, HUGE_VAL, false});
+    }
+    for (Change& change : found) add_end(change);
     return found;
   }
 
@@ -262,6 +273,49 @@ class AdviceSearch {
   }
 
  private:
+  /// Sets the end of the values that suffice if it is near.
+  void add_end(Change& change) const {
+    const auto variable =
+        std::find_if(variables_.begin(), variables_.end(),
+                     [&change](const DesignVariable& candidate) { return candidate.key == change.key; });
+    if (variable->symbol == "the range") return;  // the change names both ends
+    change.until = last_sufficient(change, *variable);
+    if (!change.until) return;
+    const auto [least, most] = std::minmax({change.to, *change.until});
+    change.text = interval_text(*variable, least, most);
+  }
+
+  /// The last value beyond a change that passes the fast test, if one within a quarter of it does not.
+  std::optional<double> last_sufficient(const Change& change, const DesignVariable& variable) const {
+    const double direction = change.to > change.from ? 1 : -1;
+    const auto suffices = [&](double value) {
+      Mechanism changed = mechanism_;
+      variable.set(changed, value);
+      return oracle_.obstacles(changed).empty();
+    };
+    const double step = k_limit_step * std::abs(change.to);
+    double good = change.to;
+    std::optional<double> bad;
+    for (int k = 1; k <= k_limit_steps && !bad; ++k) {
+      const double value = change.to + direction * k * step;
+      if (value < variable.least || value > variable.most) return std::nullopt;
+      if (suffices(value))
+        good = value;
+      else
+        bad = value;
+    }
+    if (!bad) return std::nullopt;
+    while (std::abs(*bad - good) > 0.1 * step) {
+      const double middle = 0.5 * (good + *bad);
+      if (suffices(middle))
+        good = middle;
+      else
+        bad = middle;
+    }
+    const double written = in_three_digits(good, -direction, variable.units)[1];
+    return direction * (written - change.to) > 0 && suffices(written) ? written : change.to;
+  }
+
   /// A change of one or two variables by equal steps, whose border of feasibility is narrowed by bisection.
   struct Candidate {
     std::vector<SearchDirection> directions;
@@ -560,8 +614,11 @@ std::string setting_words(const Change& change) {
   }
   // Enough digits for the number that was tried, in mm or inches.
   constexpr int k_digits = 10;
-  return change.key + " = " + rounded(change.to, k_digits) + (change.to > change.from ? " or more" : " or less") +
-         " (now " + rounded(change.from, k_digits) + ")";
+  const std::string now = " (now " + rounded(change.from, k_digits) + ")";
+  const auto [least, most] = std::minmax({change.to, change.until.value_or(change.to)});
+  if (least != most) return change.key + " = " + rounded(least, k_digits) + " to " + rounded(most, k_digits) + now;
+  const std::string end = change.until ? "" : change.to > change.from ? " or more" : " or less";
+  return change.key + " = " + rounded(change.to, k_digits) + end + now;
 }
 
 std::string advice_sentence(const std::vector<Change>& changes) {

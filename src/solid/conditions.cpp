@@ -39,6 +39,7 @@ class Conditions {
 
   std::vector<profile::Condition> all(const std::vector<AnchorRoom>& rooms) {
     add_rims();
+    add_room();
     if (auto tall = too_tall(layout_)) list_.add(std::move(*tall));
     add_groove();
     add_bore_wall(synthesis_.p1);
@@ -69,6 +70,14 @@ class Conditions {
     list_.add("flange_rims", 0, 0, false,
               "the outlines are sampled too coarsely for a flange that projects over the edges of both grooves. Reduce "
               "--tolerance-mm");
+  }
+
+  void add_room() {
+    if (!(body_.room > 0)) return;
+    double reach = layout_.hub_radius;
+    for (const Polygon* rim : {&rims_.lower, &rims_.middle, &rims_.upper})
+      reach = std::max(reach, rim->empty() ? 0.0 : circumradius(*rim));
+    list_.add(room_condition(mechanism_, 2.0 * reach));
   }
 
   void add_groove() {
@@ -272,6 +281,20 @@ class Conditions {
 };
 
 }  // namespace
+
+profile::Condition room_condition(const Mechanism& mechanism, double diameter) {
+  constexpr double k_resolution = 1e-3;  // mm, of numbers that are printed
+  const double room = mechanism.body.room;
+  profile::Condition condition;
+  condition.name = "room";
+  condition.ok = diameter <= room + k_resolution;
+  condition.value = diameter;
+  condition.limit = room;
+  condition.unit = "mm";
+  condition.message = fmt::format("the part is {} mm wide, and its room (body.room_diameter_mm) is {} mm",
+                                  rounded(diameter, 5), rounded(room));
+  return condition;
+}
 
 // A convex outline is closest to a hole inside it at one of the hole's corners.
 Wall wall_between(const Polygon& floor, const Polygon& hole) {

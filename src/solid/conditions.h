@@ -18,4 +18,7 @@ std::vector<profile::Condition> conditions_of(const Mechanism& mechanism, const 
                                               const BodyLayout& layout, const FlangeRims& rims,
                                               const std::vector<AnchorRoom>& rooms);
 
+/// The part's diameter against body.room_diameter_mm.
+profile::Condition room_condition(const Mechanism& mechanism, double diameter);
+
 }  // namespace fusee::solid

@@ -1,6 +1,7 @@
 // The motor's limits compared with the joint's requirements, which are known in closed form.
 #include <gmock/gmock.h>
 
+#include "base/text.h"
 #include "fusee/analysis.h"
 #include "mechanism/catalogue.h"
 #include "support/mechanisms.h"
@@ -104,6 +105,72 @@ TEST(Motor, ModelThatFitsBoreComesFirst) {
   EXPECT_THAT(under_load(mechanism).motor->sufficient_models.front(), Not(HasSubstr("XM430")));
 }
 
+TEST(Motor, ListsMarginsAndWhetherModelsFit) {
+  DeclaredMechanism mechanism = with_motor(100, 0, 0);
+  MotorCheck motor = *under_load(mechanism).motor;
+  const double stall = find_motor_model(motor.sufficient_models.front())->stall_torque;
+  EXPECT_THAT(motor.models_text(), ::testing::StartsWith("suitable: " + motor.sufficient_models.front() + " (margin " +
+                                                         rounded(stall / motor.torque.value, 3) + "), "));
+  EXPECT_EQ(motor.strongest_text(), "");
+  // No N20 holds twice this torque.
+  mechanism.body.shaft = "n20-d3";
+  motor = *under_load(mechanism).motor;
+  EXPECT_EQ(motor.fitting_models, 0u);
+  EXPECT_THAT(motor.models_text(), ::testing::StartsWith("suitable with another bore: "));
+  const double strongest = find_motor_model("N20-298-LP")->stall_torque;
+  EXPECT_EQ(motor.strongest_text(), "N20-298-LP, the strongest that fits the bore, has margin " +
+                                        rounded(strongest / motor.torque.value, 3) + ", and 2 is advised");
+}
+
+TEST(Motor, GearboxMultipliesTorqueAndDividesSpeed) {
+  DeclaredMechanism mechanism = linear_wrist();
+  mechanism.motor.model = "MG996R";
+  const MotorModel& model = *find_motor_model("MG996R");
+  mechanism.motor.gear_ratio = 5;
+  MotorCheck motor = *under_load(mechanism).motor;
+  EXPECT_EQ(motor.model, "MG996R 5:1");
+  EXPECT_DOUBLE_EQ(motor.torque_limit, 5 * 0.9 * model.stall_torque);
+  EXPECT_DOUBLE_EQ(motor.travel_limit, model.travel / 5);
+  EXPECT_DOUBLE_EQ(motor.speed_limit, model.speed / 5);
+  mechanism.motor.gear_efficiency = 1;
+  EXPECT_DOUBLE_EQ(under_load(mechanism).motor->torque_limit, 5 * model.stall_torque);
+}
+
+TEST(Motor, ModelMustFitBore) {
+  MechanismFile file;
+  file.path = "mcp.toml";
+  file.mechanism = linear_wrist();
+  Body& body = file.mechanism.body;
+  const auto misfit = [&file](const char* model) {
+    file.mechanism.motor = {};
+    file.mechanism.motor.model = model;
+    return under_load(file.mechanism).motor->misfit;
+  };
+  body.shaft = "n20-d3";
+  EXPECT_EQ(
+      misfit("XC330-M288"),
+      "the motor XC330-M288 does not fit the bore: it has the horn dynamixel-xl330, and the bore is for the shaft "
+      "n20-d3");
+  const std::vector<Diagnostic> warnings = motor_warnings(*under_load(file.mechanism).motor, file);
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(warnings.back().severity, Severity::warning);
+  EXPECT_EQ(warnings.back().hint,
+            "try body.bore = \"horn\" together with body.horn = \"dynamixel-xl330\", without body.shaft");
+  EXPECT_EQ(misfit("N20-298-LP"), "");
+  EXPECT_EQ(misfit("RMD-X6-8"), "") << "its flange is not known";
+  body.shaft = "none";
+  body.bore_diameter = 5;
+  EXPECT_EQ(misfit("NEMA17-48mm"), "");
+  EXPECT_THAT(misfit("N20-298-LP"), HasSubstr("it has the shaft n20-d3, and the bore is for a shaft of 5 mm"));
+  file.mechanism.motor.gear_ratio = 5;
+  EXPECT_EQ(under_load(file.mechanism).motor->misfit, "") << "a gearbox has its own shaft";
+  body.bore = Bore::horn;
+  body.horn = "dynamixel-xl430";
+  EXPECT_THAT(misfit("XC330-M288"), HasSubstr("the bore is for the horn dynamixel-xl430"));
+  body.horn = "own";
+  EXPECT_EQ(misfit("XC330-M288"), "") << "a horn of one's own may be that of any motor";
+}
+
 TEST(Motor, WarningStandsAtLimitOrModel) {
   MechanismFile file;
   file.path = "arm.toml";
@@ -115,7 +182,7 @@ TEST(Motor, WarningStandsAtLimitOrModel) {
   ASSERT_THAT(warnings, SizeIs(1));
   EXPECT_EQ(warnings[0].place.line, 7);
   EXPECT_EQ(warnings[0].severity, Severity::warning);
-  EXPECT_THAT(warnings[0].hint, HasSubstr("try pulley.ratio = 2 or less (now 3.2); of the catalogue these suffice: "));
+  EXPECT_THAT(warnings[0].hint, HasSubstr("try pulley.ratio = 2 or less (now 3.2); suitable: "));
   motor.enforced = true;
   EXPECT_EQ(motor_warnings(motor, file)[0].severity, Severity::error);
 }

@@ -58,6 +58,15 @@ class Analyze(harness.Scratch):
         self.assertEqual(document["summary"]["largest_tension"]["tendon"], 2)
         self.assertEqual(document["tolerances"][-1]["key"], "all")
 
+    def test_nearly_constant_torque_looks_constant(self):
+        """The plot of the motor torque has the wanted torque, and an axis that does not magnify friction."""
+        (self.folder / "gravity.toml").write_bytes(self.fusee("new gravity_arm").stdout)
+        self.expect("analyze gravity.toml --samples 10 -o gravity.svg", 0)
+        plot = re.search(r"Motor torque<.*?Joint angle", (self.folder / "gravity.svg").read_text(), re.S)[0]
+        self.assertIn(">wanted<", plot)
+        self.expect("analyze arm.toml --samples 10 -o arm.svg", 0)
+        self.assertNotIn(">wanted<", (self.folder / "arm.svg").read_text())
+
     def test_build_summary_agrees_with_analysis(self):
         """The summary, banner and manifest of build have the figures of analyze, to every printed digit."""
         for options in ("--set load.tip_force_N=10", "--set load.tip_force_N=-12 --set guides.friction=0.3", "--set tendon.pretension_N=40",
@@ -100,8 +109,8 @@ class Analyze(harness.Scratch):
 
     def test_motor_is_compared(self):
         short = "--set motor.travel_deg=180"
-        self.expect(f"analyze arm.toml --samples 10 {short}", 0, r"motor +travel 238\.\d of 180 deg.*suitable: ",
-                    "warning: the motor turns 180 deg, and the range requires 238\\.\\d deg.*try pulley\\.r1_mm = [\\d.]+ or more.*of the catalogue")
+        self.expect(f"analyze arm.toml --samples 10 {short}", 0, r"motor +travel 238\.\d of 180 deg.*suitable: .* \(margin [\d.]+\)",
+                    "warning: the motor turns 180 deg, and the range requires 238\\.\\d deg.*try pulley\\.r1_mm = [\\d.]+ or more.*suitable: ")
         self.expect(f"analyze arm.toml --samples 10 {short} --set motor.enforce=true", 4, "Summary", "error: the motor turns 180 deg")
         self.expect("analyze arm.toml --samples 10 --set motor.model=MG996R --set motor.speed_rpm=60 --set motor.travel_deg=300", 0,
                     "MG996R: travel .*joint turns at .* deg/s under the load", "^$")

@@ -162,6 +162,7 @@ TEST(Lengths, ConvertMessages) {
   EXPECT_EQ(inch("both [-10000, 10000] mm"), "both [-393.701, 393.701] in");
   EXPECT_EQ(inch("tendons cut 1 at 360 mm, 2 at 355 mm"), "tendons cut 1 at 14.17 in, 2 at 13.98 in");
   EXPECT_EQ(inch("try pulley.r1_mm = 21.9964 or less (now 25.4)"), "try pulley.r1_mm = 0.866 or less (now 1)");
+  EXPECT_EQ(inch("try pulley.r1_mm = 25.4 to 50.8 (now 12.7)"), "try pulley.r1_mm = 1 to 2 (now 0.5)");
   EXPECT_EQ(inch("try body.hub_diameter_mm = 14 (now automatic, 12.2)"),
             "try body.hub_diameter_mm = 0.551 (now automatic, 0.4803)");
   EXPECT_EQ(inch("prior.OE_mm = [2.4, 0.02] or joint.range_deg = [-30, 30]"),

@@ -172,6 +172,7 @@ TEST(Reader, ReadsMotor) {
   parse_mechanism(motor("travel_deg = 180\njoint_speed_deg_per_s = 90\n"), "f.toml", ".", {}, &warnings);
   ASSERT_THAT(warnings, SizeIs(1));
   EXPECT_THAT(warnings[0].message, HasSubstr("the motor's speed is unknown"));
+  EXPECT_THAT(warnings[0].hint, HasSubstr("choose motor.model"));
 }
 
 TEST(Reader, RejectsRangeWithoutHome) {

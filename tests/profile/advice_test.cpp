@@ -5,6 +5,7 @@
 #include <chrono>
 #include <thread>
 
+#include "base/text.h"
 #include "fusee/profile.h"
 #include "support/mechanisms.h"
 
@@ -23,6 +24,7 @@ TEST(NearestChanges, FindBothBorders) {
   EXPECT_EQ(changes[0].key, "pulley.r1_mm");
   EXPECT_EQ(changes[0].text, "r1 ≤ 12.3 mm");
   EXPECT_DOUBLE_EQ(changes[0].from, 16.0);
+  EXPECT_FALSE(changes[0].until) << "every smaller r1 is accepted";
   const auto upward = nearest_changes(testing::forearm(), [](const Mechanism& m) { return m.pulley.EF >= 93.21; });
   EXPECT_EQ(upward.at(0).text, "EF ≥ 93.3 mm");
 }
@@ -33,6 +35,19 @@ TEST(NearestChanges, PutTheNearestFirst) {
   ASSERT_EQ(changes.size(), 2U);
   EXPECT_EQ(changes[0].key, "pulley.EF_mm");
   EXPECT_EQ(advice_sentence(changes), "make EF ≥ 84 mm, or r1 ≤ 8 mm");
+}
+
+// "or more" was advised for a torque of 1350, and 1500 was infeasible.
+TEST(NearestChanges, NameBothEndsOfNarrowInterval) {
+  const auto changes = nearest_changes(testing::forearm(),
+                                       [](const Mechanism& m) { return m.pulley.r1 <= 12.3456 && m.pulley.r1 >= 11; });
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_NEAR(changes[0].to, 12.3, 1e-9);
+  ASSERT_TRUE(changes[0].until);
+  EXPECT_NEAR(*changes[0].until, 11.05, 0.051);
+  const std::string least = rounded(*changes[0].until);
+  EXPECT_EQ(changes[0].text, least + " mm ≤ r1 ≤ 12.3 mm");
+  EXPECT_EQ(setting_words(changes[0]), "pulley.r1_mm = " + least + " to 12.3 (now 16)");
 }
 
 TEST(NearestChanges, KeepSymmetricRangeSymmetric) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <regex>
 
+#include "base/text.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/solid.h"
 #include "solid/size.h"
@@ -97,6 +98,16 @@ TEST(Conditions, RejectTooLargeParts) {
   ASSERT_TRUE(active && closing);
   EXPECT_EQ(active->message, "P1 would reach 1.2 m from the axis: at most 1 m is supported");
   EXPECT_NE(closing->message.find("the arc that closes P2"), std::string::npos) << closing->message;
+}
+
+TEST(Conditions, PartFitsItsRoom) {
+  const Pulley free = make_pulley(plain_mechanism(), round_pulley());
+  const double diameter = outer_size(free).diameter;
+  expect_refused_for({"room", &Body::room, diameter - 0.01, diameter + 0.01});
+  Mechanism mechanism = plain_mechanism();
+  mechanism.body.room = 30;
+  EXPECT_EQ(condition_named(make_pulley(mechanism, round_pulley()), "room").message,
+            "the part is " + rounded(diameter, 5) + " mm wide, and its room (body.room_diameter_mm) is 30 mm");
 }
 
 TEST(Conditions, RejectTooLargeAndTooThinHubs) {

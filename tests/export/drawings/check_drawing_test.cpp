@@ -194,6 +194,12 @@ TEST(CheckDrawing, RejectsPlateBeyondSheet) {
   EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("nothing_outside"));
 }
 
+TEST(CheckDrawing, RejectsCheckSquareBesideSheet) {
+  Drawing drawing = plate();
+  drawing.paths.push_back(contour("CHECK_10MM", square(0, -15, 10), true, 5));
+  EXPECT_THAT(check_named(check_drawing(drawing), "nothing_outside").where, HasSubstr("not inside SHEET: layer CHECK"));
+}
+
 TEST(CheckDrawing, ForeignDrawingsHaveContoursOnEveryLayer) {
   Drawing drawing;
   drawing.paths = {contour("Layer 1", square(0, 0, 30)), contour("whatever", {{1, 1}, {5, 5}}, false)};

@@ -284,6 +284,61 @@ TEST(PlatesDxf, PlatesDoNotOverlap) {
   }
 }
 
+/// The piece that a cutter of this kerf cuts along a path.
+Box2d piece_of(const DrawingPath& path, double kerf) {
+  const Box2d box = bounding_box(path.points);
+  return {box.low + Vec2::Constant(0.5 * kerf), box.high - Vec2::Constant(0.5 * kerf)};
+}
+
+// The square was drawn 10 mm wide for every kerf: correcting kerf_mm by its error doubled the kerf.
+TEST(PlatesDxf, CheckSquareShowsErrorOfKerf) {
+  for (const double declared : {0.0, 0.15, 0.4}) {
+    Product product = egg();
+    product.joint.mechanism.cut.kerf = declared;
+    const auto squares = on_layer(drawn(product), "CHECK_10MM");
+    ASSERT_EQ(squares.size(), 1u);
+    EXPECT_NEAR(piece_of(squares[0], declared).size().x(), 10, 1e-9);
+    EXPECT_NEAR(piece_of(squares[0], declared).size().y(), 10, 1e-9);
+    // kerf_mm corrected by the difference is the true kerf.
+    const double truth = 0.15;
+    EXPECT_NEAR(declared - (piece_of(squares[0], truth).size().x() - 10), truth, 1e-9);
+  }
+}
+
+TEST(PlatesDxf, CheckSquareLiesOnSheetBesidePlates) {
+  for (const double height : {60.0, 200.0}) {
+    Product product = egg();
+    product.joint.mechanism.cut.sheet_height = height;
+    const Drawing drawing = drawn(product);
+    const Box2d square = bounding_box(on_layer(drawing, "CHECK_10MM").at(0).points);
+    const auto holds = [&square](const DrawingPath& sheet) {
+      const Box2d box = bounding_box(sheet.points);
+      return (square.low - box.low).minCoeff() >= 2 && (box.high - square.high).minCoeff() >= 2;
+    };
+    const auto sheets = on_layer(drawing, "SHEET");
+    EXPECT_EQ(std::count_if(sheets.begin(), sheets.end(), holds), 1) << height;
+    for (const DrawingPath& plate : on_layer(drawing, "CUT_OUTER")) {
+      const Box2d box = bounding_box(plate.points);
+      EXPECT_GE((square.low - box.high).cwiseMax(box.low - square.high).maxCoeff(), 2 - 1e-9) << height;
+    }
+  }
+}
+
+TEST(PlatesDxf, NotesAreAsWideAsSheet) {
+  Product product = egg();
+  product.joint.mechanism.name = std::string(200, 'M');  // no blank to break at
+  product.joint.mechanism.cut.sheet_width = 120;
+  const Drawing drawing = drawn(product);
+  const auto notes = on_layer(drawing, "NOTES");
+  ASSERT_FALSE(notes.empty());
+  for (const DrawingPath& stroke : notes) {
+    const Box2d box = bounding_box(stroke.points);
+    EXPECT_GE(box.low.x(), 0);
+    EXPECT_LE(box.high.x(), 120);
+    EXPECT_LT(box.high.y(), 0);
+  }
+}
+
 TEST(PlatesDxf, EnlargesSheetForLargePlateWithNote) {
   Product product = egg();
   product.joint.mechanism.cut.sheet_width = 30;

@@ -175,6 +175,24 @@ TEST(Report, ReportsSuccess) {
   EXPECT_THAT(words_of(verdict), HasSubstr("All 5 checks hold"));
 }
 
+// A tendon that is slack over the whole range stood in a green box.
+TEST(Report, BannerIsAmberForSlackTendon) {
+  Mechanism mechanism = forearm();
+  mechanism.load.tip_force = 10;
+  Product product = sample(mechanism);
+  product.under_load = analysis::under_load(mechanism);
+  ASSERT_TRUE(product.under_load.taut_pretension);
+  const auto colour = [&product] {
+    const auto document = parsed(report_html(product));
+    return std::string(
+        document.select_node("//section[contains(@class, 'verdict')]").node().attribute("class").as_string());
+  };
+  EXPECT_EQ(colour(), "verdict noted");
+  mechanism.tendon.pretension = 1.01 * *product.under_load.taut_pretension;
+  product.under_load = analysis::under_load(mechanism);
+  EXPECT_EQ(colour(), "verdict good");
+}
+
 TEST(Report, BannerReportsLoadAndMotor) {
   Mechanism mechanism = forearm();
   mechanism.load.tip_force = 10;
