@@ -238,9 +238,9 @@ class UnitFinder {
       return;
     }
     const Unit* const other = find_unit(Quantity::load, ratio > 1 ? "g" : "kg");
-    refuse("the unit of " + shown(column.name) + " is unknown: it" + words,
-           "state the unit: --unit load=" + std::string(other->name) + " (" + rounded(largest, 4) + " " +
-               std::string(other->name) + " is " + rounded(largest * other->factor, 3) + " N), or --unit load=N");
+    add_problem("the unit of " + shown(column.name) + " is unknown: it" + words,
+                "state the unit: --unit load=" + std::string(other->name) + " (" + rounded(largest, 4) + " " +
+                    std::string(other->name) + " is " + rounded(largest * other->factor, 3) + " N), or --unit load=N");
   }
 
   void convert(const Column& column) {
