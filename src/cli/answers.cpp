@@ -520,8 +520,6 @@ std::optional<double> extract_diameter(std::string& answer, LengthUnit plain) {
   return std::nullopt;
 }
 
-double times(double one, double other) { return std::max(one / other, other / one); }
-
 /// Removes "5:1" and the words of a gearbox from a motor's name and returns the ratio; 1 for none.
 double extract_gear_ratio(std::string& simple) {
   for (std::size_t at = 0; at < simple.size(); ++at) {

@@ -363,7 +363,7 @@ void keep_taut(ChosenLayout& chosen, const LayoutRequirements& needs, const Cand
   ChosenLayout taut = chosen;
   taut.file = file_of(mechanism);
   if (taut.file.mechanism.tendon.pretension != mechanism.tendon.pretension) return;  // by a setting
-  const std::optional<std::string> obstacle = built_or_reason(needs, taut, context);
+  const std::optional<std::string> obstacle = build_layout(needs, taut, context);
   const analysis::UnderLoad& load = taut.built.product.under_load;
   const std::string words = rounded(*least, 3) + " N or more keeps both tendons taut under the load";
   std::string against;
