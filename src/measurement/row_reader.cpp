@@ -40,9 +40,11 @@ double* mounting_of(joint::Mounting& mounting, const std::string& role) {
   return nullptr;
 }
 
+/// A comma within a cell is a decimal mark here.
 bool all_numbers(const std::vector<std::string>& cells) {
   double value = 0;
-  return std::all_of(cells.begin(), cells.end(), [&](const std::string& cell) {
+  return std::all_of(cells.begin(), cells.end(), [&](std::string cell) {
+    if (std::count(cell.begin(), cell.end(), ',') == 1) cell[cell.find(',')] = '.';
     return read_number(cell, value) == CellContent::number || read_time_stamp(cell);
   });
 }

@@ -604,6 +604,18 @@ TEST(ColumnNames, ChooseAnglesByWords) {
   expect_motion(read(stamped).run);
 }
 
+TEST(ColumnNames, ChooseAnglesAboveDecimalCommas) {
+  const auto with_comma = [](const Value& value) {
+    return [value](int row) {
+      std::string text = value(row);
+      std::replace(text.begin(), text.end(), '.', ',');
+      return text;
+    };
+  };
+  expect_motion(
+      read(table("Zeit;Motor;Gelenk", {with_comma(seconds()), with_comma(alpha()), with_comma(theta())}, ';')).run);
+}
+
 TEST(ColumnNames, OfferTheAngleThatIsKnown) {
   EXPECT_THAT(error_of(table("time_s,Motor,xyz", {seconds(), alpha(), theta()})),
               HasSubstr("select them with --column alpha=Motor --column theta=NAME"));
