@@ -42,6 +42,7 @@ constexpr double k_widest_drum_for_features = 0.45;
 constexpr double k_longest_lever = 5000.0;
 // Motor torque with friction in pulley, guides and joint over that without.
 constexpr double k_friction = 1.15;
+constexpr double k_much_friction = 1.4;  // over pins, with the pretension that keeps both tendons taut
 // Least safety factor of tendons with the pretension that keeps both taut.
 constexpr double k_least_safety = 2.0;
 // Full builds of candidates for one search.
@@ -191,15 +192,17 @@ class Candidates {
     const auto is_within = [this](const Candidate& candidate) { return candidate.torque <= usable_; };
     if (usable_ == 0 || std::all_of(all_.begin(), all_.end(), is_within)) return;
     constexpr double k_three_digits = 1.01;  // the radius is rounded
-    const double reduction = k_three_digits * k_friction * torque_of(joint_) / usable_;
     const double widest = k_widest_drum_for_features * joint_.joint.R;
     for (double wider = std::min(rho, widest); wider > 0; wider = std::min(1.35 * wider, widest)) {
-      const double r1 = std::min(std::floor(1e3 * wider / reduction) / 1e3, largest_);
-      const double turn = span_ * wider / r1;
-      const bool is_possible = r1 >= std::max(bend_, 0.5 * joint_.tendon.diameter + 1.0);
-      if (is_possible && !(requirements_.travel > 0 && turn > 0.95 * requirements_.travel))
-        add_drum_with(wider, r1,
-                      turn > k_one_turn ? "a drum on the joint, several turns of the pulley" : "a drum on the joint");
+      for (const double friction : {k_friction, k_much_friction}) {
+        const double reduction = k_three_digits * friction * torque_of(joint_) / usable_;
+        const double r1 = std::min(std::floor(1e3 * wider / reduction) / 1e3, largest_);
+        const double turn = span_ * wider / r1;
+        const bool is_possible = r1 >= std::max(bend_, 0.5 * joint_.tendon.diameter + 1.0);
+        if (is_possible && !(requirements_.travel > 0 && turn > 0.95 * requirements_.travel))
+          add_drum_with(wider, r1,
+                        turn > k_one_turn ? "a drum on the joint, several turns of the pulley" : "a drum on the joint");
+      }
       if (wider == widest) break;
     }
     std::stable_partition(all_.begin(), all_.end(), is_within);

@@ -160,7 +160,7 @@ TEST(Reader, ReadsMotor) {
   const DeclaredMechanism m = parse_mechanism(
       motor("model = \"MG996R\"\ntravel_deg = 120\nspeed_rpm = 55\njoint_speed_deg_per_s = 90\nenforce = true\n"),
       "f.toml");
-  EXPECT_EQ(m.motor, (Motor{"MG996R", radians(120), 0, radians(330), radians(90), true}));
+  EXPECT_EQ(m.motor, (Motor{"MG996R", radians(120), 0, radians(330), 1, 0.9, radians(90), true}));
   EXPECT_THAT(write_mechanism(m), HasSubstr("speed_deg_per_s = 330\n"));
   EXPECT_EQ(parse_mechanism(write_mechanism(m), "g.toml"), m);
   EXPECT_THAT(only_error(motor("model = \"mg996r\"\n")), HasSubstr("did you mean \"MG996R\"?"));
