@@ -39,6 +39,10 @@ constexpr std::array<std::string_view, 14> k_force_words = {"force",  "kraft",  
                                                             "kracht", "weight", "gewicht", "peso",   "poids",
                                                             "mass",   "masse",  "torque",  "payload"};
 
+/// Columns that `fusee simulate` writes beside those of a log.
+constexpr std::array<std::string_view, 6> k_simulated_columns = {
+    "motor_torque_Nmm", "tension1_joint_N", "tension2_joint_N", "loose_deg", "joint_deg", "status"};
+
 template <typename Words>
 bool is_one_of(const Words& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -253,10 +257,12 @@ class ColumnFinder {
                                    : ", and the load of the file, " + rounded(options_.tip_force, 3) + " N, is assumed";
   }
 
+  /// Lists the columns without a role, except those that no person wrote.
   void list_unused() {
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const auto is_this = [&](const Column& column) { return column.index == i; };
-      if (names_[i].empty() || is_ros_name(names_[i]) || noted_.count(i) > 0) continue;
+      const bool is_expected = is_ros_name(names_[i]) || is_one_of(k_simulated_columns, names_[i]);
+      if (names_[i].empty() || is_expected || noted_.count(i) > 0) continue;
       if (std::none_of(header_.columns.begin(), header_.columns.end(), is_this)) header_.unused.push_back(names_[i]);
     }
   }
