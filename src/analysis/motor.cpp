@@ -191,7 +191,7 @@ std::string MotorCheck::models_text() const {
   const bool is_named = !strongest_model.empty();
   std::string text = "suitable: ";
   for (std::size_t i = 0; i < shown; ++i) {
-    text += i == 0 ? "" : ", ";
+    text += i == 0 ? "" : is_named && i == fitting_models ? "; " : ", ";
     if (is_named && i == fitting_models) text = (i == 0 ? "suitable " : text) + "with another bore: ";
     text += sufficient_models[i];
     if (torque.value > 0)

@@ -87,7 +87,7 @@ std::string motor_lines(const analysis::UnderLoad& load, std::size_t column) {
   if (motor.speed_limit > 0) text += titled("", speed_text(motor), column);
   if (const std::string strongest = motor.strongest_text(); !strongest.empty()) text += titled("", strongest, column);
   text += titled("", motor.models_text(), column);
-  return text + titled("", "suitable: torque margin 2 or more, 1 or more for a motor that holds its torque", column);
+  return text + titled("", "margin of suitable motors: 2 or more, 1 or more if they hold their torque", column);
 }
 
 }  // namespace fusee::cli
