@@ -1,13 +1,17 @@
 # fusee_embed(<target> HEADER <header> FILES <files>): compiles text files into <target>.
 #
 # <header>, as it is included, declares a `const std::string_view` in fusee::embedded for each file, named after it
-# ("page.css" → page_css). Bytes, not string literals: compilers limit the length of those.
+# ("page.css" → page_css). Lines of a script that are only a comment are left out. Bytes, not string literals: compilers limit the length of those.
 function(fusee_embed target)
   cmake_parse_arguments(EMBED "" "HEADER" "FILES" ${ARGN})
   set(definitions "")
   foreach(file IN LISTS EMBED_FILES)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
-    file(READ ${file} hex HEX)
+    file(READ ${file} text)
+    if(file MATCHES "\\.js$")
+      string(REGEX REPLACE "(^|\n)( *// [^\n]*\n)+" "\\1" text "${text}")
+    endif()
+    string(HEX "${text}" hex)
     string(LENGTH "${hex}" digits)
     math(EXPR size "${digits} / 2")
     string(REGEX REPLACE "(..)" "'\\\\x\\1'," bytes "${hex}")

@@ -81,7 +81,7 @@ void add_models(MotorCheck& need, const Mechanism& mechanism, const std::vector<
   if (const MotorModel* strongest = strongest_motor_that_fits(mechanism.body)) need.strongest_model = strongest->name;
 }
 
-/// True if a bore without a name has the diameter of one of the model's shafts.
+/// True if a bore that names no shaft has the diameter of one of the model's shafts.
 bool has_diameter_of_shaft(const Body& body, const MotorModel& model) {
   constexpr double k_usual_bore = 5.0, k_same = 0.01;  // mm
   if (find_shaft(body.shaft) != nullptr || body.bore == Bore::horn) return false;

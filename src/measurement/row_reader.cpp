@@ -86,9 +86,10 @@ std::string_view without_brackets(std::string_view cell) {
 /// Bytes that do not belong to the text: zero bytes of a log that was not closed, and the end mark of DOS.
 constexpr std::string_view k_padding{"\0\x1A", 2};
 
-/// The first of the usual separators that the line contains; a comma if it has none.
+/// The likely separator of a line; a comma if it has none. A semicolon or tab comes first, since commas may be decimal
+/// marks beside it.
 char separator_of(std::string_view line) {
-  for (const char separator : k_separators) {
+  for (const char separator : {';', '\t', ',', ' '}) {
     if (line.find(separator) != std::string_view::npos) return separator;
   }
   return ',';

@@ -186,8 +186,8 @@ class Candidates {
     }
   }
 
-  /// Where a candidate asks too much of the motor: wider drums and smaller pulleys that do not, with several turns where
-  /// one is not enough. Candidates within the motor's torque come first.
+  /// If a candidate requires too much of the motor, adds wider drums and smaller pulleys that do not, with several turns
+  /// if one is not enough. Candidates within the motor's torque come first.
   void prefer_motor(double rho) {
     const auto is_within = [this](const Candidate& candidate) { return candidate.torque <= usable_; };
     if (usable_ == 0 || std::all_of(all_.begin(), all_.end(), is_within)) return;
@@ -352,7 +352,7 @@ std::optional<std::string> build_layout(const LayoutRequirements& needs, ChosenL
 
 /// Rounded up to two digits.
 double rounded_up(double value) {
-  const double step = elementary::pow(10.0, std::floor(std::log10(value)) - 1);
+  const double step = elementary::pow(10.0, std::floor(elementary::log10(value)) - 1);
   return std::stod(rounded(std::ceil(value / step - 1e-9) * step, 2));
 }
 

@@ -31,7 +31,7 @@ const std::vector<Formula> k_formulas = {
     {"binning", R"(\bstruct\s+Bins\b)", "src/measurement/value_range.h"},
     {"median", R"(\bmedian\w*\(std::vector<double>\s+\w+\)\s*\{)", ""},
     // The character itself is in quotes, which are blanked here.
-    {"progress_bar", R"(std::string\(k_places - full)", "src/cli/"},
+    {"progress_bar", R"(std::string\(k_width - full)", "src/cli/"},
 };
 
 /// "src/transmission/load.cpp:15": every occurrence in code.

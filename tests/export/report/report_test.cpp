@@ -209,6 +209,10 @@ TEST(Report, BannerReportsLoadAndMotor) {
   EXPECT_THAT(numbers, HasSubstr("MG996R"));
   EXPECT_THAT(numbers, HasSubstr("° of 180° "));
   mechanism.motor.model = "XM430-W210";
+  mechanism.tendon.pretension = 40;  // keeps both tendons taut
+  product.under_load = analysis::under_load(mechanism);
+  EXPECT_THAT(report_html(product), HasSubstr("verdict noted")) << "the bore does not fit the motor";
+  mechanism.motor.gear_ratio = 1.1;  // the gearbox's shaft is the bore's
   product.under_load = analysis::under_load(mechanism);
   EXPECT_THAT(report_html(product), HasSubstr("verdict good"));
 }
