@@ -184,7 +184,7 @@ std::string MotorCheck::strongest_text() const {
 }
 
 std::string MotorCheck::models_text() const {
-  constexpr std::size_t k_shown = 4;
+  constexpr std::size_t k_shown = 3;
   if (sufficient_models.empty()) return "no motor of the catalogue suffices";
   const std::size_t shown = std::min(sufficient_models.size(), k_shown);
   // A bore that no model is named for excludes none.
