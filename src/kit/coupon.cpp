@@ -53,23 +53,25 @@ SlabBody coupon_body(const Mechanism& mechanism) {
 
 std::vector<CouponReading> coupon_readings(const Mechanism& mechanism) {
   const std::string shaft = rounded(tried_shaft(mechanism)), tendon = rounded(tried_tendon(mechanism));
-  // The coupon's steps are metric; in an inch file a length in mm is a text with its unit.
-  const std::string in_mm = mechanism.units == LengthUnit::inch ? ", as a text such as \"0.3 mm\"" : "";
+  // Pages of an inch file convert numbers that have the unit mm.
+  const std::string mm = mechanism.units == LengthUnit::inch ? " mm" : "";
   return {
       {"upper row: holes of " + shaft + " mm and 0.1 mm more each",
        "the number of the first hole that a shaft of " + shaft + " mm enters by hand",
-       "material.hole_compensation_mm = 0.1 × that number" + in_mm},
+       "material.hole_compensation_mm = 0.1" + mm + " × that number"},
       {"middle row: grooves of " + rounded(tried_tendon(mechanism) + k_step) + " mm and 0.1 mm more each",
        "the number of the first groove that the tendon (" + tendon + " mm) runs through freely",
-       "body.anchor_hole_mm = " + rounded(tried_tendon(mechanism) + k_step) + " + 0.1 × that number" + in_mm},
+       "body.anchor_hole_mm = " + rounded(tried_tendon(mechanism) + k_step) + mm + " + 0.1" + mm + " × that number"},
       {"lower row: pegs in their holes, 0.1 mm of clearance and 0.1 mm more each",
        "the number of the first peg that turns when pushed",
-       "above 3: the printer squeezes too much. Lower its flow first; then material.hole_compensation_mm 0.1 larger"},
+       std::string(
+           "above 3: the printer squeezes too much. Lower its flow first; then material.hole_compensation_mm 0.1") +
+           mm + " larger"},
       {"its length, across the middle of its height",
        "measured with a caliper: " + rounded(k_length) + " mm is nominal",
-       "material.shrinkage_percent = 100 × (1 − measured / " + rounded(k_length) + ")"},
+       "material.shrinkage_percent = 100 × (1 − measured / " + rounded(k_length) + mm + ")"},
       {"its width at the bed and at its upper face", "both, with a caliper",
-       "material.elephant_foot_mm = half of the additional width at the bed" + in_mm}};
+       "material.elephant_foot_mm = half of the additional width at the bed"}};
 }
 
 }  // namespace fusee::kit

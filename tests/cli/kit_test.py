@@ -57,7 +57,12 @@ class Kit(harness.Scratch):
         bill = files["bom.csv"].decode()
         self.assertNotRegex(bill, r"\d mm")
         self.assertRegex(bill, r"#4-40 × [\d /]+ in with low head")
-        self.assertNotRegex(re.sub(r"<style.*?</style>", "", files["kit.html"].decode(), flags=re.S), "\\d[ \u00a0]mm")
+        page = re.sub(r"<style.*?</style>", "", files["kit.html"].decode(), flags=re.S).replace("\u00a0", " ")
+        self.assertNotRegex(page, r"\d mm")
+        # The coupon's steps are 0.1 mm.
+        self.assertRegex(page, r"body\.anchor_hole_mm = [\d.]+ in \+ 0\.00394 in × that number")
+        self.assertIn("material.hole_compensation_mm 0.00394 in larger", page)
+        self.assertIn("(1 − measured / 3.15 in)", page)
 
     def test_is_reproducible(self):
         self.expect("kit arm.toml -o one", 0)
