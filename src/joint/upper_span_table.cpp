@@ -63,13 +63,13 @@ UpperSpanTable::UpperSpanTable(const transmission::PinPlace& place, double least
                                const PathError& longer) {
   if (const auto leaves = transmission::lift_off(place); leaves && *leaves > least) {
     // The free branch begins slightly beyond, with its own slopes.
-    constexpr double k_beyond = 1e-12;  // rad
+    constexpr double k_past_lift_off = 1e-12;  // rad
     on_drum_until_ = std::min(*leaves, most);
     on_drum_ = transmission::upper_span(place, least);
     on_drum_from_ = least;
     wound_up_ = on_drum_.on_drum + on_drum_.normal + least;
-    if (place.drum_offset != 0) over_drum_ = pieces(place, least, on_drum_until_ - k_beyond, longer);
-    least = *leaves + k_beyond;
+    if (place.drum_offset != 0) over_drum_ = pieces(place, least, on_drum_until_ - k_past_lift_off, longer);
+    least = *leaves + k_past_lift_off;
     if (least >= most) return;
   }
   free_ = pieces(place, least, most, longer);
