@@ -30,4 +30,10 @@ std::vector<NestedPlace> nest(const std::vector<Vec2>& sizes, const Vec2& sheet,
   return places;
 }
 
+int sheet_count(const std::vector<NestedPlace>& places) {
+  int count = 1;
+  for (const NestedPlace& place : places) count = std::max(count, place.sheet + 1);
+  return count;
+}
+
 }  // namespace fusee::formats

@@ -7,6 +7,11 @@
 
 namespace fusee::formats {
 
+Polygon shifted(Polygon points, const Vec2& shift) {
+  for (Vec2& point : points) point += shift;
+  return points;
+}
+
 Polygon rectangle(const Vec2& low, const Vec2& high) { return {low, {high.x(), low.y()}, high, {low.x(), high.y()}}; }
 
 Polygon circle_polygon(const Vec2& centre, double radius) {

@@ -12,6 +12,7 @@
 
 namespace fusee::formats {
 
+Polygon shifted(Polygon points, const Vec2& shift);
 /// The axis-aligned rectangle with the corners `low` and `high`, counter-clockwise.
 Polygon rectangle(const Vec2& low, const Vec2& high);
 /// A circle as a regular polygon, counter-clockwise, with its corners *on* the circle; sagitta at most 0.002 mm, at

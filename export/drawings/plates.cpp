@@ -373,12 +373,10 @@ void lay_on_sheets(Plates& plates, const Cut& cut) {
   sizes.push_back(bounding_box(check_square(cut.kerf)).size());
   choose_sheet(plates, cut, sizes, gap);
   const std::vector<NestedPlace> places = nest(sizes, plates.sheet, gap);
-  const auto corner = [&](const NestedPlace& place) {
-    return Vec2(place.corner + Vec2(place.sheet * (plates.sheet.x() + k_sheet_gap), 0));
-  };
-  for (std::size_t i = 0; i < plates.placed.size(); ++i) plates.placed[i].shift = corner(places[i]) + axes[i];
-  plates.check_square = corner(places.back());
-  for (const NestedPlace& place : places) plates.sheets = std::max(plates.sheets, place.sheet + 1);
+  for (std::size_t i = 0; i < plates.placed.size(); ++i)
+    plates.placed[i].shift = corner_on_drawing(places[i], plates.sheet) + axes[i];
+  plates.check_square = corner_on_drawing(places.back(), plates.sheet);
+  plates.sheets = sheet_count(places);
 }
 
 }  // namespace

@@ -47,8 +47,6 @@ struct Plates {
   std::vector<std::string> notes;    ///< the role of the plates, and omitted features
 };
 
-inline constexpr double k_sheet_gap = 20;  // mm
-
 /// Number of plates of this thickness that make at least `height`, at least one.
 int plates_for(double height, double thickness);
 

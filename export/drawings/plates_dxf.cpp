@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "export/drawings/dxf_writer.h"
+#include "export/drawings/nesting.h"
 #include "export/drawings/plane_shapes.h"
 #include "export/drawings/plates.h"
 #include "export/drawings/sheet_notes.h"
@@ -13,14 +14,9 @@
 namespace fusee::formats {
 namespace {
 
-Polygon shifted(Polygon points, const Vec2& shift) {
-  for (Vec2& p : points) p += shift;
-  return points;
-}
-
 void add_sheets(DxfDocument& drawing, const Plates& plates) {
   for (int i = 0; i < plates.sheets; ++i) {
-    const Vec2 corner(i * (plates.sheet.x() + k_sheet_gap), 0);
+    const Vec2 corner = sheet_corner(i, plates.sheet);
     drawing.add_closed("SHEET", rectangle(corner, corner + plates.sheet));
   }
 }

@@ -20,18 +20,6 @@ std::size_t characters_in(double width) {
   return count;
 }
 
-/// Takes the first line of at most `most` characters from a text: up to a blank if there is one.
-std::string_view take_line(std::string_view& text, std::size_t most) {
-  std::size_t end = text.size();
-  if (end > most) {
-    const std::size_t blank = text.rfind(' ', most);
-    end = blank == std::string_view::npos || blank == 0 ? most : blank;
-  }
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(end < text.size() && text[end] == ' ' ? end + 1 : end);
-  return line;
-}
-
 }  // namespace
 
 Polygon check_square(double kerf) { return rectangle({0, 0}, Vec2::Constant(10 + kerf)); }
@@ -45,11 +33,13 @@ void add_sheet_notes(DxfDocument& drawing, const std::vector<std::string>& notes
   const std::size_t most = characters_in(sheet_width);
   double y = -k_below_sheet - k_text_height;
   for (const std::string& note : notes) {
-    std::string_view rest = note;
-    do {
-      drawing.add_text("NOTES", take_line(rest, most), {0, y}, k_text_height);
+    const std::string lines = wrapped(note, "", "", most);
+    for (std::size_t begin = 0; begin < lines.size();) {
+      const std::size_t end = lines.find('\n', begin);
+      drawing.add_text("NOTES", lines.substr(begin, end - begin), {0, y}, k_text_height);
       y -= k_line_pitch;
-    } while (!rest.empty());
+      begin = end + 1;
+    }
   }
 }
 

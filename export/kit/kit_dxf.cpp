@@ -8,6 +8,7 @@
 #include "export/drawings/cut_shapes.h"
 #include "export/drawings/dxf_writer.h"
 #include "export/drawings/nesting.h"
+#include "export/drawings/plane_shapes.h"
 #include "export/drawings/plates.h"
 #include "export/drawings/sheet_notes.h"
 #include "export/drawings/stroke_font.h"
@@ -130,12 +131,10 @@ class KitSheets {
     sizes.push_back(bounding_box(check_square(cut.kerf)).size());
     sheet_ = sheet_.cwiseMax(sizes.back() + Vec2(2 * k_sheet_margin, 2 * k_sheet_margin));
     const std::vector<NestedPlace> places = nest(sizes, sheet_, k_sheet_margin);
-    const auto corner = [this](const NestedPlace& place) {
-      return Vec2(place.corner + Vec2(place.sheet * (sheet_.x() + k_sheet_gap), 0));
-    };
-    for (std::size_t i = 0; i < placed_.size(); ++i) placed_[i].shift = corner(places[i]) - boxes[i].low;
-    check_square_ = corner(places.back());
-    for (const NestedPlace& place : places) count_ = std::max(count_, place.sheet + 1);
+    for (std::size_t i = 0; i < placed_.size(); ++i)
+      placed_[i].shift = corner_on_drawing(places[i], sheet_) - boxes[i].low;
+    check_square_ = corner_on_drawing(places.back(), sheet_);
+    count_ = sheet_count(places);
   }
 
   const std::vector<ShiftedPlate>& placed() const { return placed_; }
@@ -144,7 +143,7 @@ class KitSheets {
   double width() const { return sheet_.x(); }
   void draw(DxfDocument& drawing) const {
     for (int i = 0; i < count_; ++i) {
-      const Vec2 corner(i * (sheet_.x() + k_sheet_gap), 0);
+      const Vec2 corner = sheet_corner(i, sheet_);
       drawing.add_closed("SHEET", rectangle(corner, corner + sheet_));
     }
   }
@@ -155,11 +154,6 @@ class KitSheets {
   std::vector<ShiftedPlate> placed_;
   Vec2 check_square_ = Vec2::Zero();
 };
-
-Polygon moved(Polygon points, const Vec2& shift) {
-  for (Vec2& point : points) point += shift;
-  return points;
-}
 
 std::vector<std::string> remarks_of(const KitProduct& product, const std::vector<KitPlate>& plates) {
   const Mechanism& mechanism = product.pulley.joint.mechanism;
@@ -194,7 +188,7 @@ std::string kit_dxf(const KitProduct& product, DxfVersion version) {
     if (const auto corner = label_corner(*plate))
       drawing.add_text("ENGRAVE", plate->label, *corner + shift, k_note_height);
   }
-  drawing.add_closed("CHECK_10MM", moved(check_square(cut.kerf), sheets.check_square_corner()));
+  drawing.add_closed("CHECK_10MM", shifted(check_square(cut.kerf), sheets.check_square_corner()));
   for (const auto& [plate, shift] : sheets.placed()) {
     for (const kit::DiscHull& hole : plate->holes) {
       if (smallest_width(hole) - cut.kerf >= k_least_cut)
@@ -202,7 +196,7 @@ std::string kit_dxf(const KitProduct& product, DxfVersion version) {
     }
   }
   for (const auto& [plate, shift] : sheets.placed())
-    drawing.add_closed("CUT_OUTER", moved(kit::outline_of(plate->rim, 0.5 * cut.kerf), shift));
+    drawing.add_closed("CUT_OUTER", shifted(kit::outline_of(plate->rim, 0.5 * cut.kerf), shift));
   sheets.draw(drawing);
   add_sheet_notes(drawing, drawing.remarks, sheets.width());
   return dxf_text(drawing, version);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 
 #include "base/text.h"
 #include "export/report/analysis.h"
@@ -18,6 +17,7 @@
 #include "export/report/under_load.h"
 #include "fusee/base.h"
 #include "mechanism/lengths.h"
+#include "transmission/torque.h"
 
 namespace fusee::formats {
 namespace {
@@ -59,16 +59,11 @@ PlotAxis axis_of(const std::string& label, const std::string& unit, double least
   return {label, unit, {}, {}, least_span};
 }
 
-/// The torque that law = torque wants at a joint angle; between two rows of its table, along a straight line.
-double wanted_torque(const PulleyDrive& drive, double theta) {
-  const std::vector<TorqueRow>& rows = drive.torque_rows;
-  if (rows.empty()) return drive.motor_torque;
-  const auto above =
-      std::find_if(rows.begin(), rows.end(), [theta](const TorqueRow& row) { return row.theta >= theta; });
-  if (above == rows.begin() || above == rows.end())
-    return above == rows.end() ? rows.back().torque : rows.front().torque;
-  const TorqueRow& below = *std::prev(above);
-  return below.torque + (above->torque - below.torque) * (theta - below.theta) / (above->theta - below.theta);
+std::vector<Vec2> wanted_torque_points(const analysis::AnalysisResult& result, const Mechanism& mechanism) {
+  std::vector<double> thetas;
+  for (const analysis::AnalysisRow& row : result.rows) thetas.push_back(row.declared.theta);
+  std::vector<double> torques = transmission::wanted_torques(mechanism, thetas);
+  return over_rows(result, [next = torques.begin()](const auto&) mutable { return *next++; });
 }
 
 /// With law = torque, the wanted torque is drawn, and the axis is no narrower than half of it: a nearly constant torque
@@ -78,8 +73,7 @@ Plot torque_plot(const analysis::AnalysisResult& result, const Mechanism& mechan
   torque.series = {{"α growing", Ink::main, over_rows(result, [](const auto& r) { return r.rising.motor_torque; })},
                    {"α falling", Ink::p2, over_rows(result, [](const auto& r) { return r.falling.motor_torque; })}};
   if (mechanism.pulley.law != Law::torque) return torque;
-  const std::vector<Vec2> wanted =
-      over_rows(result, [&](const auto& r) { return wanted_torque(mechanism.pulley, r.declared.theta); });
+  const std::vector<Vec2> wanted = wanted_torque_points(result, mechanism);
   torque.series.push_back({"wanted", Ink::third, wanted});
   for (const Vec2& point : wanted) torque.y.least_span = std::max(torque.y.least_span, 0.5 * std::abs(point.y()));
   return torque;

@@ -66,10 +66,8 @@ std::string cause_table_section(const CalibrationProduct& product) {
                       html_table({titles[0], titles[1], titles[2], std::string("#") + titles[3], titles[4]}, rows));
 }
 
-/// The section, closed until its title is clicked. What to do, and the picture of the errors, begin open.
-std::string folded(const std::string& section) {
-  const bool is_open =
-      section.find("id=\"actions\"") != std::string::npos || section.find("id=\"residuals\"") != std::string::npos;
+/// The section under a title that opens and closes it.
+std::string folded(const std::string& section, bool is_open = false) {
   const std::size_t title = section.find("<h2>"), end = section.find("</h2>");
   if (title == std::string::npos) return section;
   return section.substr(0, title) + (is_open ? "<details open=\"open\">" : "<details>") + "<summary><h2>" +
@@ -426,11 +424,11 @@ std::string calibration_report_html(const CalibrationProduct& product) {
             .styles = {embedded::figure_css, embedded::page_css, embedded::calibration_css},
             .scripts = {embedded::readout_js, joint_script(product.file.mechanism)}};
   if (calibration.verdict != calibration::CalibrationVerdict::not_testable) {
-    for (const std::string& section :
-         {summary_section(calibration), action_section(product), key_numbers(product), effects_section(product),
-          moving_section(product), residuals_section(product), remainder_section(product), figures_section(product),
-          evidence_section(calibration), detectable_section(calibration)})
-      page.body += folded(section);
+    page.body += folded(summary_section(calibration)) + folded(action_section(product), true) +
+                 folded(key_numbers(product)) + folded(effects_section(product)) + folded(moving_section(product)) +
+                 folded(residuals_section(product), true) + folded(remainder_section(product)) +
+                 folded(figures_section(product)) + folded(evidence_section(calibration)) +
+                 folded(detectable_section(calibration));
   } else if (!calibration.next.empty()) {
     page.body += html_section("actions", "Measure next", html_list(next_texts(calibration), "ol", "next"));
   }

@@ -13,16 +13,16 @@
   const unit = a => [Math.cos(a), Math.sin(a)];
   const turned = (p, a) => { const c = Math.cos(a), s = Math.sin(a); return [c * p[0] - s * p[1], s * p[0] + c * p[1]]; };
   const add = (p, q, k = 1) => [p[0] + k * q[0], p[1] + k * q[1]];
-  // The same direction within half a turn of 0.
+  // Turns an angle by whole turns, to within half a turn of 0.
   const nearest_to_zero = a => a - 2 * Math.PI * Math.round(a / (2 * Math.PI));
 
-  // Where α lies in the stroke's table: index i of the interval, and the fraction u of it, 0 to 1.
+  // Finds the interval of α in the stroke's table: its index i, and the fraction u of it, 0 to 1.
   const interval_at = alpha => {
     let low = 0, high = count - 1;
     while (high - low > 1) { const middle = low + high >> 1; if (data.alpha[middle] <= alpha) low = middle; else high = middle; }
     return { i: low, u: Math.max(0, Math.min(1, (alpha - data.alpha[low]) / (data.alpha[high] - data.alpha[low]))) };
   };
-  // The same for the few values of another slider. A single value makes no interval.
+  // Finds the interval of another slider, which has few values. A single value makes no interval.
   const interval_of = (knots, x) => {
     let i = 0;
     while (i < knots.length - 2 && knots[i + 1] < x) i++;

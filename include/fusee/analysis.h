@@ -121,7 +121,9 @@ struct MotorCheck {
   /// the catalogue has none that fits.
   std::string strongest_text() const;
   /// "suitable: XL330-M288 (margin 2.4) or 12 more", "suitable with another bore: …", "no motor of the catalogue
-  /// suffices". The margin is that of the torque.
+  /// suffices". Models with another bore are a text of their own. The margin is that of the torque.
+  std::vector<std::string> models_texts() const;
+  /// models_texts() in one line.
   std::string models_text() const;
 };
 

@@ -279,6 +279,8 @@ struct OuterSize {
   double height = 0;
 };
 OuterSize outer_size(const Pulley& pulley);
+/// Diameter of a mesh about the z axis, mm; 0 without vertices.
+double diameter_about_axis(const TriangleMesh& mesh);
 
 /// The parts to print: the whole, or P1 and P2 side by side.
 TriangleMesh plate_of(const Pulley& pulley);

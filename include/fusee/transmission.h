@@ -237,6 +237,7 @@ class Transmission {
   struct TableLaw;
   struct TorqueLaw;
   friend TorqueMatch tightest_torque(const Mechanism& mechanism);
+  friend std::vector<double> wanted_torques(const Mechanism& mechanism, const std::vector<double>& thetas);
   TransmissionPoint at(double alpha, double theta) const;
   double planar_theta(double alpha) const;
   double planar_alpha(double theta) const;

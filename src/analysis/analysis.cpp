@@ -232,9 +232,8 @@ std::optional<Strength> likely_strength(const Tendon& tendon) {
     least = factor;
   }
   if (nearest == nullptr) return std::nullopt;
-  const double diameter_ratio = tendon.diameter / nearest->diameter;
   return with_knots(
-      nearest->breaking_strength * diameter_ratio * diameter_ratio, tendon,
+      strength_by_section(*nearest, tendon.diameter), tendon,
       "an estimate from " + nearest->name + " of the catalogue by its section; tendon.strength_N is not set");
 }
 

@@ -10,9 +10,6 @@
 namespace fusee::analysis {
 namespace {
 
-/// Stall torque per required torque that is advised for a motor that cannot hold its stall torque. An STS3215 held half
-/// of it for an hour (TheRobotStudio/SO-ARM100, issue 134).
-constexpr double k_advised_margin = 2.0;
 /// Rounding may put a range above a limit that equals it.
 constexpr double k_rounding = 1e-9;
 
@@ -54,12 +51,10 @@ Extreme lowest_joint_speed(const MotorModel& motor, const std::vector<Demand>& a
   return lowest;
 }
 
-double advised_margin(const MotorModel& model) { return model.holds ? 1.0 : k_advised_margin; }
-
 /// True if the model has the required travel, torque and speed.
 bool suffices(const MotorModel& model, const MotorCheck& need, const std::vector<Demand>& all) {
   if (model.travel > 0 && model.travel < need.travel * (1 - k_rounding)) return false;
-  if (model.stall_torque < advised_margin(model) * need.torque.value) return false;
+  if (model.stall_torque < model.advised_margin() * need.torque.value) return false;
   return need.joint_speed_needed == 0 ||
          (model.speed > 0 && lowest_joint_speed(model, all, true).value >= need.joint_speed_needed * (1 - k_rounding));
 }
@@ -177,28 +172,40 @@ std::string hint_of(const MotorCheck& motor) {
 
 std::string MotorCheck::strongest_text() const {
   const MotorModel* strongest = find_motor_model(strongest_model);
-  if (strongest == nullptr || !(strongest->stall_torque < advised_margin(*strongest) * torque.value)) return "";
+  if (strongest == nullptr || !(strongest->stall_torque < strongest->advised_margin() * torque.value)) return "";
   return strongest->name + ", the strongest that fits the bore, has margin " +
-         rounded(strongest->stall_torque / torque.value, 3) + ", and " + rounded(advised_margin(*strongest)) +
+         rounded(strongest->stall_torque / torque.value, 3) + ", and " + rounded(strongest->advised_margin()) +
          " is advised";
 }
 
-std::string MotorCheck::models_text() const {
+std::vector<std::string> MotorCheck::models_texts() const {
   constexpr std::size_t k_shown = 3;
-  if (sufficient_models.empty()) return "no motor of the catalogue suffices";
+  if (sufficient_models.empty()) return {"no motor of the catalogue suffices"};
   const std::size_t shown = std::min(sufficient_models.size(), k_shown);
   // A bore that no model is named for excludes none.
-  const bool is_named = !strongest_model.empty();
-  std::string text = "suitable: ";
-  for (std::size_t i = 0; i < shown; ++i) {
-    text += i == 0 ? "" : is_named && i == fitting_models ? "; " : ", ";
-    if (is_named && i == fitting_models) text = (i == 0 ? "suitable " : text) + "with another bore: ";
-    text += sufficient_models[i];
-    if (torque.value > 0)
-      text += " (margin " + rounded(find_motor_model(sufficient_models[i])->stall_torque / torque.value, 3) + ")";
-  }
-  if (shown == sufficient_models.size()) return text;
-  return text + " or " + std::to_string(sufficient_models.size() - shown) + " more";
+  const std::size_t fitting = strongest_model.empty() ? shown : std::min(fitting_models, shown);
+  const auto list = [this](std::size_t begin, std::size_t end) {
+    std::string text;
+    for (std::size_t i = begin; i < end; ++i) {
+      text += (i == begin ? "" : ", ") + sufficient_models[i];
+      if (torque.value > 0)
+        text += " (margin " + rounded(find_motor_model(sufficient_models[i])->stall_torque / torque.value, 3) + ")";
+    }
+    return text;
+  };
+  std::vector<std::string> texts;
+  if (fitting > 0) texts.push_back("suitable: " + list(0, fitting));
+  if (fitting < shown)
+    texts.push_back((fitting > 0 ? "with another bore: " : "suitable with another bore: ") + list(fitting, shown));
+  if (shown < sufficient_models.size())
+    texts.back() += " or " + std::to_string(sufficient_models.size() - shown) + " more";
+  return texts;
+}
+
+std::string MotorCheck::models_text() const {
+  std::string text;
+  for (const std::string& part : models_texts()) text += (text.empty() ? "" : "; ") + part;
+  return text;
 }
 
 MotorCheck travel_check(const Mechanism& mechanism, double travel) {

@@ -631,8 +631,7 @@ Answer<TypedTendon> read_tendon(std::string_view typed, LengthUnit plain) {
     return ratio_above_one(one->diameter, d) < ratio_above_one(other->diameter, d);
   });
   const bool is_entry = std::abs(nearest.diameter - d) < 0.005;  // mm
-  const double thicker = d / nearest.diameter;
-  const double strength = is_entry ? 0 : std::round(nearest.breaking_strength * thicker * thicker);
+  const double strength = is_entry ? 0 : std::round(strength_by_section(nearest, d));
   return TypedTendon{
       d, nearest.modulus, nearest.bend_ratio, strength,
       fmt::format("{} mm, {}{}: {}{}", rounded(d), is_entry ? "" : "of the kind of ", nearest.name, nearest.description,

@@ -201,7 +201,8 @@ Command rewind_command() {
           "file SPEC. A mesh that was moved, turned about its axis or turned over, for\n"
           "example by a slicer, is found by its grooves and moved back, with a note.\n"
           "A mirrored mesh, or one more than 2 % too large or small, is refused; a smaller\n"
-          "difference of size is reported. A pulley of several turns is wound in its present position.",
+          "difference of size is reported. A pulley of several turns is wound in its\n"
+          "present position.",
           options,
           {{"fusee rewind arm.toml out/arm/pulley.stl", "check the mesh"},
            {"fusee rewind arm.toml out/arm/profile.dxf", "check the drawing"},

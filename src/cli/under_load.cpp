@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "cli/table.h"
+#include "mechanism/catalogue.h"
 
 namespace fusee::cli {
 namespace {
@@ -86,12 +87,11 @@ std::string motor_lines(const analysis::UnderLoad& load, std::size_t column) {
                  column);
   if (motor.speed_limit > 0) text += titled("", speed_text(motor), column);
   if (const std::string strongest = motor.strongest_text(); !strongest.empty()) text += titled("", strongest, column);
-  // Models with another bore have a line of their own.
-  const std::string models = motor.models_text();
-  const std::size_t end = models.find("; ");
-  text += titled("", models.substr(0, end), column);
-  if (end != std::string::npos) text += titled("", models.substr(end + 2), column);
-  return text + titled("", "margin of suitable motors: 2 or more, 1 or more if they hold their torque", column);
+  for (const std::string& models : motor.models_texts()) text += titled("", models, column);
+  return text + titled("",
+                       "margin of suitable motors: " + rounded(MotorModel{}.advised_margin()) +
+                           " or more, 1 or more if they hold their torque",
+                       column);
 }
 
 }  // namespace fusee::cli

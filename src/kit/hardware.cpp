@@ -1,8 +1,10 @@
 #include "kit/hardware.h"
 
 #include <cmath>
+#include <optional>
 
 #include "base/text.h"
+#include "mechanism/lengths.h"
 
 namespace fusee::kit {
 
@@ -49,28 +51,25 @@ constexpr std::array<InchLength, 15> k_inch_lengths{{{0.25, "1/4"},
 
 std::string inch_length_words(double length) {
   for (const InchLength& stock : k_inch_lengths) {
-    if (length <= 25.4 * stock.inches) return std::string(stock.words);
+    if (length <= to_mm(stock.inches, LengthUnit::inch)) return std::string(stock.words);
   }
-  return rounded(0.5 * std::ceil(2 * length / 25.4));
+  return rounded(0.5 * std::ceil(2 * from_mm(length, LengthUnit::inch)));
 }
 
 }  // namespace
 
 double stock_rod(double at_least, LengthUnit units) {
   constexpr std::array k_metric{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0};
-  // In sixteenths of an inch.
-  constexpr std::array k_inch{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0};
-  constexpr double k_tolerance = 1e-6;  // mm
-  if (units == LengthUnit::mm) {
-    for (const double rod : k_metric) {
-      if (at_least <= rod + k_tolerance) return rod;
+  constexpr std::array k_inch{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0};  // sixteenths
+  constexpr double k_tolerance = 1e-6;                                       // mm
+  const auto thick_enough = [&](const auto& rods, double unit) -> std::optional<double> {
+    for (const double rod : rods) {
+      if (at_least <= rod * unit + k_tolerance) return rod * unit;
     }
-  } else {
-    for (const double rod : k_inch) {
-      if (at_least <= rod * 25.4 / 16 + k_tolerance) return rod * 25.4 / 16;
-    }
-  }
-  return at_least;
+    return std::nullopt;
+  };
+  const auto rod = units == LengthUnit::mm ? thick_enough(k_metric, 1) : thick_enough(k_inch, to_mm(1, units) / 16);
+  return rod.value_or(at_least);
 }
 
 std::string screw_words(const Thread& thread, double length) {

@@ -240,16 +240,21 @@ class ColumnFinder {
     const auto has_role = [&](const Column& column) { return column.role == "load"; };
     if (std::any_of(header_.columns.begin(), header_.columns.end(), has_role)) return;
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      const auto is_this = [&](const Column& column) { return column.index == i; };
       const ColumnName name = parse_column_name(names_[i], Quantity::load);
       const bool is_word = is_one_of(k_load_words, name.base) || is_one_of(k_force_words, name.base);
       if ((name.unit == nullptr && !is_word) || name.base.empty()) continue;
-      if (std::any_of(header_.columns.begin(), header_.columns.end(), is_this)) continue;
+      if (is_used(i)) continue;
       header_.notes.push_back("column " + shown(names_[i]) + " is not used" + assumed_load() +
                               ": if it is the load, add --column load=" + shell_argument(names_[i]) +
                               (name.unit == nullptr ? " --unit load=N, or its unit" : ""));
       noted_.insert(i);
     }
+  }
+
+  /// True if the column has a role.
+  bool is_used(std::size_t index) const {
+    return std::any_of(header_.columns.begin(), header_.columns.end(),
+                       [index](const Column& column) { return column.index == index; });
   }
 
   std::string assumed_load() const {
@@ -260,10 +265,9 @@ class ColumnFinder {
   /// Lists the columns without a role, except those that no person wrote.
   void list_unused() {
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      const auto is_this = [&](const Column& column) { return column.index == i; };
       const bool is_expected = is_ros_name(names_[i]) || is_one_of(k_simulated_columns, names_[i]);
       if (names_[i].empty() || is_expected || noted_.count(i) > 0) continue;
-      if (std::none_of(header_.columns.begin(), header_.columns.end(), is_this)) header_.unused.push_back(names_[i]);
+      if (!is_used(i)) header_.unused.push_back(names_[i]);
     }
   }
 

@@ -216,6 +216,11 @@ const MotorModel* strongest_motor_that_fits(const Body& body) {
   return strongest;
 }
 
+double strength_by_section(const TendonType& type, double diameter) {
+  const double diameter_ratio = diameter / type.diameter;
+  return type.breaking_strength * diameter_ratio * diameter_ratio;
+}
+
 MotorModel motor_limits(const Motor& motor) {
   const MotorModel* known = find_motor_model(motor.model);
   MotorModel limits = known == nullptr ? MotorModel{} : *known;

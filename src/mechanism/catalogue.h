@@ -94,6 +94,10 @@ struct MotorType {
   double head = 0;                                   ///< height of the screws' heads
 };
 
+/// Stall torque per required torque that is advised for a motor that cannot hold its stall torque. An STS3215 held half
+/// of it for an hour (TheRobotStudio/SO-ARM100, issue 134).
+inline constexpr double k_advised_stall_margin = 2.0;
+
 /// A motor by its maker's figures.
 struct MotorModel {
   std::string name;
@@ -104,6 +108,9 @@ struct MotorModel {
   double stall_torque = 0;        ///< N·mm
   double speed = 0;               ///< without load, rad/s; 0: unknown
   bool holds = false;             ///< stall_torque is a continuous torque, given at full speed too
+
+  /// Advised ratio of stall_torque and the torque that is required.
+  double advised_margin() const { return holds ? 1.0 : k_advised_stall_margin; }
 };
 
 /// The entry of a mechanism file of profiles/ in the list of templates.
@@ -127,6 +134,8 @@ const std::vector<TemplateType>& template_types();  ///< in the order of the lis
 const HornType* find_horn(std::string_view name);
 const ShaftType* find_shaft(std::string_view name);
 const MotorModel* find_motor_model(std::string_view name);
+/// Breaking strength of a tendon of this kind with another diameter (mm), by its cross-section, N.
+double strength_by_section(const TendonType& type, double diameter);
 /// The model with the largest torque among those of the body's shaft or horn; null when there is none.
 const MotorModel* strongest_motor_that_fits(const Body& body);
 

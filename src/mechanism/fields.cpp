@@ -398,7 +398,7 @@ void add_motor(std::vector<Field>& table) {
   table.back().is_set = [](const DeclaredMechanism& m) { return m.motor.gear_ratio != 1; };
   table.push_back(number<motor, &Motor::gear_efficiency>(
       {"motor.gear_efficiency", "", "0.9", "share of the torque that the gearbox passes on"}, "", 0.01, 1));
-  table.back().is_set = [](const DeclaredMechanism& m) { return m.motor.gear_efficiency != 0.9; };
+  table.back().is_set = [](const DeclaredMechanism& m) { return m.motor.gear_efficiency != Motor{}.gear_efficiency; };
   add(number<motor, &Motor::joint_speed, degrees_as_read, radians>(
           {"motor.joint_speed_deg_per_s", "", "", "speed that the joint must reach at every angle under [load]"},
           "deg/s", 0.001, 1000000),

@@ -107,7 +107,7 @@ double usable_torque(const Mechanism& mechanism) {
   MotorModel motor = motor_limits(mechanism.motor);
   if (motor.stall_torque == 0)
     if (const MotorModel* strongest = strongest_motor_that_fits(mechanism.body)) motor = *strongest;
-  return motor.holds ? motor.stall_torque : 0.5 * motor.stall_torque;
+  return motor.stall_torque / motor.advised_margin();
 }
 
 /// The candidates for one set of requirements, in order of preference.
@@ -266,13 +266,6 @@ std::optional<std::string> quick_obstacle(const DeclaredMechanism& declared) {
   return of_body.empty() ? std::nullopt : std::optional(of_body.front().message);
 }
 
-/// Diameter of a pulley about its axis, mm.
-double diameter_of(const solid::TriangleMesh& mesh) {
-  double reach = 0;
-  for (const Vec3& vertex : mesh.vertices) reach = std::max(reach, elementary::hypot(vertex.x(), vertex.y()));
-  return 2.0 * reach;
-}
-
 /// A copy with the radius of P1 rounded down to 0.01 mm.
 DeclaredMechanism with_rounded_radius(DeclaredMechanism mechanism) {
   mechanism.pulley.r1 = std::floor(100.0 * mechanism.pulley.r1) / 100.0;
@@ -341,7 +334,7 @@ std::optional<std::string> build_layout(const LayoutRequirements& needs, ChosenL
   layout.built = build(layout.file, options, context.without_progress());
   if (layout.built.status != BuildStatus::done) return first_reason(layout.built).value_or("no pulley can be made");
   const formats::Product& product = layout.built.product;
-  layout.diameter = diameter_of(product.pulley.mesh);
+  layout.diameter = solid::diameter_about_axis(product.pulley.mesh);
   layout.travel = product.synthesis.stroke.back().alpha - product.synthesis.stroke.front().alpha;
   if (layout.diameter > needs.room + 1e-6) return fmt::format("the pulley is {} mm wide", rounded(layout.diameter, 3));
   if (needs.travel > 0 && layout.travel > needs.travel + 1e-9)

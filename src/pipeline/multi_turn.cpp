@@ -65,11 +65,10 @@ std::vector<profile::Condition> faults_of(const Mechanism& mechanism, const heli
     for (Check& check : solid::check_print(mesh, limits)) checks.push_back(std::move(check));
   }
   std::vector<profile::Condition> faults;
-  double reach = 0;
-  for (const Vec3& vertex : mesh.vertices) reach = std::max(reach, vertex.head<2>().norm());
-  if (const profile::Condition room = solid::room_condition(mechanism, 2.0 * reach / pulley.layout.scale);
-      mechanism.body.room > 0 && !room.ok)
-    faults.push_back(room);
+  if (mechanism.body.room > 0) {
+    const double diameter = solid::diameter_about_axis(mesh) / pulley.layout.scale;
+    if (const profile::Condition room = solid::room_condition(mechanism, diameter); !room.ok) faults.push_back(room);
+  }
   for (const Check& check : checks) {
     if (check.ok) continue;
     profile::Condition fault;

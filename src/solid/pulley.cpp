@@ -603,12 +603,16 @@ Pulley make_pulley(const Mechanism& mechanism, const profile::SynthesisResult& s
   return search_printable_tie_offs(mechanism, synthesis, k_wide_lean, Corners::squared, Effort{});
 }
 
+double diameter_about_axis(const TriangleMesh& mesh) {
+  double reach = 0;
+  for (const Vec3& vertex : mesh.vertices) reach = std::max(reach, vertex.head<2>().norm());
+  return 2.0 * reach;
+}
+
 OuterSize outer_size(const Pulley& pulley) {
   if (pulley.mesh.vertices.empty()) return {};
-  double reach = 0;
-  for (const Vec3& vertex : pulley.mesh.vertices) reach = std::max(reach, vertex.head<2>().norm());
   const Bounds box = bounds(pulley.mesh);
-  return {2.0 * reach / pulley.layout.scale, (box.high.z() - box.low.z()) / pulley.layout.scale};
+  return {diameter_about_axis(pulley.mesh) / pulley.layout.scale, (box.high.z() - box.low.z()) / pulley.layout.scale};
 }
 
 TriangleMesh plate_of(const Pulley& pulley) {

@@ -2,6 +2,8 @@
 /// Requirements of law = torque: the wanted motor torque and the load that it has to hold.
 #pragma once
 
+#include <vector>
+
 #include "fusee/mechanism.h"
 
 namespace fusee::transmission {
@@ -18,5 +20,8 @@ struct TorqueMatch {
 /// The joint angle of the range where dα/dθ of law = torque is smallest. The law does not exist where it is not
 /// positive. An angle at which dα/dθ has no value counts as the smallest.
 TorqueMatch tightest_torque(const Mechanism& mechanism);
+/// The wanted motor torque of law = torque at joint angles (rad), N·mm: between the rows of its table by the law's
+/// spline.
+std::vector<double> wanted_torques(const Mechanism& mechanism, const std::vector<double>& thetas);
 
 }  // namespace fusee::transmission

@@ -37,9 +37,12 @@ std::shared_ptr<const Spline> spline_of(const std::vector<TorqueRow>& rows) {
 
 }  // namespace
 
+double Transmission::TorqueLaw::wanted(double theta) const {
+  return wanted_ ? wanted_->at(theta).theta : mechanism_.pulley.motor_torque;
+}
+
 TorqueMatch Transmission::TorqueLaw::match(double theta) const {
-  const double motor = wanted_ ? wanted_->at(theta).theta : mechanism_.pulley.motor_torque;
-  return {theta, law_load_torque(mechanism_, theta).value, motor};
+  return {theta, law_load_torque(mechanism_, theta).value, wanted(theta)};
 }
 
 double Transmission::TorqueLaw::slope(double theta) const { return match(theta).slope(); }
@@ -136,5 +139,12 @@ LawValue Transmission::TorqueLaw::at(double theta) const {
 }
 
 TorqueMatch tightest_torque(const Mechanism& mechanism) { return Transmission::TorqueLaw(mechanism).tightest(); }
+
+std::vector<double> wanted_torques(const Mechanism& mechanism, const std::vector<double>& thetas) {
+  const Transmission::TorqueLaw law(mechanism);
+  std::vector<double> torques;
+  for (const double theta : thetas) torques.push_back(law.wanted(theta));
+  return torques;
+}
 
 }  // namespace fusee::transmission

@@ -28,6 +28,8 @@ struct Transmission::TorqueLaw {
   /// The angle nearest to home where τ/M is not positive.
   std::optional<double> fails_at() const { return fails_at_; }
 
+  /// The wanted motor torque, N·mm.
+  double wanted(double theta) const;
   double alpha(double theta) const;
   /// θ and its derivatives by α.
   LawValue at(double theta) const;
