@@ -31,7 +31,7 @@ TEST(Catalogue, HornsAreValid) {
 }
 
 // A misspelt key of an optional number would silently be 0.
-TEST(Catalogue, KeysOfHornsShaftsAndMotorModelsAreKnown) {
+TEST(Catalogue, KeysOfHornsShaftsAndMotorsAreKnown) {
   const auto keys_in = [](const char* file) {
     std::istringstream text(read_file(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/catalogue" / file, 1 << 20));
     std::vector<std::string> keys;
