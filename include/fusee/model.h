@@ -211,8 +211,8 @@ struct JointTable {
 /// Limit of the size of a table.
 constexpr int k_most_pieces = 4096;
 
-/// The shortest table (a power of two) whose error of θ is at most `most`, rad, in both directions of conversion. Empty
-/// if k_most_pieces are too few.
+/// The shortest table whose error of θ is at most `most`, rad, in both directions of conversion. Its number of pieces
+/// is a power of two, 16 or more. Empty if k_most_pieces are too few.
 std::optional<JointTable> joint_table(const JointCurve& curve, const Mechanism& mechanism, const MotorUnit& unit,
                                       double most);
 /// Errors of a table with respect to its curve, in 32-bit arithmetic, at eight points of each piece.

@@ -146,7 +146,7 @@ struct SynthesisOptions {
 
 /// A feasibility condition: its result, and its tightest place along the stroke.
 struct Condition {
-  std::string name;  ///< "convex_floor", "tendon_on_pin_D", "one_turn" …
+  std::string name;  ///< "convex_floor_P2", "tendon_on_pin_D", "one_turn_P1" …
   bool ok = true;
   double alpha = 0;  ///< tightest place, rad
   double value = 0;  ///< value at the tightest place
