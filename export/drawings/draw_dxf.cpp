@@ -151,7 +151,8 @@ class DxfDrawer {
   void ignore(const DxfEntity& entity, const std::string& kind) {
     if (ignored_.size() >= k_most_ignored) return;
     const std::string quoted = quoted_bytes(entity.type);
-    ignored_.insert(quoted.substr(1, quoted.size() - 2) + kind);
+    const std::string type = quoted.substr(1, quoted.size() - 2);  // without its quotes
+    ignored_.insert(type + kind);
   }
 
   /// Entities of one kind with the same problem give one remark.

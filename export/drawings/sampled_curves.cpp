@@ -74,7 +74,7 @@ void append_bulge(Polygon& points, const Vec2& from, const Vec2& to, double bulg
     const Vec2 spoke = from - centre;
     const EllipticArc arc{centre, spoke, (turn < 0 ? -1 : 1) * turned_left(spoke), 0, std::abs(turn)};
     append_arc(points, arc.placed(place), sagitta);
-    points.pop_back();
+    points.pop_back();  // the arc's end is `to` but for rounding
   }
   points.push_back(place(to));
 }
