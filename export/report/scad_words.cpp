@@ -47,7 +47,7 @@ std::string tick_box(const char* name, const char* words, bool value) {
 /// The further parameters of a D bore or a keyway.
 std::string flat_sliders(const solid::BoreLayout& bore, double compensation) {
   const double radius = 0.5 * shaft_diameter(bore, compensation);
-  const double top = bore.outline.back().y() - 0.5 * compensation;
+  const double top = bore.outline.back().y() - 0.5 * compensation;  // y of the flat, or of the keyway's far side
   if (bore.kind == Bore::d)
     return slider_text({"bore_flat", "from the flat to the far side of the shaft", top + radius, 0.5, 0.1, 40});
   if (bore.kind != Bore::keyway) return "";
