@@ -17,10 +17,11 @@
 namespace fusee::formats {
 namespace {
 
-constexpr double k_sheet_margin = 4;        // mm
-constexpr double k_label_height = 3;        // mm
-constexpr double k_engraving_depth = 0.61;  // mm; a thinner slab (the kit's have 0.6 mm) is engraved instead of cut
-constexpr double k_least_cut = 1.0;         // mm, narrowest feature that a laser cuts cleanly
+constexpr double k_sheet_margin = 4;  // mm
+constexpr double k_label_height = 3;  // mm
+/// Thinner slabs are engraved instead of cut, mm. The kit's engravings are 0.6 mm deep (kit/parts.cpp).
+constexpr double k_engraving_depth = 0.61;
+constexpr double k_least_cut = 1.0;  // mm, narrowest feature that a laser cuts cleanly
 
 /// One shape of plate.
 struct KitPlate {
