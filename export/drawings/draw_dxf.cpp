@@ -74,7 +74,8 @@ class DxfDrawer {
   }
 
  private:
-  /// An invalid entity is skipped and counted. A drawing beyond the limits above throws InputError.
+  /// An entity that is invalid, or further away than k_farthest, is skipped and counted. A drawing with too many inserts,
+  /// points or tags, or with blocks nested too deep, throws InputError.
   void draw(const DxfEntity& entity, const DrawingPlacement& placement, const std::string& block_layer, int depth) {
     InterpretedEntity interpreted;
     try {

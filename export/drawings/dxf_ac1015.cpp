@@ -161,7 +161,7 @@ class Ac1015Writer {
       begin_record("LTYPE", "AcDbLinetypeTableRecord", k_ltype_table, name, next_handle_++);
       tags_.integer(70, 0);
       tags_.text(3, "");
-      tags_.integers({{72, 65}, {73, 0}});
+      tags_.integers({{72, 65}, {73, 0}});  // alignment, which is always 'A'; number of dashes
       tags_.real(40, 0);
     }
     end_table();

@@ -67,7 +67,7 @@ void append_arc(Polygon& points, const EllipticArc& arc, double sagitta) {
 /// chord c, at (1 − b²) / (4 b) · c turned left.
 void append_bulge(Polygon& points, const Vec2& from, const Vec2& to, double bulge, double sagitta,
                   const DrawingPlacement& place) {
-  constexpr double k_most_bulge = 1e6;
+  constexpr double k_most_bulge = 1e6;  // an arc of a whole turn but for 4e-6 rad; edges beyond are drawn straight
   if (bulge != 0 && std::abs(bulge) < k_most_bulge && (to - from).norm() > 0) {
     const double turn = 4 * elementary::atan(bulge);
     const Vec2 centre = 0.5 * (from + to) + turned_left(to - from) * ((1 - bulge * bulge) / (4 * bulge));

@@ -237,6 +237,7 @@ Figure kit_picture(const KitProduct& product, const std::vector<KitStep>& steps,
   Figure figure{k_picture_width, k_picture_height, steps[last].title, {}, {}};
   std::size_t drawn_lines = 0;
   for (const DrawnSlab& slab : drawn) {
+    // A tendon is drawn before the first slab that lies above it.
     for (; drawn_lines < lines.size() && lines[drawn_lines].points.front().z() < slab.low; ++drawn_lines) {
       std::vector<Vec2> points;
       for (const Vec3& p : lines[drawn_lines].points) points.push_back(project(Vec2(p.x(), p.y()), p.z()));
