@@ -140,9 +140,10 @@ std::string screw_numbers(const solid::BodyLayout& layout, double compensation) 
   const solid::SetScrewLayout& screw = layout.set_screw;
   const double bore_edge = 0.5 * (shaft_diameter(layout.bore, compensation) + compensation);
   const double nut_from_bore = screw.nut_trap ? screw.nut_distance - bore_edge : 0;
+  constexpr double k_most_hub_wall = 1.5;  // mm; a hub with a thicker wall grows only if less would remain
   const double hub_wall =
       layout.hub_radius > 0
-          ? std::clamp(layout.hub_radius - bore_edge - nut_from_bore - 0.5 * screw.nut_thickness, 0.0, 1.5)
+          ? std::clamp(layout.hub_radius - bore_edge - nut_from_bore - 0.5 * screw.nut_thickness, 0.0, k_most_hub_wall)
           : layout.min_wall;
   return (screw.present ? "" : "set_screw = false;\n") + std::string(screw.nut_trap ? "" : "nut_trap = false;\n") +
          hidden("screw_hole", screw.hole_diameter, "diameter") +
