@@ -283,6 +283,7 @@ class BodyMaker {
     const double from = part_.sectors[s], to = part_.sectors[s + 1];
     const double rise = high.z - low.z, out = high.radius - low.radius;
     if (band.seat_radius > 0) {
+      // The angle about a torus's circle counts from the side away from the axis. The seat is on the side of the axis.
       const auto angle = [&](const StepRow& row) {
         return M_PI - elementary::asin((row.z - band.seat_z) / band.seat_radius);
       };
@@ -948,6 +949,7 @@ class SurfaceSamples {
       gp_Pnt here;
       gp_Vec along, up;
       surface.D1(u, v, here, along, up);
+      // Signed distance from the plane through the axis and `point`, and its derivative by u.
       const double distance = (point.X() * here.Y() - point.Y() * here.X()) / radius_of(point);
       const double slope = (point.X() * along.Y() - point.Y() * along.X()) / radius_of(point);
       if (std::abs(distance) < k_near) {

@@ -289,6 +289,7 @@ void add_face_hole(std::vector<StepTool>& tools, const solid::Anchor& anchor, co
                              {first, {}}}};
   tools.push_back(prism_between(contour, face.at(-outside), face.at(to_groove + k_past_plane)));
   if (seat.depth <= 0) return;
+  // A cone with the slope of the countersink would require twice this additional depth to narrow to that share.
   const double deeper = seat.depth * (1.0 + 0.5 * (1.0 - k_share) * radius / (seat.radius - radius));
   tools.push_back(cylinder(anchor.pocket, seat.radius, face.at(-0.5 * solid::k_overshoot - outside), face.at(0)));
   StepFrustum sunk{anchor.pocket, seat.hole, face.at(0), face.at(deeper), seat.radius, k_share * radius};
