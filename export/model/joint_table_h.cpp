@@ -202,7 +202,7 @@ class Header {
     return text;
   }
 
-  /// For encoders that restart each turn.
+  /// The C function for encoders that restart each turn.
   std::string unwrap() const {
     const std::string turn = std::to_string(whole(std::abs(table_.unit.per_turn)));
     return "/* The count nearest to the last one that an encoder shows as `reading` (0 to " + turn +
