@@ -31,8 +31,8 @@ const std::vector<std::string>& words_of(const std::string& role) {
   return found == words.end() ? none : found->second;
 }
 
-/// Load and force in the languages of builders. With a unit of a load, the first kind is the joint's load. A force may
-/// be a tendon's.
+/// Load and force in the languages of builders. A column with a word of the first list and a unit of a load is taken as
+/// the joint's load. A force may be a tendon's: a word of the second list only adds a note.
 constexpr std::array<std::string_view, 7> k_load_words = {"last",   "belastung", "carga",     "carico",
                                                           "charge", "lading",    "obciążenie"};
 constexpr std::array<std::string_view, 14> k_force_words = {"force",  "kraft",  "fuerza",  "forza",  "força",
@@ -48,7 +48,7 @@ bool is_one_of(const Words& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// A column name as an shell_argument of --column, quoted if the shell requires it.
+/// A column name as an argument of --column, quoted if the shell requires it.
 std::string shell_argument(const std::string& name) {
   const bool is_plain = name.find_first_of(" '\"$\\`;&()[]{}<>|*?#!~%") == std::string::npos;
   return is_plain ? name : "\"" + name + "\"";
@@ -214,6 +214,8 @@ class ColumnFinder {
     if (column.unit != nullptr) return;
     const ColumnName name = parse_column_name(without_field(column.name), column.quantity);
     column.unit = name.unit;
+    // The angle at which an encoder is mounted is no reading of an encoder: it is in degrees unless its name states a
+    // unit.
     const bool is_mounting = column.quantity == Quantity::angle && member_of(column.role) == nullptr;
     if (is_mounting && (name.unit == nullptr || name.unit->is_counts())) column.unit = usual_unit(Quantity::angle);
     if (column.unit != nullptr) return;
@@ -262,7 +264,7 @@ class ColumnFinder {
                                    : ", and the load of the file, " + rounded(options_.tip_force, 3) + " N, is assumed";
   }
 
-  /// Lists the columns without a role, except those that no person wrote.
+  /// Lists the columns without a role, except those that a program named: of ROS, and of `fusee simulate`.
   void list_unused() {
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const bool is_expected = is_ros_name(names_[i]) || is_one_of(k_simulated_columns, names_[i]);

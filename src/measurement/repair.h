@@ -11,7 +11,7 @@ namespace fusee::measurement {
 
 using NoteSink = std::function<void(const std::string&)>;
 
-/// Unwraps an encoder that jumps by about a turn. A jump of the motor's encoder is kept if θ moves by a quarter of its
+/// Unwraps an encoder that jumps by a turn, within 80°. A jump of the motor's encoder is kept if θ moves by a quarter of its
 /// span at the same time: in a point-to-point log a motor may turn as far between two rows.
 void unwrap(std::vector<Sample>& samples, double Sample::*angle, const std::string& name, const NoteSink& add_note);
 
