@@ -49,8 +49,8 @@ constexpr std::array<std::string_view, 66> k_other_words = {
     "tiempo",   "strom",   "spannung",  "drehmoment", "geschwindigkeit",
     "datum"};
 
-/// The letter without its accent, for U+00C0 … U+00FF in UTF-8: there, `second` follows 0xC3 and begins at 0x80. A blank
-/// for × and ÷.
+/// The letter without its accent, for U+00C0 … U+00FF in UTF-8: there, `second` follows 0xC3 and begins at 0x80. A
+/// blank for × and ÷.
 char without_accent(char second) {
   constexpr std::string_view k_letters = "aaaaaaaceeeeiiiidnooooo ouuuuytsaaaaaaaceeeeiiiidnooooo ouuuuyty";
   const auto at = static_cast<unsigned char>(second) - 0x80U;

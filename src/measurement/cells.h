@@ -30,8 +30,8 @@ class NumberReader {
 };
 
 /// ISO 8601 ("2025-03-01T10:00:00.020Z", a blank for the T, a comma in the seconds, an offset) or "01.03.2025 10:00:00"
-/// as s since 1970; a time of day ("10:00:00.020") as s since midnight; a duration ("2 days 00:00:01.5") in s. Empty for
-/// other text.
+/// as s since 1970; a time of day ("10:00:00.020") as s since midnight; a duration ("2 days 00:00:01.5") in s. Empty
+/// for other text.
 std::optional<double> read_time_stamp(std::string_view text);
 
 }  // namespace fusee::measurement

@@ -193,7 +193,8 @@ std::string slope_message(const transmission::TargetMotion& law, const Slopes& s
   return slope_text(slopes) + "this is not the declared joint, or a column has another unit";
 }
 
-/// Adds a note if α moves by 6.28° at most: a turn in radians, read as degrees. A joint declared by a ratio has no zero and no range to compare with.
+/// Adds a note if α moves by 6.28° at most: a turn in radians, read as degrees. A joint declared by a ratio has no zero
+/// and no range to compare with.
 void note_small_range(const transmission::TargetMotion& law, const Slopes& slopes, Measurement& measurement) {
   if (law.has_zero() || slopes.declared == 0 || slopes.alpha_span > radians(k_two_pi)) return;
   measurement.notes.push_back("alpha moves over only " + rounded(degrees(slopes.alpha_span), 3) +

@@ -136,8 +136,8 @@ struct InterpolatedAngle {
   double weight = 1;  ///< sum of the squared weights of the rows: variance of `theta` per variance of a row
 };
 
-/// Cubic through the four rows from `first` on (Lagrange). Not inside if two rows are closer in α than `least_gap`, rad,
-/// as in a dwell or by quantisation.
+/// Cubic through the four rows from `first` on (Lagrange). Not inside if two rows are closer in α than `least_gap`,
+/// rad, as in a dwell or by quantisation.
 InterpolatedAngle on_cubic(const Run& run, std::size_t first, double alpha, double least_gap) {
   const auto at = [&](std::size_t i) -> const Sample& { return run.samples[i]; };
   InterpolatedAngle interpolated{true, 0, 0, 0};

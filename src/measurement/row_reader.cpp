@@ -27,8 +27,8 @@ constexpr std::size_t k_most_problems = 20;
 constexpr std::size_t k_most_faults = 1000;
 /// Lines above the header, such as settings of a logger or an oscilloscope.
 constexpr std::size_t k_longest_preamble = 1000;
-/// Larger values are garbage. Squares of values within the limits are finite. Times in ns since 1970 are within the limit
-/// of times.
+/// Larger values are garbage. Squares of values within the limits are finite. Times in ns since 1970 are within the
+/// limit of times.
 constexpr double k_largest_value = 1e15, k_largest_time = 1e19;
 
 const char* const k_usual_header =

@@ -23,8 +23,8 @@ double reversal_threshold(const std::vector<Sample>& samples, double quantum, bo
 }
 
 /// True for scatter about one angle: successive values are independent, and the steps are below a degree rms
-/// or hardly correlated with those of θ. Alternation between two ends, row by row, is a motion. Independence is tested by the von
-/// Neumann ratio, the mean square step over the variance: it is 2 for white noise, and at least 1 counts as
+/// or hardly correlated with those of θ. Alternation between two ends, row by row, is a motion. Independence is tested
+/// by the von Neumann ratio, the mean square step over the variance: it is 2 for white noise, and at least 1 counts as
 /// independent.
 bool only_jitters(const std::vector<Sample>& samples) {
   const double n = static_cast<double>(samples.size());
