@@ -60,7 +60,7 @@ bool suffices(const MotorModel& model, const MotorCheck& need, const std::vector
 }
 
 /// Sets the models of the catalogue that suffice, and the strongest that fits the bore. Models that fit the bore come
-/// first, then the weaker ones.
+/// first; within both groups, the weaker ones.
 void add_models(MotorCheck& need, const Mechanism& mechanism, const std::vector<Demand>& all) {
   std::vector<const MotorModel*> found;
   for (const MotorModel& model : motor_models()) {

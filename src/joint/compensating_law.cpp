@@ -144,8 +144,8 @@ class ChebyshevSmoother {
   LeastSquares solver_;
 };
 
-/// The law minus the residual error of θ; null where θ would not increase with α. Its θ in the rows of the declared
-/// ends become the range without load, widened to contain 0.
+/// The law minus the residual error of θ; null where θ would not increase with α. Its θ at the ends of the declared
+/// range are the range without load, widened to contain 0.
 std::optional<CompensatingLaw> corrected_law(CompensatingLaw compensating, const std::vector<LawRow>& target,
                                              const Joint& joint, const Eigen::VectorXd& error) {
   constexpr double k_rounding = 1e-12;  // rad
