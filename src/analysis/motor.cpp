@@ -79,7 +79,7 @@ void add_models(MotorCheck& need, const Mechanism& mechanism, const std::vector<
 
 /// True if a bore that names no shaft has the diameter of one of the model's shafts.
 bool has_diameter_of_shaft(const Body& body, const MotorModel& model) {
-  constexpr double k_usual_bore = 5.0, k_same = 0.01;  // mm
+  constexpr double k_usual_bore = 5.0, k_same = 0.01;  // mm; k_usual_bore: if the file states no diameter
   if (find_shaft(body.shaft) != nullptr || body.bore == Bore::horn) return false;
   const double bore = body.bore_diameter > 0 ? body.bore_diameter : k_usual_bore;
   return std::any_of(model.fits.begin(), model.fits.end(), [bore](const std::string& name) {

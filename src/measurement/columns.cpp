@@ -63,10 +63,11 @@ class ColumnFinder {
 
   Header find() {
     bool all_angles = true;
-    for (const auto& [role, usual] : column_roles()) {
+    for (const auto& [role, default_name] : column_roles()) {
       const auto given = options_.columns.find(role);
       const bool is_given = given != options_.columns.end();
-      std::optional<std::size_t> index = is_given ? index_of(to_utf8(given->second)) : usual_index(role, usual);
+      std::optional<std::size_t> index =
+          is_given ? index_of(to_utf8(given->second)) : index_of_recognised_name(role, default_name);
       if (!index && !is_given) index = ros_index(role);
       if (!index && !is_given) index = index_by_words(role);
       if (!index && !is_given && role == "load") index = load_in_other_languages();
@@ -74,7 +75,7 @@ class ColumnFinder {
       if (index) {
         add_column(role, *index, is_given);
       } else if (is_needed || is_given) {
-        report_missing(role, is_given ? to_utf8(given->second) : usual);
+        report_missing(role, is_given ? to_utf8(given->second) : default_name);
         all_angles = all_angles && !is_needed;
       }
     }
@@ -125,11 +126,12 @@ class ColumnFinder {
     return role == "alpha" ? pair.alpha : pair.theta;
   }
 
-  /// The angles that an option or a usual name determines.
+  /// The angles that an option or a recognised name determines.
   AnglePair known_angles() {
-    const auto known = [&](const char* role, const char* usual) {
+    const auto known = [&](const char* role, const char* default_name) {
       const auto given = options_.columns.find(role);
-      return given != options_.columns.end() ? index_of(to_utf8(given->second)) : usual_index(role, usual);
+      return given != options_.columns.end() ? index_of(to_utf8(given->second))
+                                             : index_of_recognised_name(role, default_name);
     };
     const Header before = header_;
     const AnglePair found{known("alpha", "alpha_deg"), known("theta", "theta_deg")};
@@ -161,9 +163,9 @@ class ColumnFinder {
     return index;
   }
 
-  /// A column with the usual name of the role, or with another recognised name in any unit.
-  std::optional<std::size_t> usual_index(const std::string& role, const std::string& usual) {
-    if (const auto index = index_of(usual)) return index;
+  /// A column with the default name of the role, or with another recognised name in any unit.
+  std::optional<std::size_t> index_of_recognised_name(const std::string& role, const std::string& default_name) {
+    if (const auto index = index_of(default_name)) return index;
     const std::vector<std::string>& words = words_of(role);
     for (std::size_t i = 0; i < names_.size(); ++i) {
       if (std::find(words.begin(), words.end(), lower(trimmed(names_[i]))) != words.end()) return i;
@@ -292,7 +294,7 @@ class ColumnFinder {
     const AnglePair likely = likely_table_angles(names_, known_angles());
     std::string options;
     bool are_all_likely = true;
-    for (const auto& [role, usual] : missing_) {
+    for (const auto& [role, default_name] : missing_) {
       const std::optional<std::size_t> index = role == "alpha" ? likely.alpha : likely.theta;
       are_all_likely = are_all_likely && index.has_value();
       options +=
@@ -370,7 +372,7 @@ class ColumnFinder {
   Header header_;
   AnglePair by_words_;                                        ///< angles chosen by words of their names
   std::set<std::size_t> noted_;                               ///< columns without a role that a note names
-  std::vector<std::pair<std::string, std::string>> missing_;  ///< angles: roles and usual names
+  std::vector<std::pair<std::string, std::string>> missing_;  ///< angles: roles and default names
 };
 
 }  // namespace
