@@ -27,8 +27,8 @@ class Sheet {
     low_ = low_.cwiseMin(centre - Vec2(radius, radius));
     high_ = high_.cwiseMax(centre + Vec2(radius, radius));
   }
-  /// Chooses the scale: all included points lie between the side margins, and on k_lines - 1 lines at most. A line is as
-  /// high as two columns are wide.
+  /// Chooses the scale: all included points lie between the side margins, and on k_lines - 1 lines at most. A line is
+  /// as high as two columns are wide.
   void fit() {
     const Vec2 size = high_ - low_;
     column_ = std::max({size.x() / (k_columns - 2 * k_side_margin), 0.5 * size.y() / (k_lines - 2), 1e-9});

@@ -1,6 +1,6 @@
 /// \file
-/// `fusee new --ask`: seven questions, and the mechanism file of a joint whose pulley is known to be feasible, because it
-/// was built once.
+/// `fusee new --ask`: seven questions, and the mechanism file of a joint whose pulley is known to be feasible, because
+/// it was built once.
 #pragma once
 
 #include <string>

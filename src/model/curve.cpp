@@ -178,8 +178,8 @@ std::optional<JointCurves> joint_curves(const DeclaredMechanism& declared) {
   }
   const DeclaredMechanism joint = joint::expected_joint(declared);
   if (transmission::Transmission(joint).dead_centre()) return std::nullopt;
-  // The reversals lie outside the range, so that the motor has taken up play and compliance before the range begins: twice
-  // the backlash, and 3 % of the range for the compliance.
+  // The reversals lie outside the range, so that the motor has taken up play and compliance before the range begins:
+  // twice the backlash, and 3 % of the range for the compliance.
   const double beyond = 2 * declared.identified.shaft.backlash + 0.03 * (law.alpha_max() - law.alpha_min());
   const joint::BenchRun run = sweep(law.alpha_min() - beyond, law.alpha_max() + beyond);
   const std::vector<joint::JointState> states =

@@ -12,8 +12,8 @@
 namespace fusee::model {
 namespace {
 
-// Lengths and angles are computed for a tendon on the right. One on the left is mirrored about the y axis. In both cases
-// θ is then positive towards the pin's side.
+// Lengths and angles are computed for a tendon on the right. One on the left is mirrored about the y axis. In both
+// cases θ is then positive towards the pin's side.
 
 /// Number of intervals of the range in which a tendon is evaluated.
 constexpr int k_intervals = 1000;
@@ -96,8 +96,8 @@ void set_free_tendon(WrappedTendon& tendon, const transmission::PinPlace& place,
   set_anchor(tendon, place, least, most, R);
 }
 
-/// Sets up a tendon that is always on a drum. It touches the drum from a point of the link up to the point from which it
-/// leaves for the fixed pin. The part that is covered at every angle has constant length: points of the link, close
+/// Sets up a tendon that is always on a drum. It touches the drum from a point of the link up to the point from which
+/// it leaves for the fixed pin. The part that is covered at every angle has constant length: points of the link, close
 /// together, represent it. Wrapping is no alternative there: between two points on the drum's surface, MuJoCo 3.14.0
 /// alternates between the two ways round.
 void set_tendon_on_drum(WrappedTendon& tendon, const transmission::PinPlace& place, const AngleMap& map, double R) {

@@ -68,8 +68,8 @@ Lengths table_4_lengths(const PaperAssumptions& assumptions) {
   return {mechanism.joint.R, mechanism.guides.ED, mechanism.guides.OE};
 }
 
-/// True if it is proven that no design within the bounds is better in this objective than these lengths by more than two
-/// millionths: a millionth for equal values, another for the gap of the proof.
+/// True if it is proven that no design within the bounds is better in this objective than these lengths by more than
+/// two millionths: a millionth for equal values, another for the gap of the proof.
 bool is_optimal(const PaperAssumptions& assumptions, optimize::Objective objective, const Lengths& lengths) {
   const optimize::Evaluation evaluation =
       optimize::evaluate(objective, paper_mechanism(assumptions, lengths.R, lengths.ED, lengths.OE));
@@ -99,8 +99,8 @@ std::vector<ParameterWindows> windows_of(const PaperAssumptions& assumptions, co
     double PaperAssumptions::*member;
     double low, high;
   };
-  // μ = 0 is excluded, because whole surfaces of designs are equally good there. EF begins where a pulley of the assumed
-  // r1 touches the line of the pins.
+  // μ = 0 is excluded, because whole surfaces of designs are equally good there. EF begins where a pulley of the
+  // assumed r1 touches the line of the pins.
   constexpr int k_steps = 40;
   constexpr SearchedParameter searched[] = {{"mu", "", &PaperAssumptions::mu, 0.01, 0.51},
                                             {"r1", "mm", &PaperAssumptions::r1, 2.0, 42.0},

@@ -134,8 +134,8 @@ std::vector<PlannedRun> candidate_runs(const Bench& bench) {
                       .speed = speed,
                       .load = load};
   };
-  // In a fast run a load would also act by its inertia. Fast runs therefore have the first load, which is 0 if the bench
-  // includes runs without load.
+  // In a fast run a load would also act by its inertia. Fast runs therefore have the first load, which is 0 if the
+  // bench includes runs without load.
   const double slow = bench.speeds.front();
   for (const double load : bench.loads) runs.push_back(run(slow, load));
   for (const double speed : bench.speeds) {
