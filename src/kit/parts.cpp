@@ -56,12 +56,13 @@ DiscHull link_hull(const KitSizes& sizes, double R) {
   return hull_of(discs, 144);
 }
 
-/// The scale is on the far side of the axis, under the link's pointer.
+/// Outline of the scale, with its feet. The lines are on the far side of the axis from C, under the link's pointer.
 DiscHull scale_hull(const KitPlan& plan, const Joint& joint) {
   const KitSizes& sizes = plan.sizes;
   std::vector<Disc> discs{{{0, 0}, sizes.axle_tube + 3}};
   for (const Vec2& foot : plan.feet) discs.push_back({foot, 0.5 * sizes.foot->clearance + 3});
-  const double more = std::max(radians(8), 7 / (sizes.pointer + 7));  // half the width of a number
+  // Angle beyond the range, rad, with space for half of a number: 7 mm at the radius of the numbers.
+  const double more = std::max(radians(8), 7 / (sizes.pointer + 7));
   const double from = joint.theta_min - more, to = joint.theta_max + more;
   const int steps = static_cast<int>(std::ceil(degrees(to - from) / 5));
   for (int i = 0; i <= steps; ++i)
@@ -199,7 +200,7 @@ class PartMaker {
     std::vector<DiscHull> lines;
     const double step = sizes_.graduation, tip = sizes_.pointer;
     int numbered = 10;
-    while (radians(numbered) * (tip + 7) < 11) numbered += 10;
+    while (radians(numbered) * (tip + 7) < 11) numbered += 10;  // at least 11 mm between numbers
     const int first = static_cast<int>(std::ceil(mechanism_.joint.theta_min / step - 1e-6)) - 1;
     const int last = static_cast<int>(std::floor(mechanism_.joint.theta_max / step + 1e-6)) + 1;
     for (int i = first; i <= last; ++i) {
@@ -366,6 +367,7 @@ class PartMaker {
   void set_tendon_lengths() {
     const Thread& small = *sizes_.small;
     const double top = sizes_.link_low + sizes_.link + sizes_.flange;
+    // Tendon 1 is wound three times round the clamping screw, tendon 2 once round the post's waist.
     plan_.tendons[0] = {transmission::Side::left,
                         top - sizes_.post_low + slide_start() - mechanism_.joint.R + 0.5 * slide_lengths(small).clamp,
                         3 * k_pi * small.diameter};
