@@ -247,14 +247,15 @@ class PartMaker {
   double ledge_hole() const {
     return sizes_.bearing->outer - std::min(2.0, 0.5 * (sizes_.bearing->outer - sizes_.bearing->spacer));
   }
-  double slide_start() const { return mechanism_.joint.R + sizes_.post + 2.5; }
+  /// y of the slide's end towards C, at home.
+  double slide_start() const { return mechanism_.joint.R + sizes_.post + k_post_to_slide; }
 
   /// The post hangs down from its flange and is printed standing on it.
   void add_post() {
     const Thread& small = *sizes_.small;
     const double top = sizes_.link_low + sizes_.link + sizes_.flange;
     const double cone = sizes_.post - sizes_.waist, chamfer_height = 0.4;
-    // Heights as it is printed, from the top of its flange.
+    // Heights in print orientation, upside down, from the top of the flange.
     const double waist_begin = top - sizes_.z_tendon2 - 0.5 * sizes_.tendon_gap,
                  waist_end = waist_begin + sizes_.tendon_gap;
     const double end = top - sizes_.post_low;
@@ -345,7 +346,7 @@ class PartMaker {
         const Vec2 place(x * board.pitch.x(), y * board.pitch.y());
         shape.push_back({place, 0.5 * board.hole + 2});
         plate.loops.push_back(round_hole(place, board.hole));
-        spacers.push_back(fixed_at(place, sizes_.bracket_low - 3));
+        spacers.push_back(fixed_at(place, sizes_.bracket_low - k_board_spacer));
       }
     }
     for (const Vec2& foot : plan_.feet) {
@@ -353,13 +354,14 @@ class PartMaker {
       plate.loops.push_back(round_hole(foot, sizes_.foot->clearance));
     }
     plate.loops.push_back(edge(hull_of(shape)));
-    add_printed("board_spacer", "spacer between bracket and board", tube(0.5 * board.hole + k_wall, board.hole, 3),
-                spacers, 4);
+    add_printed("board_spacer", "spacer between bracket and board",
+                tube(0.5 * board.hole + k_wall, board.hole, k_board_spacer), spacers, 4);
     add_plate("bracket", "bracket: the board hangs under it, chip down", {{plate}},
               {fixed_at({0, 0}, sizes_.bracket_low)});
     buy(1, board.name + ": " + board.description, "reads the joint's angle; assumed: " + board.source);
     buy(4,
-        screw_words(thread_within(board.hole, mechanism_.units), sizes_.bracket + 3 + board.thickness + 4) +
+        screw_words(thread_within(board.hole, mechanism_.units),
+                    sizes_.bracket + k_board_spacer + board.thickness + 4) +
             " with nuts",
         "board, under the bracket");
   }
@@ -396,9 +398,11 @@ double tensioner_axis(const Thread& thread) { return 2.3 + nut_corner_radius(thr
 double tensioner_height(const Thread& thread) { return tensioner_axis(thread) + thread.head_radius; }
 
 std::vector<DiscHull> number_strokes(int number, const Vec2& middle, const Vec2& up) {
-  // Seven strokes a digit: top, upper left, upper right, middle, lower left, lower right, bottom.
+  // Seven strokes a digit, from the highest bit on: top, upper left, upper right, middle, lower left, lower right,
+  // bottom.
   constexpr std::array<unsigned, 10> k_digits{0b1110111, 0b0010010, 0b1011101, 0b1011011, 0b0111010,
                                               0b1101011, 0b1101111, 0b1010010, 0b1111111, 0b1111011};
+  // mm. Strokes end at k_short from the corners of the digit and from the middle stroke, so that they do not touch.
   constexpr double k_half_width = 0.9, k_half_height = 1.8, k_short = 0.65, k_digit_pitch = 3.0, k_radius = 0.3;
   const double w = k_half_width - k_short, x = k_half_width, y = k_half_height;
   const std::array<std::pair<Vec2, Vec2>, 7> strokes{{{{-w, y}, {w, y}},

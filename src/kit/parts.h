@@ -12,7 +12,10 @@ namespace fusee::kit {
 inline constexpr double k_leg_radius = 5;
 inline constexpr double k_wall = 1.2;  ///< three lines of a 0.4 mm nozzle
 inline constexpr double k_collar_height = 2.5;
-inline constexpr double k_scale_reach = 10;  ///< distance of the scale's outer edge beyond the pointer's tip
+inline constexpr double k_layer_gap = 1.5;      ///< between parts that move over each other, in height
+inline constexpr double k_board_spacer = 3;     ///< height of the spacers between bracket and board
+inline constexpr double k_post_to_slide = 2.5;  ///< distance of the tensioner's slide from the post at C
+inline constexpr double k_scale_reach = 10;     ///< distance of the scale's outer edge beyond the pointer's tip
 
 /// Lengths along the tensioner's slide, in the direction from C to the link's end: the seat of the clamping screw, a
 /// wall, the slot of the nut, a wall. mm

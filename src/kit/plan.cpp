@@ -150,10 +150,10 @@ void size_link(KitSizes& sizes, const Scene& scene, double pins_top) {
   const double R = mechanism.joint.R, d = mechanism.tendon.diameter;
   const fusee::BearingType& bearing = *sizes.bearing;
   const Thread &small = *sizes.small, &cap_screw = *sizes.cap_screw;
-  sizes.scale_low = std::max(pins_top, sizes.pulley_high) + 1.5;
+  sizes.scale_low = std::max(pins_top, sizes.pulley_high) + k_layer_gap;
   sizes.scale_plate = 3;
   sizes.ledge = k_wall;
-  sizes.link_low = sizes.scale_low + sizes.scale_plate + 1.5;
+  sizes.link_low = sizes.scale_low + sizes.scale_plate + k_layer_gap;
   sizes.link = sizes.ledge + 2 * bearing.width;
   sizes.recess = std::max(nut_corner_radius(*sizes.axle), 0.5 * sizes.board->magnet) + 0.6;
   sizes.cap_screws = std::max(0.5 * bearing.outer, sizes.recess) + 0.5 * cap_screw.clearance + 0.9;
@@ -170,7 +170,7 @@ void size_link(KitSizes& sizes, const Scene& scene, double pins_top) {
   sizes.slide_width = 2 * nut_corner_radius(small) + 4;
   sizes.slide = slide_lengths(small).whole();
   sizes.travel = std::clamp(0.03 * scene.longest, 5.0, 15.0);
-  sizes.link_end = R + sizes.post + 2.5 + sizes.slide + sizes.travel + 5;
+  sizes.link_end = R + sizes.post + k_post_to_slide + sizes.slide + sizes.travel + 5;
   sizes.pointer = std::clamp(0.45 * R, 16.0, 45.0);
   for (const double step : {1.0, 2.0, 5.0, 10.0}) {
     sizes.graduation = radians(step);
@@ -178,7 +178,7 @@ void size_link(KitSizes& sizes, const Scene& scene, double pins_top) {
   }
   const double magnet = sizes.link_low + sizes.link + sizes.cap_height;
   const fusee::BoardType& board = *sizes.board;
-  sizes.bracket_low = magnet + board.gap + board.chip + board.thickness + 3;
+  sizes.bracket_low = magnet + board.gap + board.chip + board.thickness + k_board_spacer;
   sizes.bracket = 4;
   sizes.leg = (sizes.motor ? sizes.motor->depth : 20) + 5;
   sizes.motor_front = motor_front(scene.pulley);
