@@ -98,7 +98,7 @@ class Questions(harness.Scratch):
                             ("1 lb ft", "1356 Nmm about O")):
             self.assertIn(f"load: {load}", self.understood("a", "45", "0 80", "30", typed)[0], typed)
 
-    def test_names_of_motors_and_tendons(self):
+    def test_motors_and_tendons_are_found_by_name(self):
         begun = ("a", "45", "0 80", "30", "10 N")
         for typed, motor in (("N20", "N20 gear motor"), ("MG996R horn", "turns 180 deg"), ("dynamixel XL330", "horn of Dynamixel XL330"),
                              ("5 mm D", "a D shaft of 5 mm"), ("1/4 in", "a round shaft of 6.35 mm")):
@@ -206,7 +206,7 @@ class Questions(harness.Scratch):
         self.assertIn("no layout fits these answers", err)
         self.assertNotIn("no limit to enforce", err)
 
-    def test_geared_motor(self):
+    def test_gearbox_multiplies_torque(self):
         begun = ("a", "250", "±60", "80", "2 kg")
         self.assertIn("motor: NEMA17-48mm with a gearbox 5:1, a D shaft of 8 mm", self.understood(*begun, "NEMA17-48mm 5:1, 8 mm D")[0])
         self.assertIn("type the gearbox's shaft behind it", self.understood(*begun, "NEMA17-48mm geared 5:1")[0])
