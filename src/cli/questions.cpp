@@ -151,6 +151,7 @@ const std::vector<Question>& questions() {
       {"room", std::string(k_room_picture), "How wide may the pulley be (⌀30 mm)?",
        [](const Answers& answers) { return rounded(std::round(std::clamp(0.7 * answers.length, 30.0, 80.0))) + " mm"; },
        [](Answers& answers, std::string_view text) {
+         // The bounds of pulley.EF_mm, 1 to 10000 mm: those of body.room_diameter_mm include 0, which is no limit.
          return stored(length_for("pulley.EF_mm", text, answers), answers.room, length_words(answers));
        }},
       {"load", std::string(k_load_picture), "Which load (10 N, 0.5 kg, 2 lbf, 0.8 Nm)?", fixed_proposal("10 N"),

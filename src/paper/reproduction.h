@@ -35,7 +35,7 @@ struct Window {
   double low = 0;
   double high = 0;
   bool open_low = false;   ///< `low` is the end of the searched range, where the claim still holds
-  bool open_high = false;  ///< the same of `high`
+  bool open_high = false;  ///< `high` is the end of the searched range, where the claim still holds
 };
 /// Windows of one assumed number.
 struct ParameterWindows {
@@ -62,8 +62,8 @@ struct Claim {
 /// One row of Table 4. Lengths in mm, by the assumed unit of length.
 struct OptimumRow {
   std::string symbol;
-  double lower = 0;  ///< bounds of the search
-  double upper = 0;
+  double lower = 0;     ///< lower bound of the search
+  double upper = 0;     ///< upper bound of the search
   double paper = 0;     ///< the paper's optimum
   double computed = 0;  ///< the certified optimum
 };
@@ -113,7 +113,7 @@ struct Reproduction {
   std::vector<MuWindow> mu_windows;
 };
 
-/// Computes all of them. Throws Stopped if `context` asks to stop; it is asked between steps.
+/// Computes table, claims, figures and laws. Throws Stopped between steps if `context` requests a stop.
 Reproduction reproduce_paper(const PaperAssumptions& assumptions = {}, const RunContext& context = {});
 
 }  // namespace fusee::paper

@@ -111,6 +111,7 @@ std::vector<Diagnostic> axle_clearance_warnings(
   const Field& field = *find_field("pulley.EF_mm");
   const double now = number_of(product.file.mechanism, field);
   double further = k_thinnest_radius + k_clearance - part->distance;
+  // Another distance also changes the pulley. If the first number does not suffice, larger ones are tried.
   for (int trial = 0; trial < 3; ++trial, further *= 1.3) {
     Mechanism changed = product.file.mechanism;
     const double advised = std::ceil(now + further);
