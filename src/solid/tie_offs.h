@@ -63,7 +63,8 @@ struct AnchorRoom {
   double least = 0;  ///< least useful radius
 };
 
-/// True if a set screw whose axis points in direction `angle` keeps a wall to this tie-off.
+/// True if a set screw whose axis points in direction `angle` (rad) keeps a wall to this tie-off: the least wall of the
+/// body, at most 1 mm.
 bool clears_set_screw(const BodyLayout& layout, double angle, const TieOff& tie_off);
 
 /// Sets width and fillet of the channels.
