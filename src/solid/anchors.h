@@ -41,8 +41,8 @@ class ArcWalk {
   double length() const { return laps_.back(); }
   /// True if the active arc is the whole turn, so that there is no closing arc.
   bool is_empty() const { return indices_.size() < 2; }
-  /// The place at `lap` or slightly past it, clear of the outline's points. In the last chord it may lie slightly before.
-  /// It is interpolated between two points. Requires a walk that is not empty.
+  /// The place at `lap` or slightly past it, clear of the outline's points. In the last chord it may lie slightly
+  /// before. It is interpolated between two points. Requires a walk that is not empty.
   Station at(double lap) const;
   /// The length along the arc over which the pitch curve turns by `wrap`. Infinite if the whole arc turns by less.
   double lap_at(double wrap) const;
@@ -79,8 +79,8 @@ struct AnchorPath {
   Vec2 heading() const;  ///< direction of the straight
   Vec2 outer() const;    ///< unit vector across the straight, away from the fillet's centre
   Vec2 pocket() const;   ///< centre of the pocket, the end of the straight
-  /// The arc of the line at distance `aside` from the centre line, on the side away from the fillet's centre, as `steps`
-  /// chords. Its last point is the beginning of the straight.
+  /// The arc of the line at distance `aside` from the centre line, on the side away from the fillet's centre, as
+  /// `steps` chords. Its last point is the beginning of the straight.
   std::vector<Vec2> edge(double aside, int steps) const;
   /// A channel of this width as bars: the arc's chords, then the straight.
   std::vector<Bar> bars(double width) const;
