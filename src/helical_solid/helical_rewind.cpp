@@ -16,11 +16,11 @@
 namespace fusee::helical_solid {
 namespace {
 
-// Least depth of a groove. Shallower minima are chamfer edges or chords.
+// Least depth of a groove, mm. Shallower minima are chamfer edges or chords.
 constexpr double k_least_depth = 0.3;
-// Number of places on either side over which a groove's slope is averaged, a fifth of a turn. With few corners the
-// floor's steps would show, and each adds to a steep tendon's length (0.04° of a joint with r1 of 3.2 mm and a lead of
-// 6.9 mm).
+// Number of places on either side over which a groove's slope is averaged: a fifth of a turn with 720 half-planes.
+// Over few corners the floor's steps would show, and each adds to a steep tendon's length (0.04° of a joint with r1 of
+// 3.2 mm and a lead of 6.9 mm).
 constexpr std::size_t k_slope_window = 160;
 // Polygon sides that turn by less against each other are one side: rounding of a straight line to float, rad.
 constexpr double k_straight = 1e-4;
