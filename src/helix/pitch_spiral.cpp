@@ -6,6 +6,7 @@
 namespace fusee::helix {
 namespace {
 
+// Number of equal intervals of the joint angle between samples of the working arc.
 constexpr int k_samples = 192;
 
 /// Weight w(u) that falls from 1 to 0 over the spare turns with zero slope at both ends, and its derivatives.
@@ -19,7 +20,7 @@ Taper taper(double u, double length) {
   return {1.0 - x * x * (3.0 - 2.0 * x), -6.0 * x * (1.0 - x) / length, -6.0 * (1.0 - 2.0 * x) / (length * length)};
 }
 
-/// ∫ sin u w(u) du from 0, Simpson's rule.
+/// ∫ sin v w(v) dv from 0 to u, by Simpson's rule. `length`: angle of the spare turns.
 double tapered_sine_integral(double u, double length) {
   constexpr int k_steps = 64;
   const auto value = [length](double v) { return elementary::sin(v) * taper(v, length).w; };
@@ -52,7 +53,7 @@ FreePath PitchSpiral::free_path(const profile::TakeOff& take_off) const {
   return path;
 }
 
-// From the length balance L + σ = q + const.
+// From the balance of lengths L + σ = q + const (sloped_paths.cpp), where L is the free path's whole length.
 double PitchSpiral::sigma(const profile::TakeOff& take_off) const {
   return lengthened(take_off.stroke.alpha) - lengthened(home_.stroke.alpha) - free_path(take_off).whole +
          free_path(home_).whole;
