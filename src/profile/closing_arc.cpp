@@ -7,7 +7,7 @@
 namespace fusee::profile {
 namespace {
 
-constexpr int k_segments = 192;
+constexpr int k_segments = 192;  ///< number of intervals between knots
 
 /// ∫ ρ t dψ over a segment with ρ linear from r0 to r1: the displacement along the curve.
 /// With t = n' and ∫ n = −t:  [ρ n] − slope ∫ n = r1 n1 − r0 n0 + slope (t1 − t0).
