@@ -194,7 +194,7 @@ class StackBuilder {
 
   const profile::Outline& p1_;
   const profile::Outline& p2_;
-  double d_;
+  double d_;  ///< diameter of the tendon
   const BodyLayout& layout_;
   Flange kind_;
   FlangeRims rims_;

@@ -86,7 +86,7 @@ class BodyAdviser {
     profile::FeasibilityOracle judge = judge_;
     judge.is_expensive = !profile::obstacle_to(mechanism_);  // each try plans a body
     std::vector<std::string> keys = judge.is_expensive ? written_keys(mechanism_) : std::vector<std::string>{};
-    // Cones rise with the overhang angle, so a flatter one makes the part lower.
+    // The cones are as steep as the overhang angle, so a smaller angle makes the part lower.
     const auto is_height = [](const profile::Condition& condition) { return condition.name == k_height_condition; };
     if (!mechanism_.print.supports && std::any_of(failed.begin(), failed.end(), is_height))
       keys.emplace_back("print.overhang_deg");

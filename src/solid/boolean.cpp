@@ -266,8 +266,8 @@ bool sort_patches(const std::vector<TriangleMesh>& patches, const TriangleMesh& 
     if (!around) return false;
     const auto [below, above] = *around;
     bool is_inside = below && above, is_outside = !below && !above;
-    // Where the surfaces coincide and face the same way, only `below` is true: the patch bounds the intersection and
-    // the union. Where they face each other, only `above` is true: it bounds the difference.
+    // On coincident surfaces only one is true: `below` if they face the same way, `above` if they face each other. The
+    // former patch bounds the intersection and the union, the latter the difference.
     if (is_first) {
       is_inside = below;
       is_outside = operation == Operation::unite ? !above : !below;

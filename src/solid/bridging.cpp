@@ -215,7 +215,8 @@ class Ceiling {
   }
 
  private:
-  // The larger of both gaps relative to its limit. A limit of 0 counts as the narrowest spacing.
+  // The larger of both gaps relative to its limit. A limit below the narrowest spacing, such as
+  // 0, counts as that spacing.
   double badness(const SupportGaps& gaps) const {
     return std::max(gaps.bridge / std::max(limits_.bridge, k_narrowest_spacing),
                     gaps.step / std::max(limits_.step, k_narrowest_spacing));

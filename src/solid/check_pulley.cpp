@@ -194,7 +194,7 @@ class GrooveGauge {
   }
 
   const TriangleMesh& mesh_;
-  double d_;
+  double d_;  ///< diameter of the tendon
   const profile::Outline& outline_;
   const Pulley& pulley_;
   const BodyLayout& layout_;

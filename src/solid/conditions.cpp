@@ -276,7 +276,7 @@ class Conditions {
   const profile::SynthesisResult& synthesis_;
   const BodyLayout& layout_;
   const FlangeRims& rims_;
-  double d_;
+  double d_;  ///< diameter of the tendon
   ConditionList list_;
 };
 

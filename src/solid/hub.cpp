@@ -96,7 +96,7 @@ class HubSearch {
   double limit_;  ///< largest radius of a hub on the upper flange
 };
 
-// Rounds up to tenths, as messages print it. A value that exceeds a tenth by rounding only stays there.
+// Rounds up to tenths, as messages print it. A value that exceeds a tenth only by rounding is not raised to the next.
 double rounded_up(double value) {
   constexpr double k_rounding = 1e-9;
   return 0.1 * std::ceil(value / 0.1 - k_rounding);

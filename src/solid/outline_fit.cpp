@@ -12,8 +12,8 @@
 namespace fusee::solid {
 namespace {
 
-// Number of directions in which outlines are compared: every half degree. A facet of a pulley's outline turns by one to
-// three degrees.
+// Number of directions in which outlines are compared: every half degree. A facet of a pulley's outline turns by up to
+// two degrees.
 constexpr int k_directions = 720;
 // Number of directions for rating the turns that are tried.
 constexpr int k_coarse_directions = 180;

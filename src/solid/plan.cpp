@@ -211,7 +211,7 @@ class Planner {
 
   const Mechanism& mechanism_;
   const profile::SynthesisResult& synthesis_;
-  double d_;
+  double d_;  ///< diameter of the tendon
   const BodyLayout& base_;
   const FlangeRims& rims_;
   const TieOffWishes& wishes_;

@@ -165,7 +165,7 @@ class TailPlacer {
 
   const BodyPlan& plan_;
   const BodyLayout& layout_;
-  double d_;
+  double d_;  ///< diameter of the tendon
   double compensation_;
   const Screw* screw_;
   ConvexSides floor1_, floor2_;

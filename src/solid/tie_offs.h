@@ -120,7 +120,9 @@ class TieOffPlanner {
   void add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const AnchorGround& ground,
            const TieOffPair& pair) const;
   bool is_rejected(transmission::Side side, bool wound_end, double wrap) const;
+  /// `first`: the load-carrying tie-off found nearest to the active arc.
   TieOffPair wrapped_furthest(const BodyLayout& layout, const AnchorGround& ground, const TieOff& first) const;
+  /// `first`: the load-carrying tie-off of the same pulley.
   std::optional<TieOff> spare_beside(const BodyLayout& layout, const AnchorGround& ground, const TieOff& first) const;
 
   const Mechanism& mechanism_;

@@ -40,7 +40,7 @@ TEST(Corners, RemovesPointsOnStraightLines) {
       const Vec2 &a = corners[k], &b = corners[(k + 1) % n];
       for (const double share : {0.0, 1e-6, 0.3, 0.31, 0.9999}) points.push_back(a + share * (b - a));
     }
-    // Of a corner and the point just before it, 1e-4 of a side away (at most 0.00087 mm), either may remain.
+    // The last point before a corner, 1e-4 of a side or at most 0.00087 mm away, may remain in the corner's place.
     expect_near(corners_of(points), corners, 1e-4 * 10);
   }
 }
