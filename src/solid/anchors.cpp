@@ -40,7 +40,8 @@ class AnchorSearch {
   AnchorSearch(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach, const LapRange& laps)
       : site_(site), ground_(site.ground), arc_(ground_.arc(wound_end)), wanted_(wanted), reach_(reach), laps_(laps) {}
 
-  // Searches from short to long paths and stops at the first one with the requested pocket.
+  // Tries starts near the end of the active arc first, then preferred turns, then short straights. Stops at the first
+  // path with the requested pocket.
   std::optional<AnchorPath> run() {
     if (wanted_ < k_least_room * site_.width) return std::nullopt;
     // In degrees, the preferred turn first.

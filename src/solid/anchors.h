@@ -158,8 +158,8 @@ std::vector<std::size_t> coarse_floor(std::size_t points, const std::vector<std:
 
 /// near: only short channels that do not pass the axis.
 enum class AnchorReach { near, anywhere };
-/// The path with the largest pocket up to radius `wanted`; among those that reach it, the shortest. Empty when no
-/// channel fits.
+/// The path with the largest pocket up to radius `wanted`. Of those that reach it, the first one tried: starts near the
+/// end of the active arc come first, then preferred turns, then short straights. Empty when no channel fits.
 std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach,
                                       const LapRange& laps = {});
 
