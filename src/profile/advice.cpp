@@ -413,7 +413,7 @@ class AdviceSearch {
     pairs.resize(std::min(pairs.size(), static_cast<std::size_t>(std::max(0, max_evaluations_ - evaluations_))));
     return pairs;
   }
-  /// Evaluations are independent. If full builds are required, two run at a time.
+  /// Evaluations are independent. Two of them run at a time if the oracle has full builds, otherwise one.
   std::vector<std::vector<Condition>> evaluate(const std::vector<Mechanism>& changed) {
     std::vector<std::vector<Condition>> obstacles(changed.size());
     evaluations_ += static_cast<int>(changed.size());

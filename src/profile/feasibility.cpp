@@ -153,7 +153,7 @@ bool add_probe_conditions(std::vector<Condition>& conditions, const std::vector<
   return true;
 }
 
-/// The sampled joint angles of the image, 0 … k_samples.
+/// The sampled joint angles of the image, numbered from 0 to k_samples. rad
 struct StrokeOfImage {
   double begin = 0, end = 0;
 
