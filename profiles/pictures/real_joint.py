@@ -5,7 +5,8 @@
 
 RUNS: a folder with one .csv file for each run (time_s, alpha_deg, theta_deg, tau_out_Nm). Every fourth run is held out,
 and all figures and curves are of held-out runs. Prints the table of docs/background/real-joint.md. The equations are
-written anew here, and no program of this project runs. Needs numpy. The data of the page are O'Neill, Stephens and Kowalewski's (Open Database License 1.0).
+written anew here, and no program of this project runs. Needs numpy. The data of the page are O'Neill, Stephens and
+Kowalewski's (Open Database License 1.0).
 """
 
 import pathlib
