@@ -117,7 +117,7 @@ def part_faults(folder, scratch):
         yield from changed_bore(scad, scratch, volume)
     depth = number(scad, "groove_depth")
     shallow, shallow_box = render(scad, scratch / "shallow.stl", groove_depth=0.8 * depth)
-    # The radius shrinks by 0.2 of the depth; 0.15 allows for corners of the mesh.
+    # The radius shrinks by 0.2 of the depth; at least 0.15 is required.
     if not shallow < volume or not shallow_box[3] < box[3] - 0.15 * depth:
         yield "a shallower groove does not make a smaller part"
 

@@ -99,7 +99,7 @@ def faults_of(step, folder, part_module):
                 yield f"its {words} {name} is {b:.3f} mm, and {a:.3f} in pulley.stl"
     manifest = json.loads((folder / "manifest.json").read_text())
     for groove in manifest["grooves"]:
-        # Just above the groove's middle, where corners of the mesh lie: a plane through corners has no clear side.
+        # Just above the groove's middle: a plane through a ring of corners would have no clear side.
         a, b = (section_area(triangles, groove["z_mm"] + 1e-6) for triangles in (mesh, facets))
         if abs(a - b) > 0.005 * a:
             yield f"at groove {groove['pulley']} its section has {b:.2f} mm2, and {a:.2f} in pulley.stl"
