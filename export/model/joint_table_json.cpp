@@ -16,7 +16,7 @@ namespace {
 using namespace model_words;
 
 /// A float as a short number that reads back as the same float.
-double short_number(float value) { return std::stod(c_float(value)); }
+double short_number(float value) { return number_of(c_float(value)); }
 
 Json list_json(const std::vector<float>& values) {
   Json list = Json::array();
@@ -26,12 +26,12 @@ Json list_json(const std::vector<float>& values) {
 
 Json coefficients_json(const model::Polynomial& p) {
   Json list = Json::array();
-  for (const double c : p.c) list.push_back(std::stod(coefficient(c)));
+  for (const double c : p.c) list.push_back(number_of(coefficient(c)));
   return list;
 }
 
 /// Rounded up, as a bound.
-double bound_deg(double angle) { return std::stod(at_most_deg(angle)); }
+double bound_deg(double angle) { return number_of(at_most_deg(angle)); }
 
 std::string_view word(model::CurveSource source) {
   switch (source) {
@@ -109,7 +109,7 @@ std::string model_manifest_json(const ModelProduct& product, const std::vector<O
   for (const Check& check : product.checks)
     json["checks"].push_back({{"name", check.name},
                               {"value", result_json(check.value)},
-                              {"limit", std::stod(rounded(check.limit, 6))},
+                              {"limit", number_of(rounded(check.limit, 6))},
                               {"unit", check.unit},
                               {"ok", check.ok}});
   json["outputs"] = output_list(outputs);

@@ -275,7 +275,7 @@ std::string mujoco_tendons_xml(const ModelProduct& product) {
   }
   // The coefficient has the size of the true moment arm: MuJoCo scales a constraint's softness by the unscaled inertia
   // of both sides.
-  const double arm = std::stod(rounded(body.pulley_radius, 3));
+  const double arm = number_of(rounded(body.pulley_radius, 3));
   const double drawn = mechanism.seen_pitch_radius() > 0 ? 0 : 0.01 * mechanism.joint.R;
   return opening(product, body, coupling) + bodies(product, body, pins(mechanism, drawn) + world, link) +
          "  <tendon>\n" + tendons + "    <fixed name=\"wound\">\n      <joint joint=\"alpha\" coef=\"" + number(arm) +

@@ -40,8 +40,8 @@ std::string hinge(const std::string& name, const std::string& child, const std::
 std::string theta_joint(const ModelProduct& product, const SimulatedBody& body, const std::string& more) {
   const model::AngleMap& map = product.curves.physical.middle;
   const double slope = product.line.p.c[1];
-  return hinge("theta", "link", "0 0 0", map.theta_min, map.theta_max, std::stod(rounded(body.effort / slope)),
-               std::stod(rounded(body.speed * slope)), more);
+  return hinge("theta", "link", "0 0 0", map.theta_min, map.theta_max, number_of(rounded(body.effort / slope)),
+               number_of(rounded(body.speed * slope)), more);
 }
 
 std::string head(const ModelProduct& product, const std::vector<std::string>& coupling, const SimulatedBody& body) {

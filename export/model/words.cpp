@@ -184,8 +184,8 @@ void choose_time_step(SimulatedBody& body, double inertia, double link_inertia, 
   const double step = std::min(
       {k_most_step, k_step_per_servo_time * std::sqrt(inertia / body.kp), most_constraint_time / k_steps_per_constant});
   // One digit, rounded up or down. If up, half of the step is rounded instead, which stays below the whole.
-  body.timestep = std::stod(rounded(step, 1));
-  if (body.timestep > step) body.timestep = std::stod(rounded(0.5 * step, 1));
+  body.timestep = number_of(rounded(step, 1));
+  if (body.timestep > step) body.timestep = number_of(rounded(0.5 * step, 1));
   body.constraint_time = k_steps_per_constant * body.timestep;
 }
 
@@ -203,7 +203,7 @@ SimulatedBody body_of(const ModelProduct& product) {
   // The link's inertia at the motor, plus the rotor of a matched motor, or a small servo's at its output.
   const double link_inertia = body.inertia + body.mass * body.lever * body.lever;
   const double link_at_motor = link_inertia * extremes.slope * extremes.slope;
-  body.armature = std::stod(rounded(std::max(k_rotor_inertia, link_at_motor), 3));
+  body.armature = number_of(rounded(std::max(k_rotor_inertia, link_at_motor), 3));
   const double inertia = body.armature + link_at_motor;
   choose_servo(body, inertia, extremes.motor_torque);
   choose_time_step(body, inertia, link_inertia, extremes.joint_torque);

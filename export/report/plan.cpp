@@ -21,7 +21,7 @@ namespace {
 constexpr int k_rows_a_stroke = 120;
 
 /// A value whose uncertainty is some tens of percent, to four digits.
-Json four_digits_json(double value) { return std::isfinite(value) ? Json(std::stod(rounded(value, 4))) : Json(); }
+Json four_digits_json(double value) { return std::isfinite(value) ? Json(number_of(rounded(value, 4))) : Json(); }
 
 std::string_view word(plan::BenchChange change) {
   switch (change) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fusee/base.h"
@@ -153,9 +154,16 @@ struct KitPlace {
   bool on_link = false;  ///< it turns with the link; given for home
 };
 
+/// Names that parts of a rig may have; no rig has all of them.
+inline constexpr std::array<std::string_view, 22> k_kit_part_names{
+    "base_plate",   "base_template", "link",         "link_template", "bracket",      "scale_plate",
+    "leg",          "foot_spacer",   "foot_tube",    "post",          "magnet_cap",   "tensioner_slide",
+    "axle_spacer",  "board_spacer",  "bearing_ring", "pin_b_collar",  "pin_b_spacer", "pin_b_sleeve",
+    "pin_d_collar", "pin_d_spacer",  "pin_d_sleeve", "fit_coupon"};
+
 /// A printed or cut part of the rig.
 struct KitPart {
-  std::string name;              ///< base of its file names, such as "base_plate"
+  std::string name;              ///< of k_kit_part_names; base of its file names
   std::string words;             ///< description
   SlabBody body;                 ///< in print orientation, nominal size
   std::vector<KitPlace> places;  ///< one for each piece; none for a part outside the rig (the coupon)

@@ -148,7 +148,7 @@ bool stays_taut(Mechanism mechanism, double pretension, const std::vector<double
 /// `value` > 0 rounded up to three digits, as it is printed.
 double three_digits_up(double value) {
   const double unit = elementary::pow(10.0, std::floor(elementary::log10(value)) - 2.0);
-  return std::stod(rounded(std::ceil(value / unit) * unit, 3));
+  return number_of(rounded(std::ceil(value / unit) * unit, 3));
 }
 
 /// UnderLoad::taut_pretension within 1 % or 0.01 N, rounded up: doubled until the tendons stay taut, then bisected.

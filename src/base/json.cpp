@@ -13,7 +13,7 @@ std::string json_text(const Json& json, int indent) {
 
 Json result_json(double value) {
   if (!std::isfinite(value)) return nullptr;
-  return value == 0 ? 0.0 : std::stod(rounded(value, 6));
+  return value == 0 ? 0.0 : number_of(rounded(value, 6));
 }
 
 Json angle_json(double angle) { return result_json(degrees(angle)); }

@@ -167,6 +167,12 @@ std::string rounded(double value, int digits) {
   return trimmed_fixed(value, std::max(0, digits - before_point));
 }
 
+double number_of(std::string_view printed) {
+  double value = 0;
+  std::from_chars(printed.data(), printed.data() + printed.size(), value);
+  return value;
+}
+
 std::optional<std::string> utf8_of_utf16(std::string_view bytes) {
   const bool big_endian = bytes.starts_with("\xFE\xFF");
   if (!big_endian && !bytes.starts_with("\xFF\xFE")) return std::nullopt;

@@ -17,6 +17,8 @@ std::string fixed(double value, int decimals);
 std::string trimmed_fixed(double value, int decimals);
 /// Number for messages: `digits` significant digits, no exponent between 1e-4 and 1e7 ("18.9", "0.0123").
 std::string rounded(double value, int digits = 4);
+/// Number of a text that these functions printed. In no locale does it depend on the decimal point of the C library.
+double number_of(std::string_view printed);
 /// Text without blanks, tabs and carriage returns at both ends.
 std::string_view trimmed(std::string_view text);
 /// Text with A to Z as a to z.

@@ -220,10 +220,10 @@ void add_findings(const analysis::AnalysisResult& result, const std::string& fil
 
 analysis::AnalysisOptions analysis_options_from(const Arguments& arguments) {
   analysis::AnalysisOptions options;
-  options.steps = static_cast<int>(arguments.number("--steps", options.steps, 2, 2000, "(steps)"));
+  options.steps = static_cast<int>(arguments.whole_number("--steps", options.steps, 2, 2000, "(steps)"));
   options.dimension_tolerance = arguments.number("--tolerance-mm", options.dimension_tolerance, 0.0, 10.0, "mm");
-  options.samples = static_cast<int>(arguments.number("--samples", options.samples, 10, 100000, "(samples)"));
-  options.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1, 0, k_largest_seed, "(a whole number)"));
+  options.samples = static_cast<int>(arguments.whole_number("--samples", options.samples, 10, 100000, "(samples)"));
+  options.seed = static_cast<std::uint64_t>(arguments.whole_number("--seed", 1, 0, k_largest_seed, "(a whole number)"));
   return options;
 }
 

@@ -195,6 +195,13 @@ double Arguments::number(std::string_view option, double fallback, double least,
   return value;
 }
 
+double Arguments::whole_number(std::string_view option, double fallback, double least, double most,
+                               std::string_view unit) const {
+  const double value = number(option, fallback, least, most, unit);
+  if (value == std::floor(value)) return value;
+  throw UsageError(std::string(option) + " must be a whole number; '" + *text(option) + "' is not");
+}
+
 std::vector<Setting> Arguments::settings() const {
   const auto found = values_.find("--set");
   if (found == values_.end()) return {};

@@ -58,6 +58,8 @@ class Arguments {
   std::vector<std::string> texts(std::string_view option) const;
   /// A finite number within [least, most]; `fallback` if the option is not given. `unit` is for the message.
   double number(std::string_view option, double fallback, double least, double most, std::string_view unit) const;
+  /// As number(), for whole numbers.
+  double whole_number(std::string_view option, double fallback, double least, double most, std::string_view unit) const;
   /// The values of --set, in order.
   std::vector<Setting> settings() const;
 

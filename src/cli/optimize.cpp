@@ -47,11 +47,13 @@ pipeline::OptimizeOptions optimize_options_from(const Arguments& arguments) {
   pipeline::OptimizeOptions options;
   options.method = method_from(arguments);
   options.then = second_objective_from(arguments);
-  options.genetic.seed = static_cast<unsigned>(arguments.number("--seed", 1, 0, 4e9, ""));
+  options.genetic.seed =
+      static_cast<unsigned>(arguments.whole_number("--seed", 1, 0, k_largest_seed, "(a whole number)"));
   // GeneticOptions requires a multiple of 4.
   options.genetic.population =
-      4 * static_cast<unsigned>(std::ceil(arguments.number("--population", 48, 8, 10000, "designs") / 4));
-  options.genetic.generations = static_cast<unsigned>(arguments.number("--generations", 100, 1, 100000, "generations"));
+      4 * static_cast<unsigned>(std::ceil(arguments.whole_number("--population", 48, 8, 10000, "designs") / 4));
+  options.genetic.generations =
+      static_cast<unsigned>(arguments.whole_number("--generations", 100, 1, 100000, "generations"));
   options.settings = arguments.settings();
   options.new_file = arguments.text("--out").value_or("");
   options.front_folder = arguments.text("--front").value_or("");

@@ -60,7 +60,7 @@ pipeline::PlanFilesOptions plan_options_from(const Arguments& arguments) {
       throw UsageError("--range-deg takes two motor angles, the smaller first", "for example: --range-deg -90,90");
     plan.range = {radians(range[0]), radians(range[1])};
   }
-  plan.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1, 0, k_largest_seed, "(a whole number)"));
+  plan.seed = static_cast<std::uint64_t>(arguments.whole_number("--seed", 1, 0, k_largest_seed, "(a whole number)"));
   options.folder = output_folder(arguments, "_plan");
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");

@@ -337,7 +337,7 @@ class Layouts {
     // Thinner tendons, the thickest first, in numbers of two digits.
     for (const double share : {0.75, 0.5, 0.3, 0.15}) {
       Answers other = answers;
-      other.tendon.diameter = std::stod(rounded(share * answers.tendon.diameter, 2));
+      other.tendon.diameter = number_of(rounded(share * answers.tendon.diameter, 2));
       if (!exists(other)) continue;
       add(k_tendon_question, rounded(other.tendon.diameter) + " mm", rounded(answers.tendon.diameter) + " mm");
       break;
@@ -370,7 +370,7 @@ class Layouts {
                                 const std::vector<double>& factors) const {
     const auto rounded_up = [](double value) {
       const double step = value < 10 ? 0.1 : 1.0;
-      return std::stod(rounded(std::ceil(value / step - 1e-9) * step));
+      return number_of(rounded(std::ceil(value / step - 1e-9) * step));
     };
     const auto has_layout = [&](double value) {
       Answers other = answers;

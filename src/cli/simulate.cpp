@@ -18,7 +18,7 @@ pipeline::SimulateOptions simulate_options_from(const Arguments& arguments) {
   options.columns = columns_from(arguments);
   options.corrected = arguments.has("--corrected");
   options.noise = radians(arguments.number("--noise-deg", 0, 0, k_most_noise, "deg"));
-  options.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1, 0, k_largest_seed, "(a whole number)"));
+  options.seed = static_cast<std::uint64_t>(arguments.whole_number("--seed", 1, 0, k_largest_seed, "(a whole number)"));
   return options;
 }
 

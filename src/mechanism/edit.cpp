@@ -66,8 +66,8 @@ DeclaredMechanism edited_numbers(const toml::table& root, const std::vector<Valu
   return mechanism;
 }
 
-/// A new line for a key that its table does not contain. `new_tables`: tables that the file does not contain and whose
-/// header an earlier line has added; receives the key's table.
+/// A new line for a key that its table does not contain. `new_tables`: tables that the file does not contain, or leaves
+/// empty in braces, and that an earlier line has begun; receives the key's table.
 Replacement new_line(std::string_view text, const toml::table& root, const Field& field, std::string_view value,
                      std::vector<std::string>& new_tables) {
   const std::string line = std::string(field.key) + " = " + std::string(value);
@@ -75,7 +75,10 @@ Replacement new_line(std::string_view text, const toml::table& root, const Field
   if (const toml::table* table = root[table_name].as_table()) {
     if (table->is_inline()) {
       const std::size_t at = offset_of(text, table->source().begin) + 1;
-      return {at, at, " " + line + (table->empty() ? "" : ",")};
+      if (!table->empty()) return {at, at, " " + line + ","};
+      const bool is_first = std::find(new_tables.begin(), new_tables.end(), table_name) == new_tables.end();
+      new_tables.push_back(table_name);
+      return {at, at, (is_first ? " " : ", ") + line};
     }
     const std::size_t begin = offset_of(text, table->source().begin);
     if (text[begin] != '[')

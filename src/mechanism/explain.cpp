@@ -214,9 +214,9 @@ Json catalogue_json() {
     json["motors"].push_back({{"name", model.name},
                               {"description", model.description},
                               {"source", model.source},
-                              {"travel_deg", std::stod(rounded(degrees(model.travel), 12))},
+                              {"travel_deg", number_of(rounded(degrees(model.travel), 12))},
                               {"stall_torque_Nmm", model.stall_torque},
-                              {"speed_deg_per_s", std::stod(rounded(degrees(model.speed), 12))},
+                              {"speed_deg_per_s", number_of(rounded(degrees(model.speed), 12))},
                               {"holds", model.holds}});
   }
   return json;

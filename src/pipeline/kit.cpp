@@ -142,16 +142,13 @@ profile::Advice advice_for_kit(const MechanismFile& file, const formats::KitProd
 
 constexpr int k_most_kit_runs = 99;  ///< run files that an earlier kit may have written
 
-/// Files of this rig, and files that an earlier rig may have had, which are withdrawn: sleeves of pins and run files.
-std::vector<std::string> kit_names(const kit::KitPlan& plan) {
+/// Files that a rig may have: those of an earlier rig that this one lacks are withdrawn.
+std::vector<std::string> kit_names() {
   std::vector<std::string> names{"kit.dxf", "bom.csv", "kit.html", "manifest.json"};
-  for (const kit::KitPart& part : plan.parts) {
-    for (const char* ending : {"stl", "3mf"}) names.push_back(formats::kit_file_name(part, ending));
+  for (const std::string_view part : kit::k_kit_part_names) {
+    for (const char* ending : {".stl", ".3mf"}) names.push_back(std::string(part) + ending);
   }
   for (int i = 1; i <= k_most_kit_runs; ++i) names.push_back("run_" + std::to_string(i) + ".csv");
-  for (const char* sleeve : {"pin_b_sleeve", "pin_d_sleeve"}) {
-    for (const char* ending : {".stl", ".3mf"}) names.push_back(std::string(sleeve) + ending);
-  }
   return names;
 }
 
@@ -189,7 +186,7 @@ KitResult kit(const MechanismFile& file, const KitOptions& options, const RunCon
   }
   const plan::PlanOptions bench;
   auto planned = run_async([&] { return plan::plan_runs(file.mechanism, bench, context.without_progress()); });
-  target.claim(kit_names(product.plan));
+  target.claim(kit_names());
   if (!product.pulley.helix)
     product.pulley.holding = solid::tendon_holding(mechanism, product.pulley.synthesis, product.pulley.pulley);
   product.bench = {product.pulley.file, bench.noise, bench.minutes, planned.get()};
@@ -199,7 +196,7 @@ KitResult kit(const MechanismFile& file, const KitOptions& options, const RunCon
   if (result.ending != KitEnding::done && target.has_earlier_run() && !options.force) return result;
   context.begin_step("publishing");
   for (const OutputFile& output : result.outputs) target.stage(output);
-  target.withdraw(kit_names(product.plan));
+  target.withdraw(kit_names());
   target.publish(product.pulley.file.warnings);
   result.published = true;
   return result;

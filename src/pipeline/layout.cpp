@@ -51,7 +51,7 @@ constexpr int k_max_layout_builds = 6;
 constexpr int k_max_trial_builds = 3;
 
 /// The value as it is written to the file, with three digits.
-double in_three_digits(double value) { return std::stod(rounded(value, 3)); }
+double in_three_digits(double value) { return number_of(rounded(value, 3)); }
 
 /// The largest torque of the declared load about the joint, N·mm.
 double torque_of(const Mechanism& mechanism) {
@@ -78,8 +78,8 @@ void put_drum(Mechanism& mechanism, double rho, double reach) {
   // Ends between the drum's surface and its pitch circle are moved onto the pitch circle when the file is read.
   const double end_radius = rho - 0.25 * d;
   const auto end_at = [end_radius](double angle) {
-    return Attachment{std::stod(fixed(end_radius * elementary::cos(angle), 3)),
-                      std::stod(fixed(end_radius * elementary::sin(angle), 3))};
+    return Attachment{number_of(fixed(end_radius * elementary::cos(angle), 3)),
+                      number_of(fixed(end_radius * elementary::sin(angle), 3))};
   };
   joint.attachment1 = end_at(k_pi - normal - k_least_wrap + joint.theta_min);
   joint.attachment2 = end_at(normal + k_least_wrap + joint.theta_max);
@@ -346,7 +346,7 @@ std::optional<std::string> build_layout(const LayoutRequirements& needs, ChosenL
 /// Rounded up to two digits.
 double rounded_up(double value) {
   const double step = elementary::pow(10.0, std::floor(elementary::log10(value)) - 1);
-  return std::stod(rounded(std::ceil(value / step - 1e-9) * step, 2));
+  return number_of(rounded(std::ceil(value / step - 1e-9) * step, 2));
 }
 
 /// Gives a layout with a slack tendon the least pretension that keeps both taut, or explains why not.

@@ -76,7 +76,7 @@ bool has(const std::vector<std::string>& features, const std::string& feature) {
 /// The value with two digits, rounded up or down.
 double in_two_digits(double value, bool up) {
   const double unit = elementary::pow(10.0, std::floor(elementary::log10(value)) - 1.0), scaled = value / unit;
-  return std::stod(rounded((up ? std::ceil(scaled - 1e-9) : std::floor(scaled + 1e-9)) * unit, 3));
+  return number_of(rounded((up ? std::ceil(scaled - 1e-9) : std::floor(scaled + 1e-9)) * unit, 3));
 }
 
 class OmissionSearch {

@@ -169,7 +169,7 @@ std::array<double, 2> in_three_digits(double value_in_key_unit, double direction
   const double unit = elementary::pow(10.0, std::floor(elementary::log10(std::abs(value))) - 2.0);
   const double scaled = value / unit;
   // Rounded via the text, so that the tested number is the one that the user writes.
-  const auto written = [units](double number) { return to_mm(std::stod(rounded(number, 3)), units); };
+  const auto written = [units](double number) { return to_mm(number_of(rounded(number, 3)), units); };
   return {written(std::round(scaled) * unit), written((direction > 0 ? std::ceil(scaled) : std::floor(scaled)) * unit)};
 }
 

@@ -63,7 +63,7 @@ CarriedMechanism read(const std::string& path, const std::vector<std::pair<std::
 
 /// The number as in the file, without rounding errors of radians.
 py::object number(const Field& field, const DeclaredMechanism& mechanism, int end) {
-  const double value = std::stod(number_text(field, mechanism, end));
+  const double value = number_of(number_text(field, mechanism, end));
   if (field.whole) return py::int_(static_cast<long long>(value));
   return py::float_(value);
 }

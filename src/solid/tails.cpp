@@ -28,7 +28,7 @@ constexpr double k_ground_of_slot = 0.4;
 // Number of directions of a slot that are tried.
 constexpr int k_slot_directions = 72;
 // Length of thread for a screw in plastic, in nominal diameters: preferred and least.
-constexpr double k_thread_ratio = 2.5;
+constexpr double k_thread_length_ratio = 2.5;
 constexpr double k_least_thread_ratio = 1.5;
 
 class TailPlacer {
@@ -106,7 +106,7 @@ class TailPlacer {
       material = side == transmission::Side::left ? layout_.z_mate : layout_.z_top - layout_.z_mate;
     const double below = slot.depth + slot.ceiling, room = material - k_ground_of_slot - below;
     slot.pilot_diameter = screw_->tapping + compensation_;
-    slot.pilot_depth = below + std::min(k_thread_ratio * screw_->nominal, room);
+    slot.pilot_depth = below + std::min(k_thread_length_ratio * screw_->nominal, room);
     slot.head_diameter = screw_->head;
     return room >= k_least_thread_ratio * screw_->nominal;
   }

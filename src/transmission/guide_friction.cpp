@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "fusee/transmission.h"
 
@@ -21,7 +20,9 @@ double loss(double turning, double wrap) {
 // bearing resists with μb rb times that: (T2 − T1) ρ = μb rb (T1 + T2) sin(φ/2). With ε = μb (rb/ρ) sin(φ/2), T2/T1 =
 // (1 + ε)/(1 − ε).
 double GuideFriction::log_ratio(double wrap) const {
-  return is_idler ? 2.0 * std::atanh(loss(turning, wrap)) : mu * std::max(0.0, wrap);
+  if (!is_idler) return mu * std::max(0.0, wrap);
+  const double epsilon = loss(turning, wrap);
+  return elementary::log1p(2.0 * epsilon / (1.0 - epsilon));
 }
 
 double GuideFriction::slope(double wrap) const {

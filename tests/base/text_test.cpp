@@ -44,6 +44,13 @@ TEST(Text, RoundedKeepsSignificantDigits) {
   EXPECT_EQ(rounded(-2.0), "-2");
 }
 
+TEST(Text, ReadsPrintedNumbersExactly) {
+  for (const double value : {0.0, -0.1, 1.0 / 3, 1e-300, 1.7976931348623157e308})
+    EXPECT_EQ(number_of(shortest(value)), value);
+  EXPECT_EQ(number_of(rounded(-2.0 / 3)), -0.6667);
+  EXPECT_EQ(number_of(fixed(1200, 3)), 1200);
+}
+
 TEST(Text, ConvertsUtf16OfBothByteOrders) {
   using namespace std::string_literals;
   EXPECT_EQ(utf8_of_utf16("\xFF\xFEs\0\xB0\0\xAC\x20"s), "s°€");

@@ -103,6 +103,7 @@ CASES = [
     ("build arm.toml --tolerance-mm nan", 2, "^$", "'nan' is not"),
     ("build arm.toml --tolerance-mm 1e999", 2, "^$", "'1e999' is not"),
     ("build arm.toml --tolerance-mm 0,01", 2, "^$", "'0,01' is not"),
+    ("analyze arm.toml --steps 10.7", 2, "^$", "--steps must be a whole number; '10.7' is not"),
     ("build arm.toml --max-slack-mm inf", 2, "^$", "'inf' is not"),
     ("build arm.toml --max-theta-error-deg x", 2, "^$", "'x' is not"),
     ("build arm.toml --dxf r13", 2, "^$", "--dxf must be ac1015 or r12"),

@@ -109,6 +109,12 @@ class Kit(harness.Scratch):
         self.expect("kit arm.toml -o model", 0)
         self.assertNotIn("pin_b_sleeve.stl", self.files("model"))
 
+    def test_removes_parts_of_another_joint(self):
+        self.expect("kit arm.toml -o model", 0)
+        self.expect(f"kit {harness.SOURCE}/profiles/finger_mcp.toml -o model", 0)
+        self.assertNotIn("link.stl", self.files("model"))
+        self.assertIn("link_template.stl", self.files("model"))
+
     def test_replays_bundle(self):
         self.expect("kit arm.toml -o model --bundle bug.zip", 0)
         self.expect("replay bug.zip", 0)

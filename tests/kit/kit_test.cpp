@@ -139,6 +139,13 @@ TEST_P(Kit, MovingPartsDoNotCollide) {
   }
 }
 
+/// All names of parts, by which a kit removes the parts of an earlier one.
+void expect_known_names(const kit::KitPlan& plan) {
+  for (const kit::KitPart& part : plan.parts) EXPECT_THAT(kit::k_kit_part_names, ::testing::Contains(part.name));
+}
+
+TEST_P(Kit, PartsHaveKnownNames) { expect_known_names(model_of(GetParam()).plan); }
+
 TEST_P(Kit, TendonsRunFree) {
   const Model model = model_of(GetParam());
   ASSERT_TRUE(model.plan.made());
@@ -349,6 +356,7 @@ TEST_P(Template, HasAHoleAtEveryAxis) {
   const Model model = model_of(GetParam());
   ASSERT_TRUE(model.plan.made());
   EXPECT_TRUE(model.plan.drilled);
+  expect_known_names(model.plan);
   const Mechanism& mechanism = model.mechanism;
   const auto loops_of = [&](const std::string& name) {
     const auto part = std::find_if(model.plan.parts.begin(), model.plan.parts.end(),

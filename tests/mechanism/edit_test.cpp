@@ -34,6 +34,16 @@ TEST(Edit, WritesOmittedKeys) {
   EXPECT_EQ(mechanism.body.min_wall, 1.5);
 }
 
+TEST(Edit, WritesOmittedKeysIntoBraces) {
+  for (const char* braces : {"load = {}\n", "load = { mass_kg = 0.4 }\n"}) {
+    const DeclaredMechanism mechanism = parse_mechanism(
+        edit_values(braces + k_good_file, {{"load.tip_force_N", 2}, {"load.torque_Nmm", 3}, {"load.lever_mm", 5}}),
+        "f.toml");
+    EXPECT_EQ(mechanism.load.tip_force, 2) << braces;
+    EXPECT_EQ(mechanism.load.torque, 3) << braces;
+  }
+}
+
 // A pair that the file omits is written completely, with the default as the other number.
 TEST(Edit, WritesOmittedPairCompletely) {
   const std::string text = k_good_file;

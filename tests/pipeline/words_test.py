@@ -69,7 +69,7 @@ ANY_NAME = re.compile("|".join(rf"(?<![\"\w-])(?:{expression})(?![\"\w])" for ex
 ANY_WORD = re.compile("|".join(rf"(?<!-)\b(?:{expression})\b" for expression in REPLACED), re.I)
 
 #: Their digits depend on the machine.
-ELEMENTARY = re.compile(r"std::(a?(?:sin|cos|tan)|atan2|exp|log|log1p|log10|pow|hypot)\b")
+ELEMENTARY = re.compile(r"std::(a?(?:sin|cos|tan)h?|atan2|exp|log|log1p|log10|pow|hypot)\b")
 COMPUTING = ("src/", "export/", "include/")
 
 CPP_COMMENT = re.compile(r"\s*//[/!]?(?!<)\s?(.*)")
@@ -202,6 +202,8 @@ def elementary_faults(lines):
     for number, line in enumerate(lines, 1):
         for match in ELEMENTARY.finditer(line):
             yield number, f"'{match[0]}' differs between machines", f"elementary::{match[1]}"
+        if "std::stod(" in line:
+            yield number, "'std::stod' reads the decimal point of the locale", "number_of"
 
 
 def files(root, under=()):
@@ -254,6 +256,7 @@ class Words(unittest.TestCase):
 
     def test_detects_functions_of_the_machine(self):
         self.assertEqual([number for number, _, _ in elementary_faults(["elementary::sin(x);", "y = std::atan2(a, b) + std::sqrt(c);"])], [2])
+        self.assertEqual([number for number, _, _ in elementary_faults(["number_of(text);", "std::atanh(x);", "std::stod(text);"])], [2, 3])
 
     def test_detects_titles(self):
         self.assertEqual(len(self.refused(".cpp", "TEST(Part, WhatIsMade) {\n")), 1)
