@@ -341,10 +341,15 @@ TEST(ReadDxf, SkipsValuesBetweenSections) {
   EXPECT_EQ(read(bytes).paths.size(), 1u);
 }
 
+TEST(ReadDxf, AcceptsBlanksBeforeFirstTag) {
+  EXPECT_EQ(read(std::string(100, ' ') + dxf_of(line(0, 0, 1, 0))).paths.size(), 1u);
+}
+
 TEST(ReadDxf, RejectsOtherFormats) {
   EXPECT_THAT(message_of("AutoCAD Binary DXF\r\n\x1a"), HasSubstr("binary DXF"));
   EXPECT_THAT(message_of("AC1015\0\0\0"), HasSubstr("DWG"));
-  EXPECT_THAT(message_of(""), HasSubstr("empty"));
+  for (const std::string& blank : {std::string(), std::string("\n"), std::string("\r\n \t\r\n"), std::string(100, ' ')})
+    EXPECT_THAT(message_of(blank), HasSubstr("the file is empty"));
   EXPECT_THAT(message_of("solid cube\n facet normal 0 0 1\n"), HasSubstr("test.dxf:1: error"));
   EXPECT_THAT(message_of(tags({{0, "EOF"}})), HasSubstr("no ENTITIES"));
 }
