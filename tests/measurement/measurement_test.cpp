@@ -584,6 +584,9 @@ TEST(Measurement, ThinsManyLongFiles) {
   for (const fusee::measurement::Run& run : measurement.runs) kept += run.samples.size();
   EXPECT_LE(kept, std::size_t{1} << 20);
   EXPECT_GT(kept, std::size_t{1} << 19);
+  EXPECT_THAT(notes_of(measurement),
+              HasSubstr("of 600000 rows one in 2 is used: at most 1048576 rows are kept, divided "
+                        "equally among the files"));
 }
 
 TEST(Measurement, FileAndTextAgree) {
