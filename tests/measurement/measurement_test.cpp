@@ -729,6 +729,24 @@ TEST(Driving, NeedsNoTheta) {
   }
 }
 
+// θ decides whether a jump of α by a turn is a motion, also where only every second row has a θ.
+TEST(Driving, UnwrapsAlphaWithThetaInSomeRows) {
+  const auto alpha_at_end = [](int jump, double theta_after) {
+    std::string text = "alpha_deg,theta_deg\n";
+    for (int row = 0; row < 40; ++row) {
+      text += shortest(row < jump ? row : row + 360) + ",";
+      if (row % 2 == 0) text += shortest(row < jump ? 0.1 * row : 0.1 * row + theta_after);
+      text += "\n";
+    }
+    const Measurement log = read_driving(written(text), testing::forearm());
+    return degrees(log.runs[0].samples.back().alpha);
+  };
+  for (const int jump : {19, 20}) {
+    EXPECT_NEAR(alpha_at_end(jump, 90), 399, 1e-9) << "θ moves by 90°";
+    EXPECT_NEAR(alpha_at_end(jump, 0), 39, 1e-9) << "θ stays: the encoder wraps";
+  }
+}
+
 TEST(Driving, ConvertsTorqueToTipForce) {
   const DeclaredMechanism joint = testing::forearm();
   MeasurementOptions options;
