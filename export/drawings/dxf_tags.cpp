@@ -56,13 +56,34 @@ std::optional<std::string_view> DxfTagReader::next_line() {
   return line;
 }
 
+namespace {
+
+/// True for the text of a number that no double holds, if its magnitude is below 1: it is too small, not too large.
+bool is_below_one(std::string_view text) {
+  const std::size_t mark = std::min(text.find_first_of("eE"), text.size());
+  const std::string_view digits = text.substr(0, mark);
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  const std::size_t first = digits.find_first_of("123456789");
+  // Digits between the first one that counts and the point; negative behind the point.
+  const auto order = static_cast<long long>(point) - static_cast<long long>(first);
+  std::string_view power = text.substr(std::min(mark + 1, text.size()));
+  if (power.starts_with('+')) power.remove_prefix(1);
+  long long exponent = 0;
+  if (std::from_chars(power.data(), power.data() + power.size(), exponent).ec == std::errc::result_out_of_range)
+    return power.starts_with('-');
+  return exponent < -order;
+}
+
+}  // namespace
+
 double dxf_number(const std::string& file, const DxfTag& tag) {
   std::string_view text = tag.value;
   if (!text.empty() && text[0] == '+') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool underflows = error == std::errc::result_out_of_range && text.find("e-") != std::string_view::npos;
-  if (!underflows && (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))) {
+  const bool is_whole = end == text.data() + text.size();
+  const bool underflows = is_whole && error == std::errc::result_out_of_range && is_below_one(text);
+  if (!underflows && (error != std::errc{} || !is_whole || !std::isfinite(value))) {
     fail_in_dxf(file, tag.line,
                 "a number should stand here (group " + std::to_string(tag.code) + "), not " + quoted_bytes(tag.value));
   }

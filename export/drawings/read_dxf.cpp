@@ -22,8 +22,7 @@ void refuse_other_formats(std::string_view bytes, const std::string& file) {
     fail_in_dxf(file, 0, "this is a binary DXF", "save it as ASCII DXF (R12, or 2000 and later)");
   if (bytes.starts_with("AC10"))
     fail_in_dxf(file, 0, "this is a DWG drawing", "save it as ASCII DXF (R12, or 2000 and later)");
-  if (bytes.substr(0, 64).find_first_not_of(" \t\r") == std::string_view::npos)
-    fail_in_dxf(file, 0, "the file is empty");
+  if (bytes.find_first_not_of(" \t\r\n") == std::string_view::npos) fail_in_dxf(file, 0, "the file is empty");
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ void for_children(const pugi::xml_node& node, std::string_view name, const Visit
   }
 }
 
-/// An affine placement: p → linear · p + shift.
+/// An affine placement of points in mm: p → linear · p + shift.
 struct Placement {
   Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
   Vec3 shift = Vec3::Zero();
@@ -348,7 +348,8 @@ std::int64_t ThreemfReader::integer(const ModelPart& part, const pugi::xml_node&
   return value;
 }
 
-/// "m00 m01 m02 m10 … m32": the rows are the images of x, y, z and of the origin.
+/// "m00 m01 m02 m10 … m32": the rows are the images of x, y, z and of the origin. The shift is in the unit of the part
+/// that states the transform, which may differ from that of the object's part.
 Placement ThreemfReader::placement(const ModelPart& part, const pugi::xml_node& node) const {
   Placement place;
   const pugi::xml_attribute attribute = node.attribute("transform");
@@ -363,7 +364,7 @@ Placement ThreemfReader::placement(const ModelPart& part, const pugi::xml_node& 
     if (row < 3) {
       place.linear.col(row) = image;
     } else {
-      place.shift = image;
+      place.shift = part.unit * image;
     }
   }
   return place;
@@ -410,7 +411,7 @@ void ThreemfReader::add_vertices(ModelPart& part, const pugi::xml_node& mesh, co
   for_children(child(mesh, "vertices"), "vertex", [&](const pugi::xml_node& vertex) {
     count_element(part, vertex);
     const Vec3 position(number(part, vertex, "x"), number(part, vertex, "y"), number(part, vertex, "z"));
-    mesh_.vertices.push_back(part.unit * (place.linear * position + place.shift));
+    mesh_.vertices.push_back(place.linear * (part.unit * position) + place.shift);
   });
 }
 

@@ -205,9 +205,15 @@ int shade_of(double value, double colour_limit) {
   return std::isfinite(value) && colour_limit > 0 ? static_cast<int>(std::lround(value / colour_limit * k_shades)) : 0;
 }
 
-/// Keeps the end of a long name, where names of runs differ.
+/// Keeps the end of a long name, where names of runs differ, up to this number of characters.
 std::string short_name(const std::string& name, std::size_t max_length) {
-  return name.size() <= max_length || max_length < 4 ? name : "…" + name.substr(name.size() - max_length + 1);
+  if (max_length < 4 || characters(name) <= max_length) return name;
+  std::string_view end = name;
+  while (characters(end) >= max_length) {
+    end.remove_prefix(1);
+    while (characters(end.substr(0, 1)) == 0) end.remove_prefix(1);  // the remaining bytes of the same character
+  }
+  return "…" + std::string(end);
 }
 
 std::string map_label(const measurement::Run& run, const std::string& load_unit) {

@@ -4,6 +4,7 @@
 #include "export/report/picture.h"
 
 #include <map>
+#include <memory>
 
 #include "base/module.h"
 #include "export/report/report_parts.h"
@@ -32,40 +33,40 @@ Function* required(const SystemLibrary& library, const char* name) {
 
 class Renderer {
  public:
-  /// Draws on a cairo surface, which the caller destroys. Width and height are those of the surface, in its units.
-  void draw(const std::string& svg, void* surface, double width, double height, bool on_white) const {
-    void* const context = create_(surface);
-    if (on_white) {
-      set_colour_(context, 1, 1, 1);
-      paint_(context);
-    }
-    void* const picture = read_(reinterpret_cast<const unsigned char*>(svg.data()), svg.size(), nullptr);
-    const RsvgRectangle all{0, 0, width, height};
-    const bool is_drawn = picture != nullptr && render_(picture, context, &all, nullptr) != 0;
-    if (picture != nullptr) unref_(picture);
-    destroy_context_(context);
-    if (!is_drawn) throw InputError("", "librsvg cannot draw this picture", "write .svg in place of it");
-  }
-
   std::string png(const std::string& svg, double width, double height) const {
-    void* const surface = image_(0, static_cast<int>(width), static_cast<int>(height));  // CAIRO_FORMAT_ARGB32
+    constexpr int k_argb32 = 0;  // CAIRO_FORMAT_ARGB32
+    const Object surface(image_(k_argb32, static_cast<int>(width), static_cast<int>(height)), destroy_surface_);
     draw(svg, surface, width, height, true);
     std::string bytes;
-    write_png_(surface, append_bytes, &bytes);
-    destroy_surface_(surface);
+    write_png_(surface.get(), append_bytes, &bytes);
     return bytes;
   }
 
   std::string pdf(const std::string& svg, double width, double height) const {
-    std::string bytes;
-    void* const surface = pdf_(append_bytes, &bytes, width, height);
+    std::string bytes;  // outlives the surface, which writes to it until it is finished or destroyed
+    const Object surface(pdf_(append_bytes, &bytes, width, height), destroy_surface_);
     draw(svg, surface, width, height, false);
-    finish_(surface);
-    destroy_surface_(surface);
+    finish_(surface.get());
     return bytes;
   }
 
  private:
+  /// An object of a library, released by the library's function.
+  using Object = std::unique_ptr<void, void (*)(void*)>;
+
+  /// Draws on a cairo surface. Width and height are those of the surface, in its units.
+  void draw(const std::string& svg, const Object& surface, double width, double height, bool on_white) const {
+    const Object context(create_(surface.get()), destroy_context_);
+    if (on_white) {
+      set_colour_(context.get(), 1, 1, 1);
+      paint_(context.get());
+    }
+    const Object picture(read_(reinterpret_cast<const unsigned char*>(svg.data()), svg.size(), nullptr), unref_);
+    const RsvgRectangle all{0, 0, width, height};
+    if (picture == nullptr || render_(picture.get(), context.get(), &all, nullptr) == 0)
+      throw InputError("", "librsvg cannot draw this picture", "write .svg in place of it");
+  }
+
   SystemLibrary rsvg_{"librsvg-2.so.2"}, cairo_{"libcairo.so.2"}, gobject_{"libgobject-2.0.so.0"};
   void* (*read_)(const unsigned char*, std::size_t,
                  void**) = required<void*(const unsigned char*, std::size_t, void**)>(rsvg_,

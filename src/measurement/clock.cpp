@@ -67,12 +67,13 @@ class ClockJoiner {
     std::vector<double> joined(rows_.size(), time(0));
     double shift = 0;       // from the logged clock to the continued one, s
     double high = time(0);  // latest logged time since the last restart or overflow
-    double first = high;    // logged time at the last restart
+    double first = high;    // logged time at the last restart, as the counter would show it without overflows
     for (std::size_t k = 1; k < rows_.size(); ++k) {
       const bool restarts_here = samples_[rows_[k]].after_break;  // at a repeated header
       if (!restarts_here && time(k) < high) {
         if (const double period = period_over(high, time(k)); period > 0) {
           shift += period;
+          first -= period;
           ++overflows_;
         } else if (const std::size_t late = late_rows(k, first, high); late > 0) {
           for (const std::size_t end = k + late; k < end; ++k) joined[k] = time(k) + shift;

@@ -33,8 +33,8 @@ void note_rows_read(const LoggedRows& rows, const std::string& name, const NoteS
   for (const std::string& note : rows.notes) add_note(note);
   for (const std::string& source : rows.sources) into.sources.push_back(name + ": " + source);
   if (rows.stride > 1) {
-    add_note("of " + std::to_string(rows.rows) + " rows one in " + std::to_string(rows.stride) +
-             " is used: no more than " + std::to_string(k_most_samples) + " rows of all files are kept");
+    add_note("of " + std::to_string(rows.rows) + " rows one in " + std::to_string(rows.stride) + " is used: at most " +
+             std::to_string(k_most_samples) + " rows are kept, divided equally among the files");
   }
   if (rows.without_angle == 0) return;
   if (is_unfilled(rows)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -89,15 +90,35 @@ void drop_rows(std::vector<Sample>& samples, const Outliers& outliers, const std
   add_note(words + "dropped as outliers");
 }
 
-/// Range of θ without the outermost 0.5 % at either end, which may be outliers.
+/// Range of the known θ without the outermost 0.5 % at either end, which may be outliers. 0 if no θ is known.
 double span_of_theta(const std::vector<Sample>& samples) {
   std::vector<double> thetas;
-  for (const Sample& sample : samples) thetas.push_back(sample.theta);
+  for (const Sample& sample : samples) {
+    if (!std::isnan(sample.theta)) thetas.push_back(sample.theta);
+  }
+  if (thetas.empty()) return 0;
   const auto at_rank = [&](std::size_t rank) {
     std::nth_element(thetas.begin(), thetas.begin() + static_cast<std::ptrdiff_t>(rank), thetas.end());
     return thetas[rank];
   };
   return at_rank(thetas.size() - 1 - thetas.size() / 200) - at_rank(thetas.size() / 200);
+}
+
+/// Change of θ up to each row from the row before it. The θ of a row without one is that of the next row that has one,
+/// since the joint may have moved before either. NaN if no θ is known before or after.
+std::vector<double> steps_of_theta(const std::vector<Sample>& samples) {
+  std::vector<double> steps(samples.size());
+  double next = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = samples.size(); i-- > 0;) {
+    if (!std::isnan(samples[i].theta)) next = samples[i].theta;
+    steps[i] = next;
+  }
+  double last = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    steps[i] -= last;
+    if (!std::isnan(samples[i].theta)) last = samples[i].theta;
+  }
+  return steps;
 }
 
 }  // namespace
@@ -108,11 +129,12 @@ void unwrap(std::vector<Sample>& samples, double Sample::*angle, const std::stri
   double before = samples.front().*angle;
   const bool of_motor = angle == &Sample::alpha;
   const double large_step_of_theta = of_motor ? 0.25 * span_of_theta(samples) : 0;
+  const std::vector<double> theta_steps = of_motor ? steps_of_theta(samples) : std::vector<double>();
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const double here = samples[i].*angle;
     const double jump = here - before;
     before = here;
-    const bool joint_moves = of_motor && std::abs(samples[i].theta - samples[i - 1].theta) > large_step_of_theta;
+    const bool joint_moves = of_motor && std::abs(theta_steps[i]) > large_step_of_theta;
     const bool is_about_a_turn = std::abs(std::abs(jump) - k_two_pi) < radians(80.0);
     if (!joint_moves && is_about_a_turn) {
       shift -= jump > 0 ? k_two_pi : -k_two_pi;

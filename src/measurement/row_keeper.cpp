@@ -16,9 +16,10 @@ void RowKeeper::thin_out() {
     samples[i] = samples[2 * i];
     samples[i].after_break = samples[i].after_break || break_before;
   }
+  const bool drops_last = samples.size() % 2 == 0;
+  after_break_ = drops_last && samples.back().after_break;
   samples.resize((samples.size() + 1) / 2);
   stride *= 2;
-  counter_ = 0;
 }
 
 }  // namespace fusee::measurement

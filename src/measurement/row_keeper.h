@@ -25,7 +25,7 @@ class RowKeeper {
   void thin_out();
 
   std::size_t most_;
-  std::size_t counter_ = 0;   ///< rows since the last thinning
+  std::size_t counter_ = 0;   ///< rows added
   bool after_break_ = false;  ///< the log restarts before the next kept row
 };
 

@@ -205,7 +205,6 @@ void Track::add(const TrackPoint& point) {
   for (std::size_t i = 0; 2 * i < points.size(); ++i) points[i] = points[2 * i];
   points.resize((points.size() + 1) / 2);
   stride *= 2;
-  count_ = 0;
 }
 
 JoinedRows join(const std::vector<Track>& tracks, bool needs_theta, RowKeeper& into) {

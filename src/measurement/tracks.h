@@ -28,7 +28,7 @@ struct Track {
   void add(const TrackPoint& point);
 
  private:
-  std::size_t count_ = 0;  ///< points since the last thinning
+  std::size_t count_ = 0;  ///< points added
 };
 
 struct JoinedRows {

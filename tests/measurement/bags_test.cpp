@@ -10,6 +10,7 @@
 #include "fusee/base.h"
 #include "fuzz/measurement_laws.h"
 #include "measurement/log_file.h"
+#include "measurement/row_keeper.h"
 #include "measurement/row_reader.h"
 #include "measurement/tracks.h"
 #include "measurement/unpacking.h"
@@ -358,6 +359,45 @@ TEST(Joining, HoldsAngleAcrossAWholeTurn) {
   RowKeeper keeper(1000);
   join({alpha, theta}, true, keeper);
   for (const Sample& sample : keeper.samples) EXPECT_GT(std::abs(sample.theta), 2.0) << sample.time;
+}
+
+// Every 4th, 8th, … row from the first one on, for even and odd limits.
+TEST(RowKeeper, KeepsRowsAtEqualDistances) {
+  for (const std::size_t most : {8u, 9u}) {
+    RowKeeper keeper(most);
+    for (int row = 0; row < 100; ++row) {
+      Sample sample;
+      sample.time = row;
+      keeper.add(sample);
+    }
+    EXPECT_EQ(keeper.stride, 16u);
+    for (std::size_t i = 0; i < keeper.samples.size(); ++i)
+      EXPECT_EQ(keeper.samples[i].time, static_cast<double>(keeper.stride * i)) << most;
+    EXPECT_EQ(keeper.samples.size(), 100 / keeper.stride + 1);
+  }
+}
+
+TEST(RowKeeper, KeepsRestartBeforeOmittedRow) {
+  RowKeeper keeper(4);
+  for (int row = 0; row < 5; ++row) {
+    if (row == 3) keeper.begin_again();
+    Sample sample;
+    sample.time = row;
+    keeper.add(sample);
+  }
+  ASSERT_EQ(keeper.samples.size(), 3u);  // rows 0, 2 and 4
+  EXPECT_FALSE(keeper.samples[1].after_break);
+  EXPECT_TRUE(keeper.samples[2].after_break);
+}
+
+TEST(Track, KeepsPointsAtEqualDistances) {
+  Track track;
+  for (std::int64_t i = 0; i < std::int64_t{9} << 20; ++i) track.add({i, 0, 0});
+  EXPECT_EQ(track.stride, 4u);
+  bool is_evenly_spaced = true;
+  for (std::size_t i = 0; i < track.points.size(); ++i)
+    is_evenly_spaced &= track.points[i].time == static_cast<std::int64_t>(4 * i);
+  EXPECT_TRUE(is_evenly_spaced);
 }
 
 TEST(Joining, HoldsLoadsThatAreSetByHand) {

@@ -584,6 +584,9 @@ TEST(Measurement, ThinsManyLongFiles) {
   for (const fusee::measurement::Run& run : measurement.runs) kept += run.samples.size();
   EXPECT_LE(kept, std::size_t{1} << 20);
   EXPECT_GT(kept, std::size_t{1} << 19);
+  EXPECT_THAT(notes_of(measurement),
+              HasSubstr("of 600000 rows one in 2 is used: at most 1048576 rows are kept, divided "
+                        "equally among the files"));
 }
 
 TEST(Measurement, FileAndTextAgree) {
@@ -723,6 +726,24 @@ TEST(Driving, NeedsNoTheta) {
     EXPECT_EQ(log.runs[0].samples[1].load, 5) << "the load before";
     EXPECT_TRUE(std::isnan(log.runs[0].samples[1].theta));
     EXPECT_THAT(log.notes, SizeIs(1));  // that of the missing load
+  }
+}
+
+// θ decides whether a jump of α by a turn is a motion, also where only every second row has a θ.
+TEST(Driving, UnwrapsAlphaWithThetaInSomeRows) {
+  const auto alpha_at_end = [](int jump, double theta_after) {
+    std::string text = "alpha_deg,theta_deg\n";
+    for (int row = 0; row < 40; ++row) {
+      text += shortest(row < jump ? row : row + 360) + ",";
+      if (row % 2 == 0) text += shortest(row < jump ? 0.1 * row : 0.1 * row + theta_after);
+      text += "\n";
+    }
+    const Measurement log = read_driving(written(text), testing::forearm());
+    return degrees(log.runs[0].samples.back().alpha);
+  };
+  for (const int jump : {19, 20}) {
+    EXPECT_NEAR(alpha_at_end(jump, 90), 399, 1e-9) << "θ moves by 90°";
+    EXPECT_NEAR(alpha_at_end(jump, 0), 39, 1e-9) << "θ stays: the encoder wraps";
   }
 }
 

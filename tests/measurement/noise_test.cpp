@@ -104,8 +104,8 @@ TEST(NoiseFloor, DenseLogHasRepeats) {
   const double quantum = 2e-3;
   const NoiseFloor floor = floor_of({.noise = 3e-3, .rows = 3000, .quantum = quantum, .alpha_quantum = 5e-3});
   EXPECT_TRUE(floor.from_repeats);
-  // α's step appears in θ by the slope .6 cos 2α, .43 rms.
-  const double expected = std::sqrt(9e-6 + (quantum * quantum + 0.43 * 0.43 * 25e-6) / 12.0);
+  // α's step appears in θ by the slope .6 cos 2α, whose rms over α = 0 … 1 is .6 √(1/2 + sin(4)/8) = .382.
+  const double expected = std::sqrt(9e-6 + (quantum * quantum + 0.382 * 0.382 * 25e-6) / 12.0);
   EXPECT_NEAR(floor.rms, expected, 0.05 * expected);
 }
 

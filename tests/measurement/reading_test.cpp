@@ -137,6 +137,20 @@ TEST(LoggedClock, ContinuesManyOverflows) {
   EXPECT_THAT(found.notes, HasSubstr("the clock's counter ran over 122 times"));  // 8 s in periods of 65.536 ms
 }
 
+TEST(LoggedClock, MovesLateRowBackAfterOverflow) {
+  constexpr double size = 4294967296.0, start = size - 3e6;  // overflows at row 150
+  const auto reordered = [](const Value& value) {
+    return [value](int row) { return value(row == 200 ? 201 : row == 201 ? 200 : row); };
+  };
+  const Value time = [](int row) { return whole(std::fmod(start + std::round(1e6 * time_of(row)), size)); };
+  const ReadRun found =
+      read(table("time_us,alpha_deg,theta_deg", {reordered(time), reordered(alpha()), reordered(theta())}));
+  expect_motion(found.run);
+  EXPECT_EQ(breaks_of(found.run), 0u);
+  EXPECT_THAT(found.notes, HasSubstr("the clock's counter ran over 1 time"));
+  EXPECT_THAT(found.notes, HasSubstr("1 row delivered late"));
+}
+
 TEST(LoggedClock, RestartBeginsNewMotion) {
   // Back to 0, to the middle of the log, and by less than a row.
   for (const double start : {0.0, 5.5, 8.975}) {

@@ -162,6 +162,19 @@ class Values(unittest.TestCase):
                 self.assertEqual(repr(back), repr(value))
                 self.assertTrue(all(not array.flags.writeable for array in arrays_in(back)))
 
+    def test_nan_equals_itself_at_any_depth(self):
+        nan, other = float("nan"), float("nan")
+        unknown = fusee.Parameter(nan, (nan, 1.0))
+        effects = fusee.Table({"a": (unknown, (nan,))})
+        for value in (unknown, effects):
+            back = pickle.loads(pickle.dumps(value))
+            self.assertEqual(back, value)
+            self.assertEqual(hash(back), hash(value))
+        self.assertEqual(unknown, fusee.Parameter(other, (other, 1.0)))
+        self.assertNotEqual(unknown, fusee.Parameter(nan, (nan, 2.0)))
+        self.assertNotEqual(unknown, fusee.Parameter(nan, (nan, 1.0, nan)))
+        self.assertNotEqual(unknown, fusee.Parameter(nan, (1.0, nan)))
+
     def test_arrays_pickle_out_of_band(self):
         buffers = []
         packed = pickle.dumps(self.values["built"], protocol=5, buffer_callback=buffers.append)

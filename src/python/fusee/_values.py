@@ -32,6 +32,8 @@ def _same(a: object, b: object) -> bool:
         if not isinstance(a, np.ndarray) or not isinstance(b, np.ndarray) or a.shape != b.shape:
             return False
         return bool(np.array_equal(a, b, equal_nan=a.dtype.kind == "f"))
+    if isinstance(a, tuple) and isinstance(b, tuple):
+        return len(a) == len(b) and all(map(_same, a, b))
     both_nan = isinstance(a, float) and isinstance(b, float) and a != a and b != b  # NaN marks unknown values
     return bool(a == b) or both_nan
 
@@ -41,6 +43,8 @@ def _hashed(value: object) -> int:
     if isinstance(value, np.ndarray):
         # + 0 turns −0 into 0, which is equal to it but has other bytes.
         return hash((value.shape, (np.nan_to_num(value) + 0).tobytes()))
+    if isinstance(value, tuple):
+        return hash(tuple(map(_hashed, value)))
     return 0 if isinstance(value, float) and value != value else hash(value)
 
 

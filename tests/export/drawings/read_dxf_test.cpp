@@ -254,6 +254,27 @@ TEST(ReadDxf, OmitsInvalidEntity) {
   EXPECT_THAT(why(tags({{0, "ELLIPSE"}, {8, "cut"}, {11, "1e12"}, {21, "0"}, {40, "1"}})), HasSubstr("axes"));
 }
 
+TEST(ReadDxf, ReadsNumberBelowTheSmallestAsZero) {
+  const auto at = [](const std::string& x) {
+    return dxf_of(tags({{0, "LINE"}, {8, "cut"}, {10, x}, {20, "0"}, {11, "5"}, {21, "0"}}) + line(0, 5, 1, 5));
+  };
+  const std::string zeros(400, '0');
+  for (const std::string& x :
+       {std::string("1e-400"), std::string("1E-400"), std::string("-1.5E-400"), "." + zeros + "1",
+        "0." + zeros + "1E+2", "1" + zeros + "E-999", std::string("1E-99999999999999999999")}) {
+    const Drawing drawing = read(at(x));
+    ASSERT_EQ(drawing.paths.size(), 2u) << x;
+    EXPECT_EQ(drawing.paths[0].points[0], Vec2(0, 0)) << x;
+  }
+  for (const std::string& x :
+       {std::string("1E400"), std::string("1e+400"), std::string("1E-400mm"), std::string("1E-400e-1"), "1" + zeros,
+        "1" + zeros + "0e-50", std::string("1E99999999999999999999")}) {
+    const Drawing drawing = read(at(x));
+    EXPECT_EQ(drawing.paths.size(), 1u) << x;
+    EXPECT_THAT(drawing.first_undrawn.why, HasSubstr("a number should stand here (group 10)")) << x;
+  }
+}
+
 TEST(ReadDxf, RemarksOnEntityOfNoSize) {
   const Drawing drawing = read(dxf_of(tags({{0, "ARC"}, {8, "cut"}, {40, "0"}}) + line(3, 3, 3, 3) + line(4, 4, 4, 4) +
                                       tags({{0, "ELLIPSE"}, {8, "cut"}, {11, "0"}, {21, "0"}}) + line(0, 0, 1, 0)));
@@ -341,10 +362,15 @@ TEST(ReadDxf, SkipsValuesBetweenSections) {
   EXPECT_EQ(read(bytes).paths.size(), 1u);
 }
 
+TEST(ReadDxf, AcceptsBlanksBeforeFirstTag) {
+  EXPECT_EQ(read(std::string(100, ' ') + dxf_of(line(0, 0, 1, 0))).paths.size(), 1u);
+}
+
 TEST(ReadDxf, RejectsOtherFormats) {
   EXPECT_THAT(message_of("AutoCAD Binary DXF\r\n\x1a"), HasSubstr("binary DXF"));
   EXPECT_THAT(message_of("AC1015\0\0\0"), HasSubstr("DWG"));
-  EXPECT_THAT(message_of(""), HasSubstr("empty"));
+  for (const std::string& blank : {std::string(), std::string("\n"), std::string("\r\n \t\r\n"), std::string(100, ' ')})
+    EXPECT_THAT(message_of(blank), HasSubstr("the file is empty"));
   EXPECT_THAT(message_of("solid cube\n facet normal 0 0 1\n"), HasSubstr("test.dxf:1: error"));
   EXPECT_THAT(message_of(tags({{0, "EOF"}})), HasSubstr("no ENTITIES"));
 }

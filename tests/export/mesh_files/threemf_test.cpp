@@ -218,6 +218,24 @@ TEST(ThreemfReader, FollowsPathsToOtherParts) {
   EXPECT_EQ(corner(mesh, 0, 1), Vec3(10, 0, 0));
 }
 
+// "unit" holds for the numbers of its own part: vertices, and the transforms of the items and components there.
+TEST(ThreemfReader, ShiftsInUnitOfTheTransformsPart) {
+  const auto shifted = [](int x) { return " transform='1 0 0 0 1 0 0 0 1 " + std::to_string(x) + " 0 0'"; };
+  const std::string other = model("<object id='7'>" + k_triangle + "</object><object id='8'><components>" +
+                                      "<component objectid='7'" + shifted(2) + "/></components></object>",
+                                  "", "unit='centimeter'");
+  const auto corners = [&](const std::string& unit) {
+    const std::string root = model("<object id='1'><components><component p:path='/3D/other.model' objectid='8'" +
+                                       shifted(5) + "/></components></object>",
+                                   "<item objectid='1'" + shifted(3) + "/>", "unit='" + unit + "'");
+    const solid::TriangleMesh mesh =
+        read_mesh(zip_of({{"_rels/.rels", k_rels}, {"3D/part.model", root}, {"3D/other.model", other}}), "x.3mf");
+    return std::pair(corner(mesh, 0, 0), corner(mesh, 0, 1));
+  };
+  EXPECT_EQ(corners("millimeter"), std::pair(Vec3(3 + 5 + 20, 0, 0), Vec3(3 + 5 + 20 + 10, 0, 0)));
+  EXPECT_EQ(corners("meter"), std::pair(Vec3(3000 + 5000 + 20, 0, 0), Vec3(3000 + 5000 + 20 + 10, 0, 0)));
+}
+
 TEST(ThreemfReader, ReadsPrefixedNames) {
   const std::string text =
       R"(<m:model xmlns:m="core"><m:resources><m:object id="1"><m:mesh><m:vertices><m:vertex x="+1" y="0" z="inf"/></m:vertices>)"

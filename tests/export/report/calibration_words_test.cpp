@@ -2,6 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "base/text.h"
+#include "export/report/calibration_plots.h"
 #include "export/report/svg.h"
 #include "fusee/base.h"
 #include "fusee/export.h"
@@ -62,6 +66,24 @@ TEST(Headline, SaysEverywhereOnlyOfAConstantError) {
   // −0.6° in 60 of 81 rows: the mean is −0.44°.
   EXPECT_THAT(problem([](double theta) { return theta < 60 ? -0.6 : 0.0; }),
               StartsWith("The joint reads 0.44° low on average: "));
+}
+
+TEST(ResidualMap, CutsLongNamesBetweenCharacters) {
+  CalibrationProduct product = joint_with_errors([](double) { return -0.6; });
+  measurement::Run& run = product.measurement.runs.front();
+  for (measurement::Sample& sample : run.samples) sample.alpha = sample.theta;
+  product.calibration.residuals_after = product.calibration.residuals_before;
+  const auto label_of = [&](std::size_t length) {
+    run.name.clear();
+    for (std::size_t i = 0; i < length; ++i) run.name += "µ";
+    const std::string html = residual_map_html(product);
+    EXPECT_TRUE(is_utf8(html)) << length;
+    const std::size_t begin = std::min(html.find("…µ"), html.find("µ"));
+    const std::string label = html.substr(begin, html.find('<', begin) - begin);
+    return std::pair(characters(label), label.starts_with("…"));
+  };
+  EXPECT_EQ(label_of(28), std::pair(std::size_t{28}, false));
+  EXPECT_EQ(label_of(40), std::pair(std::size_t{28}, true));
 }
 
 TEST(Headline, KeepsAnInstructionWhole) {
