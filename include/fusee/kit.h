@@ -155,11 +155,11 @@ struct KitPlace {
 };
 
 /// Names that parts of a rig may have; no rig has all of them.
-inline constexpr std::array<std::string_view, 22> k_kit_part_names{
+inline constexpr std::array<std::string_view, 23> k_kit_part_names{
     "base_plate",   "base_template", "link",         "link_template", "bracket",      "scale_plate",
     "leg",          "foot_spacer",   "foot_tube",    "post",          "magnet_cap",   "tensioner_slide",
     "axle_spacer",  "board_spacer",  "bearing_ring", "pin_b_collar",  "pin_b_spacer", "pin_b_sleeve",
-    "pin_d_collar", "pin_d_spacer",  "pin_d_sleeve", "fit_coupon"};
+    "pin_d_collar", "pin_d_spacer",  "pin_d_sleeve", "drum",          "fit_coupon"};
 
 /// A printed or cut part of the rig.
 struct KitPart {
