@@ -18,6 +18,9 @@ namespace {
 /// home is the simplest assumption.
 constexpr int k_approach = 24;
 
+/// Motions in the cache of a joint. Each takes 16 bytes a row.
+constexpr std::size_t k_most_motions = 512;
+
 /// Margin of the path tables beyond the logged α, for the errors of the motor's sensor and for play. rad
 constexpr double k_beyond = 0.1;
 
@@ -154,7 +157,7 @@ Forward::Forward(const Mechanism& declared, const BenchLog& log, const std::opti
   if (!earlier) return;
   earlier_motion_ = motion_of(earlier->joint);
   earlier_ = earlier;
-  latest_ = {};  // later runs must not find the motions of earlier ones
+  latest_.clear();  // later runs must not find the motions of earlier ones
   // Runs of the later state refer only to runs of the later state.
   for (std::size_t i = earlier->runs; i < log.size(); ++i) {
     if (first_alike_[i] >= earlier->runs) continue;
@@ -286,9 +289,9 @@ void Forward::move(const Imperfections& errors, const std::vector<std::size_t>& 
 const Forward::Motion& Forward::motion_of(const Imperfections& imperfections) {
   const Imperfections key = motion_key(imperfections);
   for (const Motion& known : latest_) {
-    if (known.key == key && !known.theta.empty()) return known;
+    if (known.key == key) return known;
   }
-  Motion& motion = latest_[next_++ % latest_.size()];
+  Motion& motion = latest_.size() < k_most_motions ? latest_.emplace_back() : latest_[next_++ % k_most_motions];
   motion = {key, Readings(log_.size()), Readings(log_.size())};
   // Run i has the motion of run source[i].
   const std::vector<std::size_t>& source = depends_on_time(key) ? all_ : first_alike_;

@@ -38,8 +38,8 @@ class TendonCreep {
   std::array<CreepMemory, 2> memory_;
 };
 
-/// The joint on its bench. Caches the latest motions, which do not depend on errors of the joint sensor, and the latest
-/// geometries, which few effects change. Not thread-safe.
+/// The joint on its bench. Caches the latest motions, which do not depend on errors of the joint sensor, since a search
+/// asks for one in five again, and the latest geometries, which few effects change. Not thread-safe.
 class Forward {
  public:
   Forward(const Mechanism& declared, const BenchLog& log) : Forward(declared, log, declared) {}
@@ -99,8 +99,8 @@ class Forward {
   std::optional<MadePulleys> made_;       ///< null for a joint declared by a ratio
   double alpha_least_ = 0;                ///< range of the logged α, home included, rad
   double alpha_most_ = 0;
-  std::array<Motion, 16> latest_;
-  std::size_t next_ = 0;  ///< entry of latest_ that is replaced next
+  std::vector<Motion> latest_;  ///< grows to k_most_motions
+  std::size_t next_ = 0;        ///< entry of latest_ that is replaced next
   std::array<Geometry, 4> latest_geometry_;
   std::size_t next_geometry_ = 0;
 };
