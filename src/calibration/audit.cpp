@@ -263,9 +263,7 @@ bool Auditor::is_group_member(const SyntheticDataset& data, const Set& found, st
   for (std::size_t i = 0; i < chords_.size(); ++i) {
     if (chords_[i].effect == data.true_cause) swapped.push_back(i);
   }
-  return evaluate(data, swapped).score >
-         evaluate(data, found).score -
-             k_thresholds.temperature * elementary::log(1.0 / k_thresholds.complete_group_absence);
+  return evaluate(data, swapped).score > evaluate(data, found).score - k_thresholds.temperature * k_thresholds.decisive;
 }
 
 AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {

@@ -270,7 +270,7 @@ DiscrepancyFit describe_discrepancy(const Evidence& evidence, const Fit& fit, bo
     component.words = factor->words;
     component.rms = rms_of(part);
     component.evidence = gain;
-    if (component.rms < k_thresholds.least_residual * evidence.floor) continue;
+    if (component.rms < k_thresholds.usual_discrepancy * evidence.floor) continue;
     if (has_course(factor->factor)) draw(angles, normalized(angles, part, factor->factor), component);
     unmodelled.parts.push_back(std::move(component));
   }
@@ -285,7 +285,7 @@ DiscrepancyFit describe_discrepancy(const Evidence& evidence, const Fit& fit, bo
 }
 
 bool is_unexplained(const DiscrepancyFit& unmodelled, double floor) {
-  return unmodelled.evidence > k_thresholds.unexplained && unmodelled.rms > k_thresholds.least_residual * floor;
+  return unmodelled.evidence > k_thresholds.decisive && unmodelled.rms > k_thresholds.usual_discrepancy * floor;
 }
 
 }  // namespace fusee::calibration

@@ -145,7 +145,7 @@ double error_of(const Evidence& evidence, const Gain& gain, double curve_rms) {
 
 std::string why_not(const Evidence& evidence, const HeldOutWithDiscrepancy& by_factor, const Gain& gain,
                     double curve_rms) {
-  if (gain.mean < elementary::pow(k_thresholds.least_residual * evidence.floor, 2) ||
+  if (gain.mean < elementary::pow(k_thresholds.usual_discrepancy * evidence.floor, 2) ||
       gain.mean < k_thresholds.sure * error_of(evidence, gain, curve_rms))
     return "on held-out data it corrects no more than chance would";
   if (harms_a_level(evidence, by_factor, gain))

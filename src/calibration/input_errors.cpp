@@ -186,13 +186,13 @@ Baseline baseline_of(const Calibration& found) {
 
 /// True if the corrected file alone explains data far from the declared joint, even if effects explain them as well.
 bool is_simpler(const Trial& trial, const Baseline& baseline) {
-  return is_within(trial, k_thresholds.input_error_alone) &&
+  return is_within(trial, k_thresholds.input_error_gain) &&
          baseline.declared > k_thresholds.input_error_large * trial.floor;
 }
 
 /// True if the corrected file is so much nearer to the data that another cause beside the error may stay unexplained.
 bool is_clear(const Trial& trial, const Baseline& baseline) {
-  return std::isfinite(baseline.by_effects) ? trial.residual * k_thresholds.input_error_clear < baseline.by_effects
+  return std::isfinite(baseline.by_effects) ? trial.residual * k_thresholds.input_error_large < baseline.by_effects
                                             : is_within(trial, k_thresholds.input_error_large);
 }
 

@@ -13,6 +13,7 @@
 #include "base/decompositions.h"
 #include "calibration/catalogue.h"
 #include "calibration/discrepancy_fit.h"
+#include "calibration/statistics.h"
 #include "calibration/thresholds.h"
 #include "calibration/validation.h"
 #include "calibration/words.h"
@@ -171,6 +172,7 @@ class Selector {
   Fit fit_fully(const Fitter& fitter, const LinearizedCandidate& added) const;
   Fit fit_without_discrepancy(const Fitter& fitter, const LinearizedCandidate& added) const;
   std::vector<LinearizedCandidate> each_alone() const;
+  void refit_likely(std::vector<Fit>& fits);
   void try_singles();
   Posterior explain_without_discrepancy(const Fit& fit) const;
   double score_without_discrepancy(const Fit& fit) const;
@@ -279,7 +281,7 @@ std::vector<Fit> Selector::fit_candidates(const std::string& what, const std::ve
 /// True if a short fit stayed below the prediction: the slopes of the base have changed, and the mode is elsewhere
 /// (held-out seed 211303: an offset beside an encoder's eccentricity, 200 nats).
 bool ended_early(const Fit& fit, const LinearizedCandidate& added) {
-  return score(fit) < added.predicted_score - k_thresholds.as_good;
+  return score(fit) < added.predicted_score - equally_likely();
 }
 
 /// Fit to within the accuracy of a comparison.
@@ -302,8 +304,23 @@ std::vector<LinearizedCandidate> Selector::each_alone() const {
   return all;
 }
 
+/// Full fits of those that are near the best of them.
+void Selector::refit_likely(std::vector<Fit>& fits) {
+  double best = score(selection_.best);
+  for (const Fit& fit : fits) {
+    if (fit.usable) best = std::max(best, score(fit));
+  }
+  std::vector<Fit*> likely;
+  for (Fit& fit : fits) {
+    if (fit.usable && score(fit) > best - k_hopeless) likely.push_back(&fit);
+  }
+  pool_.each(likely.size(),
+             [&](const Fitter& fitter, std::size_t i) { *likely[i] = fitter.fit(likely[i]->effects, likely[i]->at); });
+}
+
 void Selector::try_singles() {
-  std::vector<Fit> fits = fit_candidates("trying effects one by one", each_alone(), &Selector::fit_fully);
+  std::vector<Fit> fits = fit_candidates("trying effects one by one", each_alone(), &Selector::fit_briefly);
+  refit_likely(fits);
   const Eigen::Index own = selection_.none.x.size();
   for (Fit& fit : fits) {
     LinearizedEffect linearized;
@@ -743,7 +760,7 @@ bool is_at_bound(const Fit& fit, const fusee::Effect& effect) {
 /// load and speed, are predicted worse without the effect, the others refitted.
 bool predicts(const Evidence& evidence, const Fit& with, const Fit& without) {
   const double noise = std::max(evidence.floor, with.posterior.amplitudes.noise);
-  return rms_apart(evidence, with.residual, without.residual) > k_thresholds.least_residual * noise &&
+  return rms_apart(evidence, with.residual, without.residual) > k_thresholds.usual_discrepancy * noise &&
          without.by_run.mean_square + without.by_factor.mean_square >
              with.by_run.mean_square + with.by_factor.mean_square;
 }
@@ -774,7 +791,7 @@ bool Selector::is_unsupported(const fusee::Effect& effect, const Fit& others) co
 
 /// Credible group of an effect. Members that hardly reduce the absence probability are left out.
 CredibleGroup Selector::group_of(const std::vector<WeightedSet>& sets, const fusee::Effect& effect) const {
-  return credible_group(sets, selection_.best.effects, effect, k_thresholds.complete_group_absence,
+  return credible_group(sets, selection_.best.effects, effect, elementary::exp(-k_thresholds.decisive),
                         k_thresholds.least_gain);
 }
 
@@ -880,7 +897,7 @@ std::optional<std::size_t> Selector::find_trading_member(const Fit& wider) const
 void Selector::add_companions() {
   const Fit& best = selection_.best;
   if (best.effects.empty() || best.effects.size() >= k_most_effects) return;
-  const double least = score(best) - k_thresholds.as_good * selection_.temperature;
+  const double least = score(best) - equally_likely() * selection_.temperature;
   std::vector<LinearizedCandidate> likely;
   for (const LinearizedCandidate& candidate : candidates_beside_best()) {
     if (candidate.predicted_score > least && likely.size() < k_most_companions) likely.push_back(candidate);

@@ -16,9 +16,9 @@ double mean_of(const std::vector<double>& values) {
 
 }  // namespace
 
-bool is_as_good(const Fit& rival, const Fit& best) {
-  return rival.log_evidence > best.log_evidence - k_thresholds.as_good;
-}
+double equally_likely() { return -elementary::log(k_thresholds.most_false_positives); }
+
+bool is_as_good(const Fit& rival, const Fit& best) { return rival.log_evidence > best.log_evidence - equally_likely(); }
 
 double rms_of(const Eigen::VectorXd& values) {
   return values.size() > 0 ? std::sqrt(values.squaredNorm() / static_cast<double>(values.size())) : 0.0;

@@ -6,7 +6,9 @@
 
 namespace fusee::calibration {
 
-/// True if the evidence of two sets is equal within k_thresholds.as_good.
+/// Nats up to which two sets are equally likely: odds of 1 / most_false_positives.
+double equally_likely();
+/// True if the evidence of the rival is at most equally_likely() below.
 bool is_as_good(const Fit& rival, const Fit& best);
 
 /// Root mean square; 0 without values.

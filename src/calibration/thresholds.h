@@ -15,18 +15,17 @@ struct Thresholds {
   /// Nats of strong evidence, odds of 20 : 1 (Kass and Raftery 1995): what each component of a described discrepancy
   /// must add, and the penalty of a searched number (an order, a time) beside the prior odds.
   double strong = 3.0;
-  /// Nats that one effect requires by itself (audit, detectable sizes): odds of 400 : 1, "decisive".
+  /// Nats of decisive evidence, odds of 400 : 1: what one effect requires by itself (audit, detectable sizes), what makes
+  /// a residual unexplained, and below what absence probability a group is complete.
   double decisive = 6.0;
   /// Standard errors that a difference must exceed: of noise levels, of a proposed run, of an empirical curve's gain.
   double sure = 3.0;
-  /// Largest false-positive rate of an effect that is reported alone, and its largest absence probability.
+  /// Largest false-positive rate of an effect that is reported alone, and its largest absence probability. Two sets are
+  /// equally likely up to odds of its inverse.
   double most_false_positives = 0.02;
 
   // ---- residual: noise, or an unmodelled cause ----
 
-  /// Log Bayes factor of a discrepancy, and its rms in noise floors, above which a residual is unexplained.
-  double unexplained = 8.0;
-  double least_residual = 0.35;
   /// An effect explains a part of the residual if it lowers the residual to this share. Joint 950018: without this rule
   /// an uncertain offset is dropped, 4.4 noise floors remain in place of 2, and the held-out error is 2.0 times as
   /// large. Input errors whose residuals differ by less are equally likely.
@@ -40,7 +39,8 @@ struct Thresholds {
   /// Negative log prior odds of an effect: of 26 effects a joint has two or three. A discrepancy of one noise floor rms
   /// and more has the same penalty, a smaller one less.
   double neg_log_prior_odds = 2.3;
-  /// Prior scale of a discrepancy's family, in noise floors: one in two is larger. 150 joints: without this prior 50 %
+  /// Prior scale of a discrepancy's family, in noise floors: one in two is larger. Smaller discrepancies are not
+  /// described, and leave nothing unexplained. 150 joints: without this prior 50 %
   /// of the effects are held, with it 75 %; false positives beside an unmodelled cause are 18 % and 25 %.
   double usual_discrepancy = 0.5;
   /// Limits of the prior size of a number: it moves the reading by at most `most_expected` times the observed error, or
@@ -51,8 +51,6 @@ struct Thresholds {
   /// 3.2 false positives are 54, 46, 39 and 31 of 160 joints with an unmodelled cause; 229, 229, 228 and 235 effects
   /// are held; from 2.0 on stretch is no longer found from seven dwells.
   double temperature = 1.75;
-  /// Difference in nats up to which two sets are equally likely.
-  double as_good = 4.0;
   /// Degrees of freedom of the noise floor as a prior of the noise. A floor with fewer is badly known.
   double noise_freedom = 30.0;
 
@@ -64,8 +62,6 @@ struct Thresholds {
   /// Share of the absence probability that each further member of a group must remove. Without it groups of 9 joints
   /// from seed 950001 have 7.2 members in place of 5.7.
   double least_gain = 0.1;
-  /// Absence probability at which a group is complete.
-  double complete_group_absence = 0.005;
   /// An effect beside the best set joins a member's group if both can exchange at least this much, rms in noise floors.
   /// Without this step 8 of 10 effects of the joints named above are held in place of 10.
   double least_shared = 1.5;
@@ -103,18 +99,15 @@ struct Thresholds {
   // ---- likely input errors ----
 
   /// Residual of the declared file, in noise floors, above which an input error is likely before any search. Known
-  /// faults leave 15, one of them 27. The corrected file must leave less, if effects are sought beside the error.
+  /// faults leave 15, one of them 27. The corrected file must leave less, if effects are sought beside the error. The
+  /// same ratio of both reports an error beside which another cause stays unexplained. Rig data
+  /// f_not_in_any_catalogue with the sign of OE turned: 26.
   double input_error_large = 15.0;
   /// Residual of the corrected file, in noise floors, up to which it explains the data alone. A pulley made for the
-  /// other sign of OE leaves 1.8 where a tendon goes slack.
-  double input_error_alone = 2.0;
-  /// Above input_error_alone, the corrected file, with nothing fitted, must leave a residual this many times smaller
-  /// than all identified effects do. Rig data: errors leave 3 to 7 times less (signs of a nearly symmetric joint) to
+  /// other sign of OE leaves 1.8 where a tendon goes slack. Above it, the corrected file, with nothing fitted, must leave
+  /// a residual this many times smaller than all identified effects do. Rig data: errors leave 3 to 7 times less (signs of a nearly symmetric joint) to
   /// 700 times less; no right file is reported.
   double input_error_gain = 3.0;
-  /// Ratio from which an input error is reported although another cause stays unexplained beside it. Rig data
-  /// f_not_in_any_catalogue with the sign of OE turned: 26.
-  double input_error_clear = 10.0;
 };
 
 inline constexpr Thresholds k_thresholds{};

@@ -139,7 +139,7 @@ bool HeldOutRows::gets_worse(const Level& level, const Level& all) const {
   const Block sum = sum_of(level.blocks);
   if (sum.rows == 0) return false;
   const double more = (sum.after - sum.before) / sum.rows;
-  if (more <= elementary::pow(k_thresholds.least_residual * evidence_.floor, 2)) return false;
+  if (more <= elementary::pow(k_thresholds.usual_discrepancy * evidence_.floor, 2)) return false;
   if (all.blocks.size() < 2) return true;
   const double error = level.blocks.size() > 1
                            ? standard_error(level.blocks)

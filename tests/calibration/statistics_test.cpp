@@ -103,9 +103,9 @@ TEST(RarestRatio, IsExceededAsSeldomAsThreeStandardDeviations) {
 TEST(AsGood, EndsAtThreshold) {
   calibration::Fit best, rival;
   best.log_evidence = 100;
-  rival.log_evidence = 100 - 0.99 * calibration::k_thresholds.as_good;
+  rival.log_evidence = 100 - 0.99 * calibration::equally_likely();
   EXPECT_TRUE(calibration::is_as_good(rival, best));
-  rival.log_evidence = 100 - 1.01 * calibration::k_thresholds.as_good;
+  rival.log_evidence = 100 - 1.01 * calibration::equally_likely();
   EXPECT_FALSE(calibration::is_as_good(rival, best));
 }
 
