@@ -1,6 +1,6 @@
 # cmake -DFILES=<program;modules> -DLIBRARIES=<folder> -P bundled_libraries.cmake
-# Copies the shared libraries that FILES need into LIBRARIES, with their licences, and lets all of them find these. The
-# C library's own stay out: they must be the system's. Needs patchelf.
+# Copies the shared libraries that FILES need into LIBRARIES, with their licences, and sets the search path of FILES and
+# libraries to that folder. Parts of the C library are not copied, since they must be the system's. Needs patchelf.
 cmake_minimum_required(VERSION 3.25)
 find_program(PATCHELF patchelf REQUIRED)
 find_program(DPKG dpkg-query)
@@ -23,7 +23,7 @@ endfunction()
 function(let_find file folder)
   cmake_path(GET file PARENT_PATH place)
   file(RELATIVE_PATH way ${place} ${folder})
-  # An RPATH, and no RUNPATH, also holds for what a library itself needs.
+  # The loader also searches an RPATH for libraries that a library needs; a RUNPATH it would not.
   execute_process(COMMAND ${PATCHELF} --force-rpath --set-rpath "$ORIGIN/${way}" ${file} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 

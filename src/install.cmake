@@ -37,7 +37,8 @@ file(RELATIVE_PATH FUSEE_PC_UP ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_IN
 configure_file(src/fusee.pc.in ${PROJECT_BINARY_DIR}/fusee.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/fusee.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig ${development})
 
-# Debian's files, only in packages: the licence by name, the changelog, and the reasons for lintian overrides.
+# Files that Debian requires, only in packages: the licence by its name, the changelog, and lintian overrides with their
+# reasons.
 file(WRITE ${PROJECT_BINARY_DIR}/debian/copyright "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
 Upstream-Name: fusee
 

@@ -1,6 +1,6 @@
-# The target "portable": packages/fusee-VERSION-linux-PROCESSOR.tar.xz, a folder that runs where it is unpacked. It holds
-# the program, its modules, and the libraries that they need. The system gives the C library, of the release on which
-# the folder was made or a newer one.
+# The target "portable" makes packages/fusee-VERSION-linux-PROCESSOR.tar.xz in the build folder: a folder that runs where
+# it is unpacked. It holds the program, its modules, and the libraries that they need. The C library is the system's,
+# of the release on which the folder was made or a newer one.
 set(portable fusee-${PROJECT_VERSION}-linux-${CMAKE_SYSTEM_PROCESSOR})
 add_custom_target(portable
   COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DNAME=${portable} -DMODULES=${FUSEE_MODULES}

@@ -16,9 +16,9 @@ from pathlib import Path
 SOURCE = Path(__file__).resolve().parents[2]
 STYLE = (SOURCE / "export/report/figure.css").read_text() + (SOURCE / "export/kit/kit.css").read_text()
 
-# A figure of the report that is a picture by itself, by its title.
+# Beginning of the title of the report's figure of the whole joint at home.
 MECHANISM = "The mechanism at θ = 0.0°, α = 0.0°"
-FIGURES = [  # picture, mechanism, page, title
+FIGURES = [  # picture, mechanism, page, beginning of the figure's title
     ("finger_joint.svg", "finger", "report.html", MECHANISM),
     ("layout_lever.svg", "forearm", "report.html", MECHANISM),
     ("layout_drum.svg", "finger_mcp", "report.html", MECHANISM),
@@ -42,7 +42,7 @@ def made(program, command, mechanism, folder):
 
 
 def used_style(body):
-    """The rules of figure.css that name classes of the figure alone. Colours follow the reader's light or dark screen."""
+    """The rules of figure.css and kit.css that name only classes of this figure. Colours follow the reader's light or dark screen."""
     classes = set(re.findall(r'[\w-]+', " ".join(re.findall(r'class="([^"]*)"', body)))) | {"figure"}
     rules = re.findall(r"^(?:\.|@media screen).*?\}$", re.sub(r",\n\s*", ",", STYLE).replace(";\n ", ";"), re.M)
     kept = [rule for rule in rules if set(re.findall(r"\.([a-z][\w-]*)", rule.split("{")[0])) <= classes]

@@ -1,10 +1,10 @@
 # %% [markdown]
 # # Ten thousand pulleys
 #
-# A sweep over five lengths of a joint: of each design both pitch curves are drawn, tendons are wound on them, and what matters is kept. Cells
-# for an editor that knows `# %%` (or jupytext); as a script: `python3 docs/reference/python_sweep.py [DESIGNS] [WORKERS] [futures|dask]`.
+# A sweep over five lengths of a joint. For each design both pitch curves are drawn, tendons are wound on them, and three figures are kept. The
+# cells are for an editor that knows `# %%` (or jupytext); as a script: `python3 docs/reference/python_sweep.py [DESIGNS] [WORKERS] [futures|dask]`.
 
-# %% What is swept: keys of the mechanism file, each between two numbers.
+# %% The swept keys of the mechanism file, each with its bounds, mm.
 import math
 import sys
 import time
@@ -27,18 +27,18 @@ Design = Dict[str, float]
 
 
 def designs(count: int, seed: int = 1) -> List[Design]:
-    """Evenly at random within the bounds; the same seed gives the same designs."""
+    """Designs drawn uniformly within the bounds; the same seed gives the same designs."""
     low, high = np.array(list(SWEPT.values())).T
     rows = np.random.default_rng(seed).uniform(low, high, size=(count, len(SWEPT)))
     return [dict(zip(SWEPT, map(float, row))) for row in rows]
 
 
-# %% One design. A joint that cannot be made is a value, and no exception: its reason is counted below.
+# %% One design. A joint that cannot be made is a value and no exception: main() counts the reasons.
 Figures = Tuple[Optional[str], float, float]
 
 
 def judge(base: fusee.Mechanism, design: Design) -> Figures:
-    """Why it cannot be made (None: it can), by how much r2 varies, mm, and the θ error of tendons wound on its curves, deg."""
+    """Why the design cannot be made (None: it can), the range of r2, mm, and the θ error of tendons wound on its curves, deg."""
     mechanism = base.with_(design)
     curves = fusee.synthesise(mechanism, advice=False)
     if not curves.made:
@@ -51,7 +51,7 @@ def judge_all(base: fusee.Mechanism, chunk: Sequence[Design]) -> List[Figures]:
     return [judge(base, design) for design in chunk]
 
 
-# %% All of them, on any executor: processes of this machine, or Dask's workers on many. The mechanism goes along by itself, its files in it.
+# %% All designs, on any executor: processes of this machine, or Dask's workers on several. A pickled mechanism contains the files it needs.
 def sweep(pool: Executor, base: fusee.Mechanism, all_designs: Sequence[Design], chunk: int = 100) -> List[Figures]:
     chunks = [all_designs[i : i + chunk] for i in range(0, len(all_designs), chunk)]
     return [figures for part in pool.map(partial(judge_all, base), chunks) for figures in part]
@@ -63,14 +63,14 @@ def on_futures(base: fusee.Mechanism, all_designs: Sequence[Design], workers: in
 
 
 def on_dask(base: fusee.Mechanism, all_designs: Sequence[Design], workers: int) -> List[Figures]:
-    """This sweep differs only in its pool. `Client("tcp://scheduler:8786")` is a cluster's."""
+    """The sweep, unchanged, on Dask's pool. `Client("tcp://scheduler:8786")` would use a cluster."""
     from distributed import Client
 
     with Client(n_workers=workers, threads_per_worker=1, dashboard_address=None) as client, client.get_executor() as pool:
         return sweep(pool, base, all_designs)
 
 
-# %% Run it, and look.
+# %% Run the sweep and print the reasons and the roundest P2.
 def main(count: int = 10000, workers: int = 2, way: str = "futures") -> None:
     base = fusee.read(fusee.new("forearm"))
     start = time.perf_counter()

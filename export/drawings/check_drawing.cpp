@@ -99,10 +99,10 @@ Check check_ends_meet(const Paths& contours) {
 
 // ---- Lines and crossings --------------------------------------------------------------------------------------------
 
-/// One edge of a path, from the lower end in (x, y) order to the upper.
+/// One edge of a path. Its direction along the path is not kept.
 struct Edge {
-  Vec2 left;
-  Vec2 right;
+  Vec2 left;   ///< the end that precedes the other one, see precedes()
+  Vec2 right;  ///< the other end
   const DrawingPath* path = nullptr;
   std::size_t index = 0;  ///< index along the path
   std::size_t last = 0;   ///< index of the path's last edge
@@ -148,7 +148,7 @@ std::vector<Edge> take_duplicates(std::vector<Edge>& edges) {
   for (const Edge& edge : edges) {
     auto key = std::make_pair(ends.number(edge.left), ends.number(edge.right));
     if (key.first > key.second) std::swap(key.first, key.second);
-    // An edge shorter than the tolerance has one end, not two, so it repeats no other.
+    // Both ends of an edge shorter than k_joined have the same number. Such an edge repeats no other edge.
     const bool is_first = key.first == key.second || seen.insert(key).second;
     (is_first ? once : again).push_back(edge);
   }
@@ -158,12 +158,12 @@ std::vector<Edge> take_duplicates(std::vector<Edge>& edges) {
 
 struct Duplicates {
   Check check;
-  std::set<const DrawingPath*> paths;  ///< paths with lines that were drawn before
+  std::set<const DrawingPath*> paths;  ///< paths of which every edge repeats an earlier one
 };
 
 Duplicates check_duplicates(const Drawing& drawing) {
   Paths all;
-  // Helical turns above one another have the same plan.
+  // Paths in space are not compared: helical turns above one another have the same plan view.
   for (const DrawingPath& path : drawing.paths)
     if (!path.in_space) all.push_back(&path);
   std::size_t count = 0;
@@ -172,8 +172,10 @@ Duplicates check_duplicates(const Drawing& drawing) {
   for (auto& [layer, edges] : edges_by_layer(all)) {
     const std::vector<Edge> repeated = take_duplicates(edges);
     std::map<const DrawingPath*, std::size_t> repeats;
-    for (const Edge& edge : repeated)
-      if (++repeats[edge.path] == edge.last + 1) duplicates.paths.insert(edge.path);
+    for (const Edge& edge : repeated) {
+      const std::size_t edges_of_path = edge.last + 1;
+      if (++repeats[edge.path] == edges_of_path) duplicates.paths.insert(edge.path);
+    }
     if (count == 0 && !repeated.empty())
       where = "drawn twice: " +
               location_text(*repeated.front().path, 0.5 * (repeated.front().left + repeated.front().right));
@@ -277,6 +279,7 @@ class Sweep {
       return (side > 0) == a_first;
     }
   };
+  /// The edges that the sweep line crosses, by index, from bottom to top.
   using Line = std::set<std::size_t, EdgeOrder>;
 
   bool fault(std::size_t i, std::size_t j) {
@@ -344,7 +347,8 @@ struct CrossingChecks {
   Check mutual;
 };
 
-/// True if ends that almost meet also cross there: ends_meet reports it.
+/// True if the ends of a contour almost meet and overshoot each other: the crossing is within twice their gap. The check
+/// ends_meet reports such a contour.
 bool is_overshoot(const DrawingPath& path, const Vec2& crossing) {
   const double reach = 2 * gap_of(path);
   return almost_closes(path) &&
@@ -410,13 +414,13 @@ std::optional<Check> check_smallest_feature(const Paths& contours) {
 
 // ---- Inside ---------------------------------------------------------------------------------------------------------
 
-struct FramedPath {
+struct BoxedPath {
   const DrawingPath* path;
   Box2d box;
 };
 
-std::vector<FramedPath> framed_paths(const Drawing& drawing, std::string_view layer) {
-  std::vector<FramedPath> result;
+std::vector<BoxedPath> boxed_paths(const Drawing& drawing, std::string_view layer) {
+  std::vector<BoxedPath> result;
   for (const DrawingPath& path : drawing.paths) {
     if (path.layer == layer && !path.points.empty()) result.push_back({&path, bounding_box(path.points)});
   }
@@ -447,10 +451,10 @@ Check check_inside(const Drawing& drawing) {
   std::size_t outside = 0;
   std::string where;
   for (const RequiredNesting& pair : k_required_nesting) {
-    const std::vector<FramedPath> outers = framed_paths(drawing, pair.outer);
+    const std::vector<BoxedPath> outers = boxed_paths(drawing, pair.outer);
     if (outers.empty()) continue;
-    for (const FramedPath& inner : framed_paths(drawing, pair.inner)) {
-      const bool is_inside = std::any_of(outers.begin(), outers.end(), [&](const FramedPath& outer) {
+    for (const BoxedPath& inner : boxed_paths(drawing, pair.inner)) {
+      const bool is_inside = std::any_of(outers.begin(), outers.end(), [&](const BoxedPath& outer) {
         budget -= std::min(budget, std::size_t{1});
         if (budget == 0 || !box_within(inner.box, outer.box)) return false;
         if (pair.outer == "SHEET") return true;  // a rectangle: its box is sufficient

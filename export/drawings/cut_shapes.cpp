@@ -28,8 +28,8 @@ Vec2 on_circle(const Vec2& point, const Vec2& neighbour, double radius) {
   return foot + (to_foot > 0 ? -half_chord : half_chord) * direction;
 }
 
-/// Moves the first `count` points back to their arc, of which an offset has moved the chords. The arc ends where the
-/// adjacent straight edges meet it.
+/// Moves the first `count` points onto the arc of this radius about the origin, in equal steps. An offset has moved the
+/// arc's chords, so that these points no longer lie on it. The arc ends where the adjacent straight edges meet it.
 void put_on_arc(Polygon& points, std::size_t count, double radius) {
   const Vec2 first = on_circle(points.front(), points.back(), radius);
   const Vec2 last = on_circle(points[count - 1], points[count % points.size()], radius);
@@ -66,8 +66,8 @@ solid::BodyLayout layout_to_cut(Mechanism mechanism, const profile::SynthesisRes
   return solid::resolve_layout(mechanism, synthesis);
 }
 
-// Knots and hub are those of the printed pulley. Recomputed automatic sizes (without the chamfer at the bed)
-// could be larger pockets or a larger bore than fit into the cut part.
+// Pockets and bore are at most those of the printed pulley, and the hub is the same. Automatic sizes that are recomputed
+// without the chamfer at the bed could be too large for the cut part.
 solid::BodyLayout layout_to_cut(const Product& product) {
   solid::BodyLayout layout =
       product.cut_layout ? *product.cut_layout : layout_to_cut(product.joint.mechanism, product.synthesis);

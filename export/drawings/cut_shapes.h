@@ -39,7 +39,7 @@ class Material2d {
   void add_hole(const Polygon& hole);
   /// True if `point` is in the material and at least `margin` away from every edge.
   bool holds(const Vec2& point, double margin) const;
-  /// True if holds() is true at every point of a 1 mm grid over an axis-aligned box.
+  /// True if holds() is true at every point of a grid over an axis-aligned box. The grid's steps are at most 1 mm.
   bool holds_box(const Vec2& low, const Vec2& size, double margin) const;
 
  private:

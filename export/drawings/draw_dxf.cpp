@@ -74,7 +74,8 @@ class DxfDrawer {
   }
 
  private:
-  /// An invalid entity is skipped and counted. A drawing beyond the limits above throws InputError.
+  /// An entity that is invalid, or further away than k_farthest, is skipped and counted. A drawing with too many inserts,
+  /// points or tags, or with blocks nested too deep, throws InputError.
   void draw(const DxfEntity& entity, const DrawingPlacement& placement, const std::string& block_layer, int depth) {
     InterpretedEntity interpreted;
     try {
@@ -151,7 +152,8 @@ class DxfDrawer {
   void ignore(const DxfEntity& entity, const std::string& kind) {
     if (ignored_.size() >= k_most_ignored) return;
     const std::string quoted = quoted_bytes(entity.type);
-    ignored_.insert(quoted.substr(1, quoted.size() - 2) + kind);
+    const std::string type = quoted.substr(1, quoted.size() - 2);  // without its quotes
+    ignored_.insert(type + kind);
   }
 
   /// Entities of one kind with the same problem give one remark.

@@ -161,7 +161,7 @@ class Ac1015Writer {
       begin_record("LTYPE", "AcDbLinetypeTableRecord", k_ltype_table, name, next_handle_++);
       tags_.integer(70, 0);
       tags_.text(3, "");
-      tags_.integers({{72, 65}, {73, 0}});
+      tags_.integers({{72, 65}, {73, 0}});  // alignment, which is always 'A'; number of dashes
       tags_.real(40, 0);
     }
     end_table();
@@ -281,12 +281,13 @@ class Ac1015Writer {
     tags_.text(2, "Standard");
     tags_.integer(70, 0);
     tags_.text(3, "");
-    tags_.integer(62, 256);
+    constexpr int k_colour_by_layer = 256;
+    tags_.integer(62, k_colour_by_layer);
     tags_.reals({{51, 90}, {52, 90}});
     tags_.integer(71, 2);
     for (const double offset : {0.5, -0.5}) {
       tags_.real(49, offset);
-      tags_.integer(62, 256);
+      tags_.integer(62, k_colour_by_layer);
       tags_.text(6, "BYLAYER");
     }
   }

@@ -6,7 +6,7 @@
 namespace fusee::formats {
 namespace {
 
-/// True for a tag that begins a part of the file of this type, or ends one.
+/// True for group 0 with this value. Such a tag begins a section, a table, a block or an entity, or ends one.
 bool is_keyword(const DxfTag& tag, std::string_view keyword) { return tag.code == 0 && tag.value == keyword; }
 
 class DxfFileReader {

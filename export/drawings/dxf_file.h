@@ -18,7 +18,7 @@ struct DxfEntity {
   int line = 0;
   std::vector<DxfTag> tags;
   std::vector<std::vector<DxfTag>> vertices;
-  std::size_t size = 0;  ///< number of tags
+  std::size_t size = 0;  ///< number of tags, including those of the vertices
 };
 
 struct DxfBlock {
@@ -35,7 +35,7 @@ struct DxfFile {
   /// Layers that are not shown, by lower(name); true: frozen, false: off.
   std::map<std::string, bool> hidden_layers;
 
-  /// 1 if the file gives no unit.
+  /// 1 if the file gives no unit, or one in which no part is drawn (such as kilometres).
   double unit_in_mm() const;
 };
 

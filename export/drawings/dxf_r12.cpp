@@ -16,7 +16,7 @@ void write_r12_tables(DxfTagWriter& tags, const DxfDocument& document) {
   tags.text(2, "CONTINUOUS");
   tags.integer(70, 0);
   tags.text(3, "Solid line");
-  tags.integers({{72, 65}, {73, 0}});
+  tags.integers({{72, 65}, {73, 0}});  // alignment, which is always 'A'; number of dashes
   tags.real(40, 0);
   tags.text(0, "ENDTAB");
   begin_table("LAYER", static_cast<int>(document.layers.size()) + 1);

@@ -23,7 +23,7 @@ struct DxfTag {
 
 /// Throws InputError. Line 0 stands for the whole file.
 [[noreturn]] void fail_in_dxf(const std::string& file, int line, std::string message, std::string hint = {});
-/// At most 40 foreign bytes in quotes, for a message.
+/// The first 40 bytes of a file's text in quotes, for a message. Bytes other than printable ASCII become '?'.
 std::string quoted_bytes(std::string_view text);
 
 /// Splits the bytes into tags. Lines end with \n, with \r\n, or in a file without any \n with \r.

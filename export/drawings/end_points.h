@@ -1,5 +1,5 @@
 /// \file
-/// Internal: identifies points of a drawing within k_joined of each other. mm.
+/// Internal: gives one number to points of a drawing within k_joined of each other. mm.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@ namespace fusee::formats {
 /// Largest distance of ends that meet. A reader of drawings may merge them without changing a part.
 inline constexpr double k_joined = 1e-4;
 
-/// Numbers points in order. A point within k_joined of earlier ones gets the number of the earliest. Each takes
-/// constant time: the grid cell of the point and adjacent cells are searched.
+/// Numbers points in order. A point within k_joined of earlier ones gets the number of the earliest. Each point takes
+/// constant time, because only grid cells within k_joined of it are searched.
 class EndPoints {
  public:
   std::size_t number(const Vec2& point);

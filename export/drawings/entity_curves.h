@@ -13,11 +13,11 @@ namespace fusee::formats {
 /// Drawings with more points are rejected.
 inline constexpr std::size_t k_most_points = 4'000'000;
 
-/// The curve, or the kind of a skipped entity, such as " mesh"; "" if the entity is no line at all.
+/// An entity as a curve; without a curve, the entity is skipped.
 struct EntityCurve {
   std::optional<SampledCurve> curve = std::nullopt;
-  std::string skipped_kind = {};
-  std::string remark = {};  ///< about an unusual entity that was accepted
+  std::string skipped_kind = {};  ///< follows the type of a skipped entity in a list, such as " mesh"; may be empty
+  std::string remark = {};        ///< about an accepted but unusual entity, or about a skipped one
 };
 
 /// `sagitta`: largest distance of chords from the curve, mm. Throws InputError for numbers that define no curve.

@@ -48,7 +48,7 @@ struct Biarc {
 
 /// The biarc whose four tangents have the same length d (Bolton 1975). From end to end lead d t₀, a segment of length
 /// 2 d along the middle tangent, and d t₁. So |c − d (t₀ + t₁)| = 2 d with the chord c, which gives
-/// 2 (1 − t₀ · t₁) d² + 2 c · (t₀ + t₁) d − c² = 0.
+/// 2 (1 − t₀ · t₁) d² + 2 c · (t₀ + t₁) d − c² = 0. The positive root is computed in the form without cancellation.
 std::optional<Biarc> biarc_between(const Knot& from, const Knot& to) {
   const Vec2 chord = to.place - from.place;
   const double along = chord.dot(from.tangent + to.tangent), chord_squared = chord.squaredNorm();

@@ -38,8 +38,8 @@ class PathJoiner {
   }
 
  private:
-  /// True for an open path that an earlier one of its layer draws already, in either direction. Joined, it would open
-  /// the chain that it repeats.
+  /// True for an open path that repeats an earlier path of its layer, in either direction. A repeated path is not
+  /// joined: with it, three ends would meet at its ends, and the chain of the earlier path would stay open there.
   bool is_repeated(std::size_t i) {
     const DrawingPath& path = paths_[i];
     if (path.in_space) return false;

@@ -11,7 +11,7 @@ namespace fusee::formats {
 struct NestedPlace {
   int sheet = 0;
   Vec2 corner = Vec2::Zero();  ///< lower left corner on its sheet
-  bool fits = true;            ///< false: larger than a sheet; placed alone on one and extending beyond it
+  bool fits = true;            ///< false: larger than a sheet, so that it extends beyond its sheet
 };
 
 inline constexpr double k_sheet_gap = 20;  // mm, between sheets side by side

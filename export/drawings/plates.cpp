@@ -57,7 +57,8 @@ struct CutFeatures {
   Contour pocket(const solid::Anchor& anchor) const {
     return circle_contour({anchor.pocket, 2 * layout.pocket_radius});
   }
-  /// The cuts into a plate's edge: channel and pocket in the groove's plate, or a slot to the face in its flange's.
+  /// An anchor's cuts into the edge of a plate. A knot in a pocket requires channel and pocket in the plate of its
+  /// groove. A tie-off through the face requires a slot in the plate of its flange.
   std::vector<Polygon> edge_cuts(const solid::Anchor& anchor) const {
     std::vector<Polygon> parts{anchor.channel};
     if (!anchor.seat) parts.push_back(pocket(anchor).points);
@@ -158,8 +159,8 @@ class LayerMaker {
     layer.cut_holes.push_back(*path);
   }
 
-  /// Half a kerf is subtracted before channel and pocket are cut out. Parallel edges stay parallel, and their corners
-  /// are the mitres.
+  /// Channel and pocket are narrowed by half a kerf on each side before they are subtracted from the cutter's path. The
+  /// path is thus parallel to the finished edges, with mitred corners.
   void cut_channel(PlateLayer& layer, const solid::Anchor& anchor) {
     std::vector<Polygon> finished;
     std::vector<Polygon> path;
@@ -238,9 +239,9 @@ Material2d material_of(const PlateLayer& layer) {
 
 /// A short line at the edge in the home direction, +y, as far from the axis as the plate allows.
 void engrave_home(PlateLayer& layer, const Material2d& material) {
-  constexpr double k_length = 2.5;
+  constexpr double k_length = 2.5, k_step = 0.25;  // mm
   const double top = bounding_box(layer.outer.front()).high.y();
-  for (double y = top - k_engraving_margin; y > 0; y -= 0.25) {
+  for (double y = top - k_engraving_margin; y > 0; y -= k_step) {
     const Vec2 low(0, y - k_length);
     if (!material.holds_box(low, {0, k_length}, k_engraving_margin)) continue;
     layer.engraving.push_back({low, {0, y}});
@@ -277,7 +278,7 @@ void engrave(Plates& plates, std::size_t index, int total) {
   engrave_home(layer, material);
   for (const LabelKind kind : {LabelKind::name, LabelKind::count, LabelKind::number}) {
     const std::string widest = label_text(layer, kind, total, total);
-    for (const double height : {3.0, 2.2, 1.6}) {
+    for (const double height : {3.0, 2.2, 1.6}) {  // of the capitals, mm
       const auto place = label_place(layer, material, {stroke_text_width(widest, height), height});
       if (!place) continue;
       layer.label = *place;
@@ -319,7 +320,7 @@ void describe_stack(Plates& plates, const CutFeatures& features) {
   plates.notes.insert(plates.notes.begin(), lines.begin(), lines.end());
 }
 
-/// Notes narrow cut features.
+/// Adds notes about cut features that are narrower than k_least_feature.
 void note_small_features(Plates& plates, const CutFeatures& features) {
   const double narrow = features.layout.channel_width;
   if (!features.product.pulley.anchors.empty() && narrow < k_least_feature) {
@@ -339,7 +340,7 @@ void note_small_features(Plates& plates, const CutFeatures& features) {
 // ---- Sheets ---------------------------------------------------------------------------------------------------------
 
 /// The sheet of [cut], or the size that the largest plate requires, in whole mm. A larger sheet changes no cut, and
-/// another machine may take it. `sizes`: of the plates, and of the check square.
+/// another machine may take it. `sizes`: of the placed plates, and last of the check square.
 void choose_sheet(Plates& plates, const Cut& cut, const std::vector<Vec2>& sizes, double gap) {
   const Vec2 declared(cut.sheet_width, cut.sheet_height);
   plates.sheet = declared;
@@ -369,7 +370,8 @@ void lay_on_sheets(Plates& plates, const Cut& cut) {
       axes.push_back(-box.low);
     }
   }
-  const double gap = std::max(2.0, 2 * cut.kerf);
+  constexpr double k_least_gap = 2.0;  // mm, between pieces
+  const double gap = std::max(k_least_gap, 2 * cut.kerf);
   sizes.push_back(bounding_box(check_square(cut.kerf)).size());
   choose_sheet(plates, cut, sizes, gap);
   const std::vector<NestedPlace> places = nest(sizes, plates.sheet, gap);

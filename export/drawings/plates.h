@@ -20,7 +20,7 @@ struct PlateLayer {
   std::string name;  ///< "FLANGE 1", "P1 CORE" …
   int count = 1;
   std::vector<Polygon> outer;      ///< of the finished plate: one outline, with the tendon's channels cut into it
-  std::vector<Contour> holes;      ///< bore, dowels, pockets
+  std::vector<Contour> holes;      ///< bore, screw holes, dowel holes, pockets
   std::vector<Polygon> cut_outer;  ///< path of the cutter's centre, half a kerf outside
   std::vector<Contour> cut_holes;  ///< paths half a kerf inside the holes
   std::vector<Polygon> engraving;  ///< the home mark: open strokes
@@ -44,7 +44,7 @@ struct Plates {
   Vec2 sheet = Vec2::Zero();         ///< the sheet of [cut], or a larger one if a plate requires it
   Vec2 check_square = Vec2::Zero();  ///< position of its lower left corner on the drawing
   int sheets = 1;                    ///< side by side from x = 0, k_sheet_gap between them
-  std::vector<std::string> notes;    ///< the role of the plates, and omitted features
+  std::vector<std::string> notes;    ///< the order of the stack, and features that are narrow, changed or omitted
 };
 
 /// Number of plates of this thickness that make at least `height`, at least one.

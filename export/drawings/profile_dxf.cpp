@@ -102,7 +102,7 @@ void add_take_off(DxfDocument& drawing, const Vec2& take_off, double normal, con
 /// Ticks over the grooves at both ends of the active arcs. If both pulleys are alike, ticks of P1 and P2 may coincide,
 /// and the line is drawn once.
 void add_active_ends(DxfDocument& drawing, const profile::SynthesisResult& synthesis, double tendon_diameter,
-                     double depth) {
+                     double groove_depth) {
   constexpr double k_same = 1e-6;  // mm
   std::vector<Vec2> drawn;         // start points of drawn ticks
   for (const profile::Outline* outline : {&synthesis.p1, &synthesis.p2}) {
@@ -112,7 +112,7 @@ void add_active_ends(DxfDocument& drawing, const profile::SynthesisResult& synth
       const auto is_there = [&from](const Vec2& other) { return (other - from).norm() < k_same; };
       if (std::any_of(drawn.begin(), drawn.end(), is_there)) continue;
       drawn.push_back(from);
-      drawing.add_open("MARK_TAKE_OFF", {from, point.position + (depth - 0.5 * tendon_diameter) * point.normal});
+      drawing.add_open("MARK_TAKE_OFF", {from, point.position + (groove_depth - 0.5 * tendon_diameter) * point.normal});
     }
   }
 }
@@ -125,6 +125,7 @@ void add_anchors(DxfDocument& drawing, const std::vector<solid::Anchor>& anchors
   }
 }
 
+/// The lines of the legend below all paths, to the right of a check square of 10 mm. All lengths are mm.
 void add_legend(DxfDocument& drawing, const std::vector<std::string>& lines) {
   const Box2d box = bounding_box(drawing.paths);
   double top = box.low.y() - 4 - k_label_height;

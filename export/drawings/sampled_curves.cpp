@@ -67,14 +67,14 @@ void append_arc(Polygon& points, const EllipticArc& arc, double sagitta) {
 /// chord c, at (1 − b²) / (4 b) · c turned left.
 void append_bulge(Polygon& points, const Vec2& from, const Vec2& to, double bulge, double sagitta,
                   const DrawingPlacement& place) {
-  constexpr double k_most_bulge = 1e6;
+  constexpr double k_most_bulge = 1e6;  // an arc of a whole turn but for 4e-6 rad; edges beyond are drawn straight
   if (bulge != 0 && std::abs(bulge) < k_most_bulge && (to - from).norm() > 0) {
     const double turn = 4 * elementary::atan(bulge);
     const Vec2 centre = 0.5 * (from + to) + turned_left(to - from) * ((1 - bulge * bulge) / (4 * bulge));
     const Vec2 spoke = from - centre;
     const EllipticArc arc{centre, spoke, (turn < 0 ? -1 : 1) * turned_left(spoke), 0, std::abs(turn)};
     append_arc(points, arc.placed(place), sagitta);
-    points.pop_back();
+    points.pop_back();  // the arc's end is `to` but for rounding
   }
   points.push_back(place(to));
 }

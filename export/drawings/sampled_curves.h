@@ -1,6 +1,7 @@
 /// \file
-/// Internal: arcs, bulges and B-splines as points in the drawing. Chords deviate from the curve by at most `sagitta`.
-/// The extreme points of arcs along x and y are included, so that the box of the points is the box of the curve.
+/// Internal: arcs, bulges and B-splines as points in the drawing. Chords deviate from the curve by at most `sagitta`,
+/// unless an arc would require more than 20 000 chords or a spline's span more than 4096. The extreme points of arcs
+/// along x and y are included, so that the box of the points is the box of the curve.
 #pragma once
 
 #include <Eigen/Core>

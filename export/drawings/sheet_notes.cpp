@@ -1,6 +1,6 @@
 #include "export/drawings/sheet_notes.h"
 
-#include <string_view>
+#include <algorithm>
 
 #include "base/text.h"
 #include "export/drawings/plane_shapes.h"
@@ -35,10 +35,11 @@ void add_sheet_notes(DxfDocument& drawing, const std::vector<std::string>& notes
   for (const std::string& note : notes) {
     const std::string lines = wrapped(note, "", "", most);
     for (std::size_t begin = 0; begin < lines.size();) {
-      const std::size_t end = lines.find('\n', begin);
+      // A word longer than the sheet is broken.
+      const std::size_t end = std::min(lines.find('\n', begin), begin + most);
       drawing.add_text("NOTES", lines.substr(begin, end - begin), {0, y}, k_text_height);
       y -= k_line_pitch;
-      begin = end + 1;
+      begin = lines[end] == '\n' ? end + 1 : end;
     }
   }
 }

@@ -17,11 +17,11 @@
 namespace fusee::formats {
 namespace {
 
-constexpr double k_sheet_margin = 4;        // mm
-constexpr double k_note_height = 3;         // mm
-constexpr double k_note_pitch = 5;          // mm, of lines
-constexpr double k_engraving_depth = 0.61;  // mm; a thinner slab is engraved instead of cut
-constexpr double k_least_cut = 1.0;         // mm, narrowest feature that a laser cuts cleanly
+constexpr double k_sheet_margin = 4;  // mm
+constexpr double k_label_height = 3;  // mm
+/// Thinner slabs are engraved instead of cut, mm. The kit's engravings are 0.6 mm deep (kit/parts.cpp).
+constexpr double k_engraving_depth = 0.61;
+constexpr double k_least_cut = 1.0;  // mm, narrowest feature that a laser cuts cleanly
 
 /// One shape of plate.
 struct KitPlate {
@@ -29,7 +29,7 @@ struct KitPlate {
   int count = 1;
   kit::DiscHull rim;
   std::vector<kit::DiscHull> holes;
-  std::vector<kit::DiscHull> lines;  ///< engraved
+  std::vector<kit::DiscHull> lines;  ///< engraved, each from the centre of its first disc to that of its last
   double height = 0;                 ///< of all slabs of this shape, mm
 };
 
@@ -48,7 +48,8 @@ std::string capitals(std::string name) {
   return name;
 }
 
-/// Adds the slabs of a part that consist of one piece each, bottom to top.
+/// Adds the slabs of a part as plates, bottom to top, up to the first slab that consists of several pieces. A thin slab
+/// becomes an engraving of the plate below.
 void add_plates(std::vector<KitPlate>& plates, const kit::KitPart& part, double thickness) {
   const std::size_t first = plates.size();
   for (const kit::Slab& slab : part.body.slabs) {
@@ -99,7 +100,7 @@ std::optional<Vec2> label_corner(const KitPlate& plate) {
   material.add_outline(kit::outline_of(plate.rim));
   for (const kit::DiscHull& hole : plate.holes) material.add_hole(kit::outline_of(hole));
   for (const kit::DiscHull& line : plate.lines) material.add_hole(kit::outline_of(line));
-  const Vec2 size(stroke_text_width(plate.label, k_note_height), k_note_height);
+  const Vec2 size(stroke_text_width(plate.label, k_label_height), k_label_height);
   constexpr double k_margin = 1, k_step = 2;  // mm
   const Box2d box = bounding_box(kit::outline_of(plate.rim));
   for (double y = box.low.y() + k_margin; y + size.y() < box.high.y(); y += k_step) {
@@ -186,7 +187,7 @@ std::string kit_dxf(const KitProduct& product, DxfVersion version) {
     for (const kit::DiscHull& line : plate->lines)
       drawing.add_open("ENGRAVE", {line.discs.front().centre + shift, line.discs.back().centre + shift});
     if (const auto corner = label_corner(*plate))
-      drawing.add_text("ENGRAVE", plate->label, *corner + shift, k_note_height);
+      drawing.add_text("ENGRAVE", plate->label, *corner + shift, k_label_height);
   }
   drawing.add_closed("CHECK_10MM", shifted(check_square(cut.kerf), sheets.check_square_corner()));
   for (const auto& [plate, shift] : sheets.placed()) {

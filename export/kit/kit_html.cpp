@@ -282,14 +282,15 @@ std::vector<std::string> template_words(const KitProduct& product) {
 std::string heights_section(const KitProduct& product) {
   const kit::TendonHeights& heights = *product.plan.heights;
   const bool drum = product.pulley.joint.mechanism.joint.drum_radius > 0;
-  const auto between = [](const kit::TendonHeights::Span& span) {
-    return span.high - span.low < 0.05 ? mm(span.low) : readable(span.low, 1) + " … " + mm(span.high);
+  const auto span_words = [](const kit::TendonHeights::Span& span) {
+    constexpr double k_shown_step = 0.1;  // mm, the resolution of a printed height
+    return span.high - span.low < 0.5 * k_shown_step ? mm(span.low) : readable(span.low, 1) + " … " + mm(span.high);
   };
   std::string rows;
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}})
     rows += "<tr>" + html_cell(i == 0 ? "Tendon 1" : "Tendon 2") + html_number_cell(mm(heights.ends.at(i))) +
-            html_number_cell(between(heights.guides.at(i))) +
-            (drum ? html_number_cell(between(heights.drum)) : std::string()) + "</tr>";
+            html_number_cell(span_words(heights.guides.at(i))) +
+            (drum ? html_number_cell(span_words(heights.drum)) : std::string()) + "</tr>";
   std::vector<std::string> heads{"", "# its end on the link", "# on its guide"};
   if (drum) heads.emplace_back("# both on the drum");
   return html_section("heights", "Heights of the tendons",

@@ -165,7 +165,7 @@ void add_pulley(std::vector<DrawnSlab>& drawn, const KitProduct& product, const 
     drawn.push_back({shape, shape, low + from, low + to, {}, css_class});
   };
   const double groove_floor = -0.5 * tendon_diameter, groove_edge = layout.groove_depth - 0.5 * tendon_diameter;
-  const double half_groove = 0.6 * tendon_diameter;
+  const double half_groove = 0.6 * tendon_diameter;  // of the drawn groove, which is a little wider than the tendon
   add(pulley.synthesis.p1, groove_edge, 0, layout.z_p1 - half_groove);
   add(pulley.synthesis.p1, groove_floor, layout.z_p1 - half_groove, layout.z_p1 + half_groove);
   add(pulley.synthesis.p2, groove_edge, layout.z_p1 + half_groove, layout.z_p2 - half_groove);
@@ -237,6 +237,7 @@ Figure kit_picture(const KitProduct& product, const std::vector<KitStep>& steps,
   Figure figure{k_picture_width, k_picture_height, steps[last].title, {}, {}};
   std::size_t drawn_lines = 0;
   for (const DrawnSlab& slab : drawn) {
+    // A tendon is drawn before the first slab that lies above it.
     for (; drawn_lines < lines.size() && lines[drawn_lines].points.front().z() < slab.low; ++drawn_lines) {
       std::vector<Vec2> points;
       for (const Vec3& p : lines[drawn_lines].points) points.push_back(project(Vec2(p.x(), p.y()), p.z()));
@@ -276,7 +277,8 @@ Figure kit_plan_view(const KitProduct& product) {
     circle("kit-new-top", pin.place, pin.collar);
     circle("kit-bought-top", pin.place, pin.radius);
   }
-  for (const Vec2& foot : plan.feet) circle("kit-new-top", foot, 0.5 * plan.sizes.foot->clearance + 1.2);
+  constexpr double k_drawn_wall = 1.2;  // mm, of the tube around a foot's rod
+  for (const Vec2& foot : plan.feet) circle("kit-new-top", foot, 0.5 * plan.sizes.foot->clearance + k_drawn_wall);
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     const auto trace = trace_tendon(
         mechanism, side == transmission::Side::left ? product.pulley.synthesis.p1 : product.pulley.synthesis.p2, 0, 0);
@@ -291,7 +293,7 @@ Figure kit_plan_view(const KitProduct& product) {
 
 namespace {
 
-/// The pitch curve of a side. Of a multi-turn pulley only the turn that its tendon leaves at home.
+/// The pitch curve of a side. For a multi-turn pulley: half a turn before and after the take-off at home.
 profile::Outline home_outline(const Product& product, transmission::Side side) {
   if (!product.helix) return side == transmission::Side::left ? product.synthesis.p1 : product.synthesis.p2;
   const helix::HelixSide& helix = product.helix->synthesis.sides.at(side == transmission::Side::left ? 0 : 1);

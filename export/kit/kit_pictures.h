@@ -24,11 +24,11 @@ struct KitStep {
 /// The rig after step `last`, with the added parts highlighted.
 Figure kit_picture(const KitProduct& product, const std::vector<KitStep>& steps, std::size_t last);
 
-/// The joint from above, with the area that the link covers over the range.
+/// The joint from above, with the link at home and at both ends of its range.
 Figure kit_plan_view(const KitProduct& product);
 
-/// The top view of a joint whose kit is plates to drill: drum, attachments, pins or idlers, sheaths and their exits,
-/// pulley.
+/// The top view of a joint whose kit is plates to drill: the plates with their holes, drum, pins or idlers, pitch
+/// curves, sheaths and tendons.
 Figure kit_template_view(const KitProduct& product);
 
 }  // namespace fusee::formats

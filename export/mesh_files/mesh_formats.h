@@ -26,10 +26,10 @@ solid::TriangleMesh read_stl(const Source& source);  ///< binary and ASCII; vert
 solid::TriangleMesh read_obj(const Source& source);
 solid::TriangleMesh read_off(const Source& source);      ///< OFF, COFF, NOFF, CNOFF, STOFF … in text
 solid::TriangleMesh read_ply(const Source& source);      ///< ascii, binary_little_endian, binary_big_endian
-solid::TriangleMesh read_threemf(const Source& source);  ///< in mm, every build item at its place
+solid::TriangleMesh read_threemf(const Source& source);  ///< in mm, every printable build item at its place
 solid::TriangleMesh read_drc(const Source& source);      ///< vertices welded
 
-/// A binary STL gives its number of facets and has exactly the corresponding size.
+/// True if the file has exactly the size of a binary STL with the number of facets that its header gives.
 bool is_binary_stl(std::string_view bytes);
 
 // Common helpers ----------------------------------------------------------------------------------------------------

@@ -64,8 +64,9 @@ void read_face(TextScanner& text, std::size_t vertices, PolygonSplitter& polygon
 }
 
 void put_vertex(fmt::memory_buffer& to, const Vec3& v) {
-  // Adding zero removes the sign of a negative zero. Nine digits read back as the same float. As doubles they are so
-  // close to it that volumes agree with the STL's: with the shortest such texts, a pulley of 0.3 m was 1e-7 off.
+  // Adding zero removes the sign of a negative zero. Nine digits read back as the same float. Read as doubles, they are
+  // so close to that float that volumes agree with the STL's. With the shortest texts that read back as the same float,
+  // the volume of a pulley of 0.3 m was 1e-7 off.
   fmt::format_to(std::back_inserter(to), "v {:.9g} {:.9g} {:.9g}\n", float(v.x()) + 0.0F, float(v.y()) + 0.0F,
                  float(v.z()) + 0.0F);
 }

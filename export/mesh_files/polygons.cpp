@@ -59,7 +59,7 @@ class FlatPolygon {
     if (!has_area_) return facets;
     unclipped_.resize(points_.size());
     for (std::size_t i = 0; i < unclipped_.size(); ++i) unclipped_[i] = i;
-    std::size_t tip = 0, tried = 0;  // `tried`: corners in succession that are no ears
+    std::size_t tip = 0, tried = 0;  // `tip`: index in unclipped_; `tried`: corners in succession that are no ears
     while (unclipped_.size() > 3) {
       if (tried++ == unclipped_.size()) return {};
       tip = tip >= unclipped_.size() ? 0 : tip;
@@ -74,7 +74,7 @@ class FlatPolygon {
       facets.push_back({corners_[before], corners_[unclipped_[tip]], corners_[after]});
       unclipped_.erase(unclipped_.begin() + static_cast<std::ptrdiff_t>(tip));
       tried = 0;
-      ++tip;  // facets about one corner would be long and narrow
+      ++tip;  // the next ear is sought further on, because facets about one corner would be long and narrow
     }
     facets.push_back({corners_[unclipped_[0]], corners_[unclipped_[1]], corners_[unclipped_[2]]});
     return facets;

@@ -85,7 +85,7 @@ solid::TriangleMesh read_facets(std::string_view bytes, std::size_t count) {
   return soup;
 }
 
-/// Keywords are of lower case; files may have them in upper case.
+/// True if `word` is the keyword, in lower or upper case. `keyword` is in lower case.
 bool is_word(std::string_view word, std::string_view keyword) {
   return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
                     [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
@@ -141,13 +141,13 @@ std::string_view uncommented_word(TextScanner& text) {
   return word;
 }
 
-/// Zero bytes of a copy in blocks, or the end mark of DOS.
+/// True for zero bytes, which fill the last block of a copy, for the end mark of DOS, and for an empty word.
 bool is_padding(std::string_view word) { return word.find_first_not_of(std::string_view("\0\x1A", 2)) == word.npos; }
 
 solid::TriangleMesh read_ascii_stl(const Source& source) {
   solid::TriangleMesh soup;
   TextScanner text(source);
-  bool is_open = false, has_solid = false;
+  bool is_open = false, has_solid = false;  // within a solid; a line "solid" or "endsolid" was read
   for (std::string_view word = uncommented_word(text); is_open || !is_padding(word); word = uncommented_word(text)) {
     // A file without the line "solid" may still end with "endsolid".
     const bool may_end = is_open || (!has_solid && !soup.triangles.empty());

@@ -126,7 +126,7 @@ constexpr std::uint64_t k_largest_part = std::uint64_t{128} << 20;
 /// Text of coordinates is compressed 5 to 20 times. A part that expands to more than this many times the file is a zip
 /// bomb.
 constexpr std::uint64_t k_most_inflation = 100;
-constexpr std::uint64_t k_always_unpacked = std::uint64_t{1} << 20;  // bytes
+constexpr std::uint64_t k_always_unpacked = std::uint64_t{1} << 20;  // bytes that parts may have beyond that ratio
 /// Elements that are allowed in addition to one for each byte.
 constexpr std::uint64_t k_always_added = k_always_unpacked;
 /// Deepest nesting of components.

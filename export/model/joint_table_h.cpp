@@ -13,7 +13,7 @@ namespace {
 
 using namespace model_words;
 
-/// Text that can neither end a comment nor continue beyond a line's end.
+/// Text that can neither end a comment nor continue beyond a line's end. A '?' could begin a trigraph for a backslash.
 std::string in_comment(const std::string& text) {
   std::string clean;
   for (const char c : cleaned_line(text)) clean += c == '*' || c == '\\' || c == '?' ? '_' : c;
@@ -154,7 +154,7 @@ class Header {
     return "(" + value + " - (" + c_float(way.first) + ")) * " + steps_per_unit(way.first, way.last);
   }
 
-  /// Returns a motor angle; counts are rounded half away from 0, and shifted by their zero.
+  /// C statements that return the motor angle `value`. Counts are rounded half away from 0 and shifted by their zero.
   std::string motor_value(const std::string& value) const {
     if (!has_ticks()) return "  return " + value + ";\n";
     return "  const float count = " + value + ";\n  return " + zero() +
@@ -202,7 +202,7 @@ class Header {
     return text;
   }
 
-  /// For encoders that restart each turn.
+  /// The C function for encoders that restart each turn.
   std::string unwrap() const {
     const std::string turn = std::to_string(whole(std::abs(table_.unit.per_turn)));
     return "/* The count nearest to the last one that an encoder shows as `reading` (0 to " + turn +

@@ -19,7 +19,8 @@ using namespace model_words;
 
 constexpr double k_tendon_height = 0.004;  // m, above and below the middle plane, for display only
 
-/// Solver parameters for the stiffest stable constraints.
+/// Solver parameters for the stiffest stable constraints: time constant and damping ratio, and an impedance of 0.9999,
+/// which choose_time_step() in words.cpp assumes.
 std::string stiff(const SimulatedBody& body) {
   return "solref=\"" + number(body.constraint_time) + " 1\" solimp=\"0.9999 0.9999 0.001\"";
 }
@@ -27,7 +28,8 @@ std::string stiff(const SimulatedBody& body) {
 std::string metres(double mm) { return number(mm * 1e-3); }
 std::string position(const Vec2& at, double z = 0) { return metres(at.x()) + " " + metres(at.y()) + " " + number(z); }
 
-std::string numbers(const std::vector<double>& values) {
+/// The coefficients of a polynomial of degree k_equality_degree. Missing ones are 0.
+std::string coefficients(const std::vector<double>& values) {
   std::string text;
   for (std::size_t i = 0; i <= model::k_equality_degree; ++i)
     text += (i > 0 ? " " : "") + coefficient(i < values.size() ? values[i] : 0.0);
@@ -44,7 +46,7 @@ model::Polynomial over_arm(model::Polynomial p, double arm) {
   return p;
 }
 
-/// tests/oracle/judge_model.py allows for this too.
+/// tests/oracle/judge_model.py allows for this compliance too.
 const std::string k_compliance =
     "MuJoCo's equalities are slightly compliant: by about 0.001 deg, driven through the range in 3 s.";
 
@@ -131,7 +133,7 @@ std::string pins(const Mechanism& mechanism, double drawn_radius) {
   return text;
 }
 
-/// For joint.xml: the drum from which the tendons come, for display only.
+/// The link's drum. In joint.xml it is for display only; in joint_tendons.xml the tendons wrap round it.
 std::string drum(const Mechanism& mechanism) {
   if (!(mechanism.joint.drum_radius > 0)) return "";
   const Attachment& centre = mechanism.joint.drum_centre;
@@ -249,7 +251,7 @@ std::string mujoco_joint_xml(const ModelProduct& product) {
   return opening(product, body, coupling) +
          bodies(product, body, pins(product.mechanism, 0.01 * product.mechanism.joint.R), drum(product.mechanism)) +
          "  <equality>\n    <joint joint1=\"" + (fit.of_alpha ? "theta" : "alpha") + "\" joint2=\"" +
-         (fit.of_alpha ? "alpha" : "theta") + "\" polycoef=\"" + numbers(fit.p.c) + "\" " + stiff(body) +
+         (fit.of_alpha ? "alpha" : "theta") + "\" polycoef=\"" + coefficients(fit.p.c) + "\" " + stiff(body) +
          "/>\n  </equality>\n" + ending(product, body);
 }
 
@@ -278,7 +280,7 @@ std::string mujoco_tendons_xml(const ModelProduct& product) {
   return opening(product, body, coupling) + bodies(product, body, pins(mechanism, drawn) + world, link) +
          "  <tendon>\n" + tendons + "    <fixed name=\"wound\">\n      <joint joint=\"alpha\" coef=\"" + number(arm) +
          "\"/>\n    </fixed>\n  </tendon>\n  <equality>\n    <tendon tendon1=\"tendon_" + constrained +
-         "\" tendon2=\"wound\" polycoef=\"" + numbers(over_arm(model.length, arm).c) + "\" " + stiff(body) +
+         "\" tendon2=\"wound\" polycoef=\"" + coefficients(over_arm(model.length, arm).c) + "\" " + stiff(body) +
          "/>\n  </equality>\n" + ending(product, body);
 }
 

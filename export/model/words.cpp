@@ -28,14 +28,15 @@ std::string c_prefix(const std::string& name) {
 namespace model_words {
 namespace {
 
-/// A uniform round bar of 8 mm: the approximate weight of a printed or bought link of this length.
+/// A round bar of 8 mm diameter and 2.5 g/cm³: the approximate mass of a printed or bought link, for each mm of length.
 constexpr double k_link_mass_per_mm = 0.125e-3;  // kg
 /// Inertia of a small geared servo at its output, pulley included.
-constexpr double k_rotor_inertia = 1e-3;    // kg m²
-constexpr double k_load_reserve = 3;        // the motor holds three times the load
-constexpr double k_least_effort = 1;        // N m
-constexpr double k_steps_per_constant = 4;  // two is the least that a simulator accepts
-constexpr double k_motor_speed = 6.283;     // rad/s: 60 rpm
+constexpr double k_rotor_inertia = 1e-3;  // kg m²
+constexpr double k_load_reserve = 3;      // the motor holds three times the load
+constexpr double k_least_effort = 1;      // N m
+/// Time steps per time constant of a constraint. Simulators require at least two.
+constexpr double k_steps_per_constant = 4;
+constexpr double k_motor_speed = 6.283;  // rad/s: 60 rpm
 
 }  // namespace
 
@@ -55,7 +56,8 @@ std::string at_most_deg(double angle) {
   constexpr double k_rounding = 1e-6;  // below this only rounding remains
   if (!(value > k_rounding)) return "0.000001";
   const double scale = elementary::pow(10.0, 1 - std::floor(elementary::log10(value)));
-  return rounded(std::ceil(value * scale * (1 - 1e-9)) / scale, 3);
+  constexpr double k_almost_one = 1 - 1e-9;  // so that a value of two digits is not rounded up to the next one
+  return rounded(std::ceil(value * scale * k_almost_one) / scale, 3);
 }
 
 std::vector<std::string> curve_words(const model::JointCurve& curve, const ModelProduct& product, bool of_sensor) {
@@ -99,7 +101,7 @@ std::string xml_attribute(const std::string& text) { return escape_html(cleaned_
 
 namespace {
 
-/// A spring's torque is k (θ − rest), or constant.
+/// The torque of a spring is k (θ − rest). Without stiffness it is constant.
 void add_spring(SimulatedBody& body, const Spring& spring) {
   if (spring == Spring{}) return;
   if (spring.stiffness == 0) {
@@ -171,8 +173,8 @@ void choose_servo(SimulatedBody& body, double inertia, double most_motor_torque)
 }
 
 /// Constraints deflect by (1 − d) a t², with impedance d, time constant t, and a the acceleration that the load would
-/// give link and motor if they were free. 1e-5 rad is a tenth of a table's allowed error. `inertia`: as in
-/// choose_servo(); `link_inertia`: about O, kg m².
+/// give link and motor if they were free. 1e-5 rad is about half of a table's default allowed error, 0.001°.
+/// `inertia`: as in choose_servo(); `link_inertia`: about O, kg m².
 void choose_time_step(SimulatedBody& body, double inertia, double link_inertia, double most_joint_torque) {
   constexpr double k_softness = 1e-4, k_deflection = 1e-5;  // 1 − d, rad
   constexpr double k_most_step = 1e-3;                      // s
@@ -181,6 +183,7 @@ void choose_time_step(SimulatedBody& body, double inertia, double link_inertia, 
   const double most_constraint_time = acceleration > 0 ? std::sqrt(k_deflection / (k_softness * acceleration)) : 1;
   const double step = std::min(
       {k_most_step, k_step_per_servo_time * std::sqrt(inertia / body.kp), most_constraint_time / k_steps_per_constant});
+  // One digit, rounded up or down. If up, half of the step is rounded instead, which stays below the whole.
   body.timestep = std::stod(rounded(step, 1));
   if (body.timestep > step) body.timestep = std::stod(rounded(0.5 * step, 1));
   body.constraint_time = k_steps_per_constant * body.timestep;

@@ -31,8 +31,8 @@ inline constexpr double k_pulley_mass = 0.01;
 std::string xml_comment(const std::vector<std::string>& lines);
 std::string xml_attribute(const std::string& text);
 
-/// The link and the pulley for a simulator. SI units. `words`: each value that is assumed because the file does not
-/// have it.
+/// The link and the pulley for a simulator. SI units. `words`: the values that the file gives, and each value that is
+/// assumed because the file does not give it.
 struct SimulatedBody {
   double mass = 0;             ///< of the link, kg
   double lever = 0;            ///< from O along OC to the centre of that mass, m

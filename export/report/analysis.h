@@ -11,8 +11,9 @@
 
 namespace fusee::formats {
 
-/// A self-contained page: the joint moves under a slider, with the forces of both models and the error budget. Requires
-/// a law that exists over the range. `remarks`: shown at the top. The same input gives the same bytes.
+/// A self-contained page: the joint moves under a slider, with the forces by the full model and by the paper's formulas,
+/// and the error budget. Requires a law that exists over the range. `remarks`: shown at the top. The same input gives
+/// the same bytes.
 std::string analysis_html(const MechanismFile& file, const analysis::AnalysisResult& result,
                           const analysis::AnalysisOptions& options, const std::vector<Diagnostic>& remarks);
 

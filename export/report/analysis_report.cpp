@@ -63,6 +63,7 @@ std::vector<Vec2> wanted_torque_points(const analysis::AnalysisResult& result, c
   std::vector<double> thetas;
   for (const analysis::AnalysisRow& row : result.rows) thetas.push_back(row.declared.theta);
   std::vector<double> torques = transmission::wanted_torques(mechanism, thetas);
+  // One torque for each row, in the same order.
   return over_rows(result, [next = torques.begin()](const auto&) mutable { return *next++; });
 }
 

@@ -93,7 +93,7 @@ std::string problem_words(const CalibrationProduct& product) {
   const double mean = all.error / all.rows;
   const double slope = all.angle.slope(all.rows);
   const double explained_by_mean = all.rows * mean * mean;
-  // Share of the squared error from which a constant error is one at every angle.
+  // If the mean explains at least this share of the squared error, the error is nearly the same at every angle.
   constexpr double k_everywhere = 0.9;
   const std::string where = explained_by_mean > k_everywhere * all.squares ? " everywhere" : " on average";
   // Explained sum of squares, and the sentence.

@@ -88,7 +88,7 @@ class ProfileSum {
   Profile mean() const {
     Profile profile;
     profile.fill(k_gap);
-    std::size_t last = k_bins;
+    std::size_t last = k_bins;  // the last bin with samples; k_bins: none yet
     for (std::size_t k = 0; k < k_bins; ++k) {
       if (counts_[k] == 0) continue;
       profile[k] = sums_[k] / counts_[k];
@@ -158,10 +158,10 @@ Extent residual_extent(const CalibrationProduct& product) {
 
 // ---- the map --------------------------------------------------------------------------------------------------------
 
-constexpr int k_shades = 8;
-constexpr double k_row_height = 11;
-constexpr double k_run_gap = 3;
-constexpr double k_right_margin = 16;
+constexpr int k_shades = 8;            // for each sign
+constexpr double k_row_height = 11;    // px
+constexpr double k_run_gap = 3;        // px
+constexpr double k_right_margin = 16;  // px
 
 /// The mean residuals of all runs, before or after: two rows per run.
 struct ResidualMap {
@@ -228,11 +228,11 @@ std::string map_scale(double left, double top, double width, double colour_limit
   return svg + svg_words("soft tiny end", {left + width, top + 22}, "+" + readable_rounded(colour_limit, 2) + "°");
 }
 
-/// Labels stand to the left of their rows, or above them in a narrow column.
+/// Labels stand to the left of their rows, or above them in a narrow column. px.
 struct MapLayout {
   double width = 460;
-  double left = 182;
-  double above = 0;  ///< height of a label above its rows
+  double left = 182;  ///< where the rows begin
+  double above = 0;   ///< height of a label above its rows
 };
 
 Figure draw_map(const CalibrationProduct& product, const ResidualMap& map, const std::string& title,
@@ -344,7 +344,8 @@ std::string level_pair(const CalibrationProduct& product, Factor factor) {
     }
   }
   const double size = std::max(std::abs(level.low), std::abs(level.high));
-  if (!level.has_width() || level.high - level.low < 0.05 * size) return "";
+  constexpr double k_least_variation = 0.05;  // of the largest level; below it the runs have one level
+  if (!level.has_width() || level.high - level.low < k_least_variation * size) return "";
   const double margin = 0.04 * (level.high - level.low);
   const std::string& unit = product.measurement.load_unit;
   const bool by_load = factor == Factor::load;

@@ -25,7 +25,7 @@ std::string compensation_html(const CalibrationProduct& product);
 /// θ over α as it was logged: for data that cannot be judged.
 std::string logged_html(const measurement::Measurement& measurement);
 
-/// "run_2.csv, 6 N, 12 °/s"
+/// "run_2.csv, load 6 N, 12 °/s"
 std::string run_words(const measurement::Run& run, const std::string& load_unit);
 
 }  // namespace fusee::formats

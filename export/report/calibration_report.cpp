@@ -26,7 +26,7 @@ std::string degree_words(double value) { return with_unit(degrees(value), "deg",
 // ---- verdict and figures --------------------------------------------------------------------------------------------
 
 struct Sign {
-  std::string style;
+  std::string style;  ///< class in page.css
   std::string sign;
 };
 

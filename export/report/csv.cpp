@@ -125,7 +125,8 @@ std::string pitch_curve_csv(const Product& product, transmission::Side side) {
 }
 
 /// r1 and r2: moment arms of the tendons about the pulley's axis; m1 and m2: about the joint. Forces as in
-/// fusee/transmission.h. The last two columns are results of the tendons wound on the written mesh.
+/// fusee/transmission.h. theta_as_built_deg and slack_mm are results of the tendons wound on the written mesh. A
+/// multi-turn pulley adds the slope and the fleet angle of both tendons.
 std::string transmission_csv(const Product& product) {
   std::string table =
       "alpha_deg,theta_deg,r1_mm,r2_mm,m1_mm,m2_mm,gamma2_deg,T2_N,phi_deg,Tb_N,elongation_mm,theta_error_deg,"

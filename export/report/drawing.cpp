@@ -350,12 +350,12 @@ std::string bore(const View& view, const solid::BodyLayout& layout) {
 /// Below the drawing, because anchors may be anywhere around the bore.
 std::string bore_words(const solid::BoreLayout& bore) {
   if (bore.outline.empty()) return "";
-  const double clear = distance_to_edges(bore.outline, Vec2::Zero());
-  if (bore.circle) return "bore ⌀ " + readable_rounded(2 * clear) + " inside the polygon";
+  const double inscribed_radius = distance_to_edges(bore.outline, Vec2::Zero());
+  if (bore.circle) return "bore ⌀ " + readable_rounded(2 * inscribed_radius) + " inside the polygon";
   if (bore.kind == Bore::d)
-    return "bore ⌀ " + readable_rounded(2 * bore.radius) + ", " + readable_rounded(bore.radius + clear) +
+    return "bore ⌀ " + readable_rounded(2 * bore.radius) + ", " + readable_rounded(bore.radius + inscribed_radius) +
            " from the flat";
-  return "bore ⌀ " + readable_rounded(2 * clear) + " clear";
+  return "bore ⌀ " + readable_rounded(2 * inscribed_radius) + " clear";
 }
 
 std::string axes(const View& view, double reach) {

@@ -1,7 +1,8 @@
 # fusee_embed(<target> HEADER <header> FILES <files>): compiles text files into <target>.
 #
 # <header>, as it is included, declares a `const std::string_view` in fusee::embedded for each file, named after it
-# ("page.css" → page_css). Lines of a script that are only a comment are left out. Bytes, not string literals: compilers limit the length of those.
+# ("page.css" → page_css). Lines of a script that are only a comment are left out. The files become arrays of bytes,
+# because compilers limit the length of string literals.
 function(fusee_embed target)
   cmake_parse_arguments(EMBED "" "HEADER" "FILES" ${ARGN})
   set(definitions "")

@@ -20,7 +20,7 @@ using namespace scad;
 namespace {
 
 // OpenSCAD's exact arithmetic takes about a millisecond per point, so there are fewer rows than in the mesh.
-constexpr double k_helical_sagitta = 0.02;
+constexpr double k_helical_sagitta = 0.02;  // mm
 
 /// The anchor at the lower face (P1) or the upper face (P2).
 const helical_solid::HelicalAnchor& anchor_of(const Product& product, transmission::Side side) {

@@ -21,6 +21,7 @@ std::vector<std::string> titles_of(std::string_view table) {
   return titles;
 }
 
+/// The table with the title of its column in each cell, as with_labelled_cells() does for a page.
 std::string with_labels(std::string_view table) {
   const std::vector<std::string> titles = titles_of(table);
   std::string html;

@@ -73,7 +73,7 @@ Json grooves_json(const solid::BodyLayout& layout) {
           {{"pulley", "P2"}, {"z_mm", result_json(layout.z_p2 * layout.scale)}}};
 }
 
-/// A helical groove, also in the written mesh from its lower face upwards. z_mm: the middle of the working arc.
+/// A helical groove. Heights are those of the written mesh, above its lower face. z_mm: the middle of the working arc.
 Json helical_groove_json(const Product& product, transmission::Side which) {
   const bool left = which == transmission::Side::left;
   const helix::HelixSide& side = product.helix->synthesis.sides.at(left ? 0 : 1);

@@ -109,8 +109,9 @@ std::string json_effect(const correction::RehearsedEffect& effect) {
   return text + "]}";
 }
 
-/// The end of a tendon. `lies`: joint angle up to which it lies on the drum (−1000: never), in its right-hand image.
-/// `normal`: normal of the line from drum to pin, which is constant up to that angle, in the drawing.
+/// The end of a tendon. `lies`: joint angle (rad) up to which the tendon lies on the drum, in the mirror image that has it
+/// on the right; −1000: never. `normal`: direction (rad) of the normal of the line from drum to pin in the drawing, which
+/// is constant up to that angle.
 std::string json_end(const Mechanism& mechanism, transmission::Side side) {
   const transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.guide_pitch_radius());
   double lies = -1e3, normal = 0;

@@ -19,8 +19,7 @@ inline constexpr std::string_view k_moving_words =
     "stretch and friction, in the direction in which you move.</p>";
 
 /// The HTML inside a section. `loaded`: the joint under the declared load, rising and falling, at each point of
-/// synthesis.stroke. "" if nothing
-/// can move. Requires joint_script() of this mechanism, and page.css.
+/// synthesis.stroke. "" if nothing can move. Requires joint_script() of this mechanism, and page.css.
 std::string moving_joint(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
                          const std::vector<analysis::StrokePoint>& loaded);
 /// The moving joint of a rehearsal, with a slider for each effect and for the load.

@@ -32,7 +32,7 @@ Function* required(const SystemLibrary& library, const char* name) {
 
 class Renderer {
  public:
-  /// Draws on a cairo surface and destroys it.
+  /// Draws on a cairo surface, which the caller destroys. Width and height are those of the surface, in its units.
   void draw(const std::string& svg, void* surface, double width, double height, bool on_white) const {
     void* const context = create_(surface);
     if (on_white) {

@@ -18,10 +18,10 @@
 namespace fusee::formats {
 namespace {
 
-/// Enough for the shape of every stroke, and for a person who sets them one by one.
+/// Rows of a run file for each stroke: they show its shape, and a person can still set them one by one.
 constexpr int k_rows_a_stroke = 120;
 
-/// For values with an uncertainty of some tens of percent.
+/// A value whose uncertainty is some tens of percent, to four digits.
 Json four_digits_json(double value) { return std::isfinite(value) ? Json(std::stod(rounded(value, 4))) : Json(); }
 
 std::string_view word(plan::BenchChange change) {

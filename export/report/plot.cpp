@@ -27,7 +27,7 @@ struct Range {
   double span() const { return high - low; }
 };
 
-/// Widened about its middle to `least` and to the resolution of a double; [0, 1] if it is empty.
+/// The range widened about its middle to at least `least` and 1e-9 of its values; [0, 1] if it is empty.
 Range usable(Range range, double least) {
   if (!(range.low <= range.high)) return {0, 1};
   const double size = std::max(std::abs(range.low), std::abs(range.high));

@@ -59,8 +59,8 @@ struct Plot {
 
 Figure plot_figure(const Plot& plot);
 
-/// Evenly spaced round numbers, the first <= low and the last >= high; about `count` of them. Steps are 1, 2, 5 × 10^k,
-/// and for `unit` "°" also 15, 30, 45, 90. Requires finite low < high.
+/// Evenly spaced round numbers, the first <= low and the last >= high; about `count` of them. Steps are 1, 2, 5 × 10^k.
+/// For `unit` "°", steps above 5 are 10, 15, 30, 45, 90, 180 or 360. Requires finite low < high.
 std::vector<double> nice_ticks(double low, double high, int count, const std::string& unit = {});
 /// The minimax line of the points and its deviation: |y − (offset + slope x)| <= deviation.
 struct BestLine {

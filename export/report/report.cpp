@@ -297,7 +297,7 @@ Pose pose_near(const profile::SynthesisResult& synthesis, double theta) {
   return {nearest->alpha, nearest->theta};
 }
 
-/// Both ends, home and one more between; evenly spaced if home is an end.
+/// Both ends, home and one more between; evenly spaced if home is an end or outside the range.
 std::vector<Pose> poses(const Product& product) {
   const profile::SynthesisResult& synthesis = product.synthesis;
   if (synthesis.stroke.empty()) return {};

@@ -47,7 +47,7 @@ std::string tick_box(const char* name, const char* words, bool value) {
 /// The further parameters of a D bore or a keyway.
 std::string flat_sliders(const solid::BoreLayout& bore, double compensation) {
   const double radius = 0.5 * shaft_diameter(bore, compensation);
-  const double top = bore.outline.back().y() - 0.5 * compensation;
+  const double top = bore.outline.back().y() - 0.5 * compensation;  // y of the flat, or of the keyway's far side
   if (bore.kind == Bore::d)
     return slider_text({"bore_flat", "from the flat to the far side of the shaft", top + radius, 0.5, 0.1, 40});
   if (bore.kind != Bore::keyway) return "";
@@ -140,9 +140,10 @@ std::string screw_numbers(const solid::BodyLayout& layout, double compensation) 
   const solid::SetScrewLayout& screw = layout.set_screw;
   const double bore_edge = 0.5 * (shaft_diameter(layout.bore, compensation) + compensation);
   const double nut_from_bore = screw.nut_trap ? screw.nut_distance - bore_edge : 0;
+  constexpr double k_most_hub_wall = 1.5;  // mm; a hub with a thicker wall grows only if less would remain
   const double hub_wall =
       layout.hub_radius > 0
-          ? std::clamp(layout.hub_radius - bore_edge - nut_from_bore - 0.5 * screw.nut_thickness, 0.0, 1.5)
+          ? std::clamp(layout.hub_radius - bore_edge - nut_from_bore - 0.5 * screw.nut_thickness, 0.0, k_most_hub_wall)
           : layout.min_wall;
   return (screw.present ? "" : "set_screw = false;\n") + std::string(screw.nut_trap ? "" : "nut_trap = false;\n") +
          hidden("screw_hole", screw.hole_diameter, "diameter") +

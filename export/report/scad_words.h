@@ -10,6 +10,7 @@
 
 namespace fusee::formats::scad {
 
+/// At most five decimals.
 std::string decimal(double value);
 std::string point_text(const Vec2& p);
 std::string points_text(const Polygon& points);

@@ -32,7 +32,7 @@ std::string standalone_svg(const Figure& figure);
 std::string safe_text(std::string_view words);
 /// At most two decimals. A number that is not finite becomes 0, so that the picture stays readable.
 std::string svg_number(double value);
-/// " M x y L x y …": a point that is not finite breaks the line.
+/// "Mx yLx y…": a point that is not finite breaks the line.
 std::string path_data(const std::vector<Vec2>& points, bool closed);
 std::string svg_path(std::string_view classes, const std::vector<Vec2>& points, bool closed = false);
 std::string svg_line(std::string_view classes, const Vec2& from, const Vec2& to);

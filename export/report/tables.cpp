@@ -11,7 +11,8 @@
 namespace fusee::formats {
 namespace {
 
-/// '#' stands for 1 or 2, '@' for the pin of the same side, B or D. In a name, its last letter may be any of these.
+/// '#' stands for 1 or 2, '@' for the pin of the same side, B or D. A name may end with one of these; the words may
+/// contain both.
 struct PlainName {
   std::string_view name;
   std::string_view words;
@@ -75,7 +76,7 @@ constexpr PlainName k_plain_names[] = {
     {"no_self_crossing", "Contours that cross themselves"},
     {"no_crossing_contours", "Contours that cross each other"},
     {"nothing_outside", "Contours outside the part or the sheet"},
-    // pipeline: what wound tendons give
+    // pipeline: results of the tendons wound on the mesh
     {"theta_error", "Joint angle as built against the declared θ(α)"},
     {"excess_length", "Excess length or stretch of tendon 2 as built"},
     {"theta_error_reported", "Joint angle as built against the declared θ(α) (method “paper”: reported only)"},

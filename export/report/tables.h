@@ -11,8 +11,8 @@
 
 namespace fusee::formats {
 
-/// "free_span_1" → "Free span of tendon 1", from a table of known names. Any other name is shown with spaces for
-/// underscores.
+/// "bore_wall_P1" → "Wall between the bore and P1’s groove floor", from a table of known names. Any other name is shown
+/// with spaces for underscores.
 std::string plain_name(std::string_view name);
 /// "mm", "°" for "deg", "" for "1".
 std::string shown_unit(std::string_view unit);

@@ -9,9 +9,9 @@
 namespace fusee::formats {
 namespace {
 
-/// Outward normal of the line through `point` that touches the circle and has it on its inner side: the tendon passes
-/// the circle's outer side, away from `point` along the direction of travel. `sign` is mirror_sign of the side. NaN
-/// inside the circle.
+/// Direction (rad) of the outward normal of the tangent from `point` to a circle, which the tendon passes on its outer
+/// side. `point_above`: the point is the tendon's end at the joint, otherwise a point of the pulley. `sign`:
+/// mirror_sign() of the side. NaN if the point is inside the circle.
 double tangent_normal(const Vec2& centre, double rho, const Vec2& point, bool point_above, double sign) {
   const Vec2 to_point = point - centre;
   const double opening = elementary::acos(rho / to_point.norm());
@@ -62,7 +62,7 @@ std::vector<std::size_t> wound_indices(const profile::Outline& outline, std::siz
   const std::size_t active_steps = steps_between(forward ? outline.active_first : outline.active_last, last);
   const std::size_t steps = steps_between(first, last);
   std::vector<std::size_t> indices{first};
-  // A take-off one vertex beyond the active arc's unwound end still winds all of it.
+  // A take-off up to two vertices beyond the active arc's unwound end still winds all of it.
   if (steps > active_steps + 2) return indices;
   for (std::size_t k = 1; k <= steps; ++k) indices.push_back(forward ? (first + k) % n : (first + n - k) % n);
   return indices;
@@ -102,6 +102,7 @@ std::vector<Vec2> sheath_curve(const Mechanism& mechanism, transmission::Side si
   const Vec2 from = pin_centre(mechanism, side) + Vec2(sign * mechanism.guide_pitch_radius(), 0.0),
              to = sheath_exit(mechanism, side);
   const double reach = 0.5 * (to - from).norm();
+  // A cubic Bézier curve that begins straight down and arrives at the exit from above and outside.
   const Vec2 down(0.0, -reach), outwards(0.9 * sign * reach, 0.0);
   const Vec2 first = from + down, second = to - down + outwards;
   constexpr int k_steps = 24;

@@ -14,7 +14,7 @@ namespace {
 
 /// Entities without an identity, which can be merged if they are equal. The pieces of a divided edge share one curve,
 /// and those of a face one surface.
-constexpr std::array<std::string_view, 21> k_values{"",  // of several types
+constexpr std::array<std::string_view, 21> k_values{"",  // an entity of several types, which begins with a bracket
                                                     "CARTESIAN_POINT",
                                                     "DIRECTION",
                                                     "VECTOR",

@@ -7,8 +7,8 @@
 
 namespace fusee::formats {
 
-/// Compacts a STEP file: equal values (points, directions, styles) are merged, instances are renumbered
-/// without gaps, and spaces remain in texts only.
+/// Compacts a STEP file: equal values (points, directions, styles) are merged, instances are renumbered without gaps,
+/// reals are shortened to ten digits, and spaces remain in texts only.
 std::string compact_step(std::string_view text);
 
 }  // namespace fusee::formats

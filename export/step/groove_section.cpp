@@ -17,10 +17,12 @@ constexpr double k_widest_seat = radians(150);
 
 /// Angle of one wall's arc before its straight part; empty if the groove edge cuts the arc off.
 std::optional<double> seat_turn(const std::vector<solid::GroovePoint>& wall, double radius) {
-  const solid::GroovePoint &groove_edge = wall.back(), &last = wall[wall.size() - 2];
-  const double lean = elementary::atan2(groove_edge.dz - last.dz, groove_edge.offset - last.offset);
-  // The straight touches the arc: its distance from the centre equals the radius.
-  const double distance = std::abs((radius - last.offset) * elementary::sin(lean) + last.dz * elementary::cos(lean));
+  const solid::GroovePoint &groove_edge = wall.back(), &before_edge = wall[wall.size() - 2];
+  // The angle of the straight from the outward direction.
+  const double lean = elementary::atan2(groove_edge.dz - before_edge.dz, groove_edge.offset - before_edge.offset);
+  // The straight touches the arc if its distance from the arc's centre equals the radius.
+  const double distance =
+      std::abs((radius - before_edge.offset) * elementary::sin(lean) + before_edge.dz * elementary::cos(lean));
   const double arc_end_offset = radius * (1 - elementary::sin(lean));
   if (std::abs(distance - radius) > k_contact_tolerance || arc_end_offset > groove_edge.offset - k_shortest_straight)
     return std::nullopt;

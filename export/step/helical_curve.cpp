@@ -9,7 +9,7 @@
 namespace fusee::formats {
 namespace {
 
-// Turn over which a groove edge grows to its bulge: one column of the grid.
+// Turn over which a groove edge grows to its bulge. In the mesh this takes one column of the grid.
 constexpr double k_bulge_turn = radians(5);
 
 double polynomial(const std::array<double, 6>& powers, double u) {
@@ -93,11 +93,12 @@ double HelicalGroove::bulge(double turn, bool low) const {
 // As in helical_solid/helical_blank.cpp: the ring leaves the turn in the half with the most clearance and returns to
 // its start.
 Vec2 HelicalGroove::ring(double direction, bool lowest, double outward) const {
-  const double first = lowest ? filled_to_ : filled_from_, inwards = lowest ? -1.0 : 1.0;
-  const double past_first = inwards * (direction - first);
+  const double first = lowest ? filled_to_ : filled_from_;
+  const double towards_groove = lowest ? -1.0 : 1.0;  // sign of the turn from the filled end
+  const double past_first = towards_groove * (direction - first);
   const double within_turn = past_first - k_two_pi * std::floor(past_first / k_two_pi);
-  const double turn = first + inwards * within_turn;
-  const Vec2 gap = (at(first) - at(first + inwards * k_two_pi)).head<2>();
+  const double turn = first + towards_groove * within_turn;
+  const Vec2 gap = (at(first) - at(first + towards_groove * k_two_pi)).head<2>();
   return at(turn).head<2>() + outward * unit(turn) + late_step(within_turn / k_two_pi) * gap;
 }
 

@@ -50,9 +50,11 @@ class HelicalGroove {
   double filled_to() const { return filled_to_; }
 
   Vec3 at(double turn) const;
-  /// Projection of the lower (`low`) or the upper groove edge over the filled rows, mm.
+  /// Distance by which the lower (`low`) or the upper groove edge projects outwards beyond its usual distance from the
+  /// centre line, mm. It is 0 within the groove and beyond the filled turns.
   double bulge(double turn, bool low) const;
-  /// A closed ring at the distance `outward`, about the lowest or the highest turn, in the direction of a normal.
+  /// The point of a closed ring where its normal has this direction. The ring lies `outward` (mm) of the centre line of
+  /// the lowest or the highest turn.
   Vec2 ring(double direction, bool lowest, double outward) const;
 
  private:

@@ -132,8 +132,8 @@ class SectorFit {
     return spline;
   }
 
-  /// The spans with an excessive error, the worst first. A sharp bend makes its neighbours oscillate until it is
-  /// resolved.
+  /// The spans to refine, in order: their error exceeds the tolerance, and k_share_of_worst of the worst one. Other
+  /// spans wait, because a sharp bend makes the fit oscillate beside it until the bend is resolved.
   std::vector<std::size_t> coarse_spans(const SplineBundle& spline, const std::vector<Break>& breaks) const {
     constexpr int k_samples = 24;
     std::vector<double> errors;
@@ -282,10 +282,12 @@ std::optional<std::pair<SupportCurve::Sample, SupportCurve::Sample>> SupportCurv
   if (mean <= k_straight_beside * std::max(from.radius, to.radius)) return std::nullopt;
   const Vec2 c0 = from.point - from.radius * unit(from.psi), c1 = to.point - to.radius * unit(to.psi);
   const Vec2 between = c1 - c0;
-  const double half = 0.5 * k_straight_turn, along = (from.radius - to.radius) / between.norm();
-  if (!(std::abs(along) < 1)) return std::nullopt;
+  const double half = 0.5 * k_straight_turn;
+  // Cosine of the angle between the tangent's normal and the line of centres.
+  const double cosine = (from.radius - to.radius) / between.norm();
+  if (!(std::abs(cosine) < 1)) return std::nullopt;
   const double psi = profile::turned_into(from.psi - 0.5 * k_pi,
-                                          elementary::atan2(between.y(), between.x()) - elementary::acos(along));
+                                          elementary::atan2(between.y(), between.x()) - elementary::acos(cosine));
   if (psi - from.psi < 2 * half || to.psi - psi < 2 * half) return std::nullopt;
   const auto on_circle = [](const Vec2& centre, double radius, double at) {
     return Sample{at, centre + radius * unit(at), radius};

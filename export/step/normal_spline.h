@@ -90,7 +90,7 @@ struct NormalSpline {
 std::optional<NormalSpline> fit(const SupportCurve& curve, double from, double to, const std::vector<double>& kinks,
                                 double tolerance, double reach);
 
-/// Point of a spline, by de Boor's algorithm.
+/// Point of a spline: the sum of its poles times their basis functions (recursion of Cox and de Boor).
 Vec2 point_on(const StepSpline& spline, double psi);
 
 }  // namespace fusee::formats

@@ -51,35 +51,35 @@ struct SectionCorner {
 };
 
 std::vector<SectionCorner> section_corners(const helical_solid::HelicalSection& section, const Mechanism& mechanism) {
-  const double half = 0.5 * mechanism.tendon.diameter;
+  const double tendon_radius = 0.5 * mechanism.tendon.diameter;
   const solid::GrooveWalls& walls = section.walls;
-  std::vector<SectionCorner> corners{{walls.below.back().offset - half, -walls.below_width()}};
+  std::vector<SectionCorner> corners{{walls.below.back().offset - tendon_radius, -walls.below_width()}};
   const auto seat = seat_of(walls, mechanism);
   if (seat) {
     const std::vector<double> angles = seat->angles();
     const auto on_arc = [&](double angle, double radius) {
-      return Vec2(seat->radius - half - radius * elementary::cos(angle), radius * elementary::sin(angle));
+      return Vec2(seat->radius - tendon_radius - radius * elementary::cos(angle), radius * elementary::sin(angle));
     };
     for (std::size_t i = 0; i < angles.size(); ++i) {
       const Vec2 place = on_arc(angles[i], seat->radius);
       SectionCorner corner{place.x(), place.y()};
       if (i + 1 < angles.size()) {
-        const double turn = 0.5 * (angles[i + 1] - angles[i]);
-        const Vec2 tip = on_arc(angles[i] + turn, seat->radius / elementary::cos(turn));
+        const double half_turn = 0.5 * (angles[i + 1] - angles[i]);
+        const Vec2 tip = on_arc(angles[i] + half_turn, seat->radius / elementary::cos(half_turn));
         corner.arc = true;
         corner.arc_outward = tip.x();
         corner.arc_dz = tip.y();
-        corner.weight = elementary::cos(turn);
+        corner.weight = elementary::cos(half_turn);
       }
       corners.push_back(corner);
     }
   } else {
     for (std::size_t k = walls.below.size() - 1; k-- > 1;)
-      corners.push_back({walls.below[k].offset - half, -walls.below[k].dz});
+      corners.push_back({walls.below[k].offset - tendon_radius, -walls.below[k].dz});
     for (std::size_t k = 1; k + 1 < walls.above.size(); ++k)
-      corners.push_back({walls.above[k].offset - half, walls.above[k].dz});
+      corners.push_back({walls.above[k].offset - tendon_radius, walls.above[k].dz});
   }
-  corners.push_back({walls.above.back().offset - half, walls.above_width()});
+  corners.push_back({walls.above.back().offset - tendon_radius, walls.above_width()});
   return corners;
 }
 
@@ -208,6 +208,7 @@ class SkinBuilder {
     return turn;
   }
 
+  /// Chooses the directions at which faces beside a groove end, so that no face is wider than k_widest_face.
   void add_cuts(GrooveExtent& extent, const HelicalGroove& groove) {
     extent.cuts = {mark(groove.begin())};
     for (std::size_t i = 0; i < extent.cuts.size();) {
@@ -330,7 +331,7 @@ class SkinBuilder {
     return {groove_edge_at(g, turn + k_two_pi, false), ring_at(extents_[g].ring_above, turn)};
   }
 
-  /// The relative height between the two at which a groove edge ends.
+  /// The height at which a groove edge ends, relative to its neighbours: 0 at the lower one, 1 at the upper one.
   double height_share(std::size_t g, bool low, bool back) const {
     const double turn = back ? extents_[g].follow_last : extents_[g].follow_first;
     const auto [below, above] = neighbours(g, turn, back);
@@ -496,11 +497,11 @@ class SkinBuilder {
         for (const Place& here : side_of(cell, after)) corner_of_.emplace(here, 0);
       }
     }
-    // Ending groove edges end on the straight between their neighbours.
     for (auto& [here, corner] : corner_of_) {
       corner = skin_.corners.size();
       skin_.corners.push_back(position_of(here));
     }
+    // Fit and rounding have moved the ends of groove edges slightly off the straight between their neighbours.
     for (std::size_t g = 0; g < 2; ++g) {
       for (const bool back : {false, true}) put_groove_edges_on_straight(g, back);
     }
@@ -783,8 +784,8 @@ class SkinBuilder {
 };
 
 StepTool run_out_pocket(const helical_solid::GrooveEnd& end, const helical_solid::RunOutSizes& sizes) {
-  constexpr double k_outside = 1.0;
-  const auto z = [&](double in) { return end.face - end.outward * in; };
+  constexpr double k_outside = 1.0;  // mm, beyond the face, so that no faces coincide
+  const auto z = [&](double depth) { return end.face - end.outward * depth; };
   Polygon section{{0, z(-k_outside)}, {sizes.pocket_radius, z(-k_outside)}};
   const std::vector<Vec2> profile = helical_solid::pocket_profile(end, sizes);
   for (const Vec2& corner : profile) section.emplace_back(corner.x(), z(corner.y()));

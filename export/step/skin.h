@@ -8,10 +8,10 @@
 
 namespace fusee::formats {
 
-/// The body of a multi-turn pulley, not yet scaled. Throws InputError if it is too large.
+/// The body of a multi-turn pulley as printed, with shrinkage compensation. Throws InputError if it is too large.
 StepSkin helical_skin(const Product& product);
 
-/// The run-outs to the knots, which are cut in addition to the features of every pulley.
+/// The run-outs to the knots, not yet scaled. They are cut in addition to the features of every pulley.
 std::vector<StepTool> run_out_cuts(const Product& product);
 
 }  // namespace fusee::formats

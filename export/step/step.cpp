@@ -120,6 +120,7 @@ StepInspection inspect_step(const fs::path& path, const Product& product, double
     inspection.floor2 = found.sections[1];
   }
   inspection.checks.push_back(at_most("floor_error", error, k_floor_limit, "mm"));
+  // The points on the exact surface replace those of the mesh.
   auto floor = found.floors.begin();
   for (helical_solid::FloorLine& line : inspection.helical) {
     for (Vec3& point : line) {

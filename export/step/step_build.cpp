@@ -25,7 +25,7 @@ constexpr double k_same = 1e-7;  // mm
 // Least distance of sector cuts, rad.
 constexpr double k_narrowest_sector = radians(75);
 // The kernel's time for a cut grows with the ratio of part size to smallest feature: a radius of 0.4 m takes a minute.
-constexpr double k_largest_radius = 400;
+constexpr double k_largest_radius = 400;  // mm
 
 /// A curve whose parallels are rings of the body.
 struct BaseCurve {

@@ -88,12 +88,12 @@
 namespace fusee::formats {
 namespace {
 
-// Tolerance of sewing nearly equal rows: a circle, and the spline over another row's knots that represents it.
+// Tolerance of sewing nearly equal rows, mm: a circle, and the spline over another row's knots that represents it.
 constexpr double k_sewn = 1e-5;
 // Sagitta, mm, and turn between points, rad, of the floors that are read from a file.
 constexpr double k_floor_sagitta = 1e-5;
 constexpr double k_floor_turn = 0.02;
-constexpr double k_same_height = 1e-9;
+constexpr double k_same_height = 1e-9;  // mm
 // Largest diagonal of a file, mm.
 constexpr double k_largest = 5000;
 
@@ -283,6 +283,7 @@ class BodyMaker {
     const double from = part_.sectors[s], to = part_.sectors[s + 1];
     const double rise = high.z - low.z, out = high.radius - low.radius;
     if (band.seat_radius > 0) {
+      // The angle about a torus's circle counts from the side away from the axis. The seat is on the side of the axis.
       const auto angle = [&](const StepRow& row) {
         return M_PI - elementary::asin((row.z - band.seat_z) / band.seat_radius);
       };
@@ -323,7 +324,7 @@ class SkinMaker {
   }
 
  private:
-  // Gap between adjacent faces by rounding to the resolution.
+  // Gap between adjacent faces by rounding to the resolution, mm.
   static constexpr double k_joined = 5e-6;
 
   TopoDS_Edge edge_of(const StepSkin::Edge& edge) {
@@ -580,10 +581,10 @@ TopoDS_Solid only_solid(const TopoDS_Shape& shape) {
 }
 
 /// Replaces curves of many poles by equal ones with fewer poles. The kernel makes such curves where a cut meets a face
-/// with an uneven parameter, because it steps by microns there. Curves of the body's own degree are left.
+/// with an uneven parameter, because it steps by microns there. Curves of the body's own degree are kept.
 void shorten_curves(const TopoDS_Shape& shape) {
   constexpr int k_many_poles = 30, k_most_pieces = 20;
-  constexpr double k_near = 1e-6;
+  constexpr double k_near = 1e-6;  // mm
   TopTools_IndexedMapOfShape edges;
   TopExp::MapShapes(shape, TopAbs_EDGE, edges);
   for (int i = 1; i <= edges.Extent(); ++i) {
@@ -613,7 +614,7 @@ const Zone& zone_of(const TopoDS_Face& face, const StepPart& part) {
   static const Zone zones[] = {{"P1", Quantity_Color(0.20, 0.45, 0.75, Quantity_TOC_sRGB)},
                                {"P2", Quantity_Color(0.85, 0.45, 0.20, Quantity_TOC_sRGB)},
                                {"hub", Quantity_Color(0.60, 0.60, 0.60, Quantity_TOC_sRGB)}};
-  constexpr double k_above = 1e-3;
+  constexpr double k_above = 1e-3;  // mm
   Bnd_Box box;
   BRepBndLib::AddOptimal(face, box, false, false);
   double x1, y1, low, x2, y2, high;
@@ -736,7 +737,7 @@ bool mesh_closes(const TopoDS_Face& face) {
 /// Number of faces whose mesh is not closed. `finely`: the mesh must show grooves, and the wall of 0.02 mm between a
 /// channel and the end of a groove.
 int open_faces(const TopoDS_Shape& shape, bool finely) {
-  const double sagitta = finely ? 0.01 : 0.05, turn = finely ? 0.2 : 0.3;
+  const double sagitta = finely ? 0.01 : 0.05, turn = finely ? 0.2 : 0.3;  // mm, rad
   BRepMesh_IncrementalMesh(shape, sagitta, false, turn, false);
   int open = 0;
   for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next())
@@ -848,9 +849,9 @@ class SurfaceSamples {
   /// with the smallest radius. For a level floor, its middle. `point` itself if there is none.
   gp_Pnt floor_near(const gp_Pnt& point) const {
     // The ends of walls are as low as the level floor between them, which is preferred.
-    constexpr double k_level = 1e-5;
+    constexpr double k_level = 1e-5;  // mm
     // Points further away belong to another turn.
-    constexpr double k_near = 0.25;
+    constexpr double k_near = 0.25;  // mm
     gp_Pnt best = point;
     double least = std::numeric_limits<double>::infinity();
     for (const auto& [surface, start] : near(point)) {
@@ -865,7 +866,7 @@ class SurfaceSamples {
   }
 
  private:
-  static constexpr double k_cell = 1.5;
+  static constexpr double k_cell = 1.5;  // mm
   using Cell = std::array<int, 3>;
   struct Node {
     gp_Pnt place;
@@ -914,8 +915,8 @@ class SurfaceSamples {
   static std::optional<LowestPoint> lowest_on(const Geom_Surface& surface, const gp_Pnt& point, const Node& start) {
     constexpr int k_narrowings = 24;
     // No patch across a groove is wider.
-    constexpr double k_far = 3;
-    constexpr double k_level = 1e-5;
+    constexpr double k_far = 3;       // mm
+    constexpr double k_level = 1e-5;  // mm
     double u1, u2, v1, v2;
     surface.Bounds(u1, u2, v1, v2);
     if (Precision::IsInfinite(v1) || Precision::IsInfinite(v2)) return std::nullopt;
@@ -948,6 +949,7 @@ class SurfaceSamples {
       gp_Pnt here;
       gp_Vec along, up;
       surface.D1(u, v, here, along, up);
+      // Signed distance from the plane through the axis and `point`, and its derivative by u.
       const double distance = (point.X() * here.Y() - point.Y() * here.X()) / radius_of(point);
       const double slope = (point.X() * along.Y() - point.Y() * along.X()) / radius_of(point);
       if (std::abs(distance) < k_near) {

@@ -36,7 +36,7 @@ struct StepRow {
 
 /// The surface between a row and the next one.
 struct StepBand {
-  /// Ruled, unless both rows are circles. Each row has its own knots.
+  /// Both rows of a ruled surface, one spline for each sector; empty if both are circles. Each row has its own knots.
   std::vector<StepSpline> lower = {}, upper = {};
   /// A groove's seat is an arc in every half-plane along the normal. Its tangents meet in the row `corner`, whose poles
   /// have this weight. seat_radius 0: straight. If both rows are circles, the seat is a torus about the circle with the
@@ -90,8 +90,8 @@ struct StepTurned {
   double turn = 0;
 };
 
-/// A section of a channel: a circle in the plane of `level` and `up`, open by `gap` on both sides of its top, below a
-/// peaked ceiling with its ridge at `ridge`.
+/// A section of a channel: a circle in the plane of `level` and `up`, open by the angle `gap` on both sides of its top,
+/// below a peaked ceiling with its ridge at `ridge`.
 struct StepRing {
   Vec3 middle, level, up;
   double radius = 0;

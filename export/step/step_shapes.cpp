@@ -74,8 +74,9 @@ void add_bore(std::vector<StepTool>& tools, const solid::BodyLayout& layout) {
   for (std::size_t k = 0; k < bore.screw_holes.size(); ++k) {
     const solid::RoundHole hole = solid::circle_within(bore.screw_holes[k]);
     const bool in_recess = bore.horn_recess > 0 && k == 0;
-    tools.push_back(
-        cylinder(hole.centre, 0.5 * hole.diameter, in_recess ? bore.horn_recess - 0.5 : -solid::k_overshoot, top));
+    constexpr double k_into_recess = 0.5;  // mm, so that no faces coincide
+    tools.push_back(cylinder(hole.centre, 0.5 * hole.diameter,
+                             in_recess ? bore.horn_recess - k_into_recess : -solid::k_overshoot, top));
   }
 }
 
@@ -106,9 +107,10 @@ void add_set_screw(std::vector<StepTool>& tools, const solid::BodyLayout& layout
   tools.push_back({{hole}});
   if (!screw.nut_trap) return;
   const Vec2 middle = screw.nut_distance * out;
-  const Vec2 a = 0.5 * screw.nut_thickness * out, b = 0.5 * screw.nut_width * across;
-  tools.push_back(prism_between(contour_of({middle - a - b, middle + a - b, middle + a + b, middle - a + b}),
-                                screw.z - solid::nut_corner(screw), layout.z_hub + solid::k_overshoot));
+  const Vec2 along = 0.5 * screw.nut_thickness * out, aside = 0.5 * screw.nut_width * across;
+  tools.push_back(prism_between(
+      contour_of({middle - along - aside, middle + along - aside, middle + along + aside, middle - along + aside}),
+      screw.z - solid::nut_corner(screw), layout.z_hub + solid::k_overshoot));
 }
 
 // ---- tie-offs -------------------------------------------------------------------------------------------------------
@@ -192,6 +194,7 @@ void add_channel(std::vector<StepTool>& tools, const solid::Anchor& anchor, cons
   const double highest = half + slope * (far - inner) + 1;
   StepTool bent = prism_between(plan.bent, z.at(-half), z.at(slope > 0 ? highest : half));
   if (slope > 0) {
+    // The section to turn exceeds the prism by 1 mm below and outside. Its sloped top is the ceiling.
     const double near = 0.5 * inner;
     const auto corner = [&](double radius, double height) { return Vec2(radius, z.at(height)); };
     bent.common.push_back(
@@ -235,6 +238,7 @@ void add_pocket(std::vector<StepTool>& tools, const solid::Anchor& anchor, const
                 const HeightAxis& z) {
   const bool left = anchor.side == transmission::Side::left, turned = left && layout.parts == Parts::two;
   const double closed = anchor.bend->half_height + solid::k_pocket_excess;
+  // A pocket that opens upwards in print orientation requires no ceiling.
   if (turned || !left) {
     const double open = (left ? layout.z_p1 : layout.z_hub - layout.z_p2) + solid::k_overshoot;
     tools.push_back(prism_between(pocket_contour(anchor, layout), z.at(-closed), z.at(open)));
@@ -285,6 +289,7 @@ void add_face_hole(std::vector<StepTool>& tools, const solid::Anchor& anchor, co
                              {first, {}}}};
   tools.push_back(prism_between(contour, face.at(-outside), face.at(to_groove + k_past_plane)));
   if (seat.depth <= 0) return;
+  // A cone with the slope of the countersink would require twice this additional depth to narrow to that share.
   const double deeper = seat.depth * (1.0 + 0.5 * (1.0 - k_share) * radius / (seat.radius - radius));
   tools.push_back(cylinder(anchor.pocket, seat.radius, face.at(-0.5 * solid::k_overshoot - outside), face.at(0)));
   StepFrustum sunk{anchor.pocket, seat.hole, face.at(0), face.at(deeper), seat.radius, k_share * radius};

@@ -159,8 +159,8 @@ struct UnderLoad {
 struct AnalysisResult : UnderLoad {
   /// True if the law and both tendon paths exist over the range. Otherwise only `obstacles` and `advice` are set.
   bool exists = false;
-  std::vector<profile::Condition>
-      obstacles;  ///< failed conditions of a pulley; with `exists`, forces are known though no pulley can be made
+  /// Failed conditions of a pulley. With `exists`, forces are known though no pulley can be made.
+  std::vector<profile::Condition> obstacles;
   std::vector<profile::Change> advice;                 ///< searched only if the law does not exist
   std::optional<profile::LayoutAdvice> layout_advice;  ///< as `advice`; set by the caller, who tries it by a build
 

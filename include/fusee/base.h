@@ -123,8 +123,8 @@ inline constexpr double k_two_pi = 2.0 * std::numbers::pi;
 constexpr double radians(double degrees) { return degrees * (k_pi / 180.0); }
 /// The angle of the code in the unit of files.
 constexpr double degrees(double radians) { return radians * (180.0 / k_pi); }
-/// The number of degrees in a file that radians() turns into `radians`. Division undoes the multiplication of radians()
-/// to the last bit. degrees() does so for only 19 numbers in 20.
+/// The number of degrees in a file that radians() turns into `radians`. For a value x that radians() returned,
+/// radians(degrees_as_read(x)) == x to the last bit. radians(degrees(x)) == x for only 19 values in 20.
 constexpr double degrees_as_read(double radians) { return radians / (k_pi / 180.0); }
 
 // ---- Points and polygons of the plane -------------------------------------------------------------------------------

@@ -156,7 +156,7 @@ struct Detectable {
   double smallest = 0;  ///< detectable error at the joint, rad
 };
 
-/// Words: word() in words.h.
+/// Outcome of calibrate(). word() in calibration/words.h gives its key in calibration.json.
 enum class CalibrationVerdict { not_testable, not_repeatable, unexplained, confounded, explained, no_effect };
 
 /// Held-out runs, and the joint that was identified from all other runs.

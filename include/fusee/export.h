@@ -318,7 +318,8 @@ std::string curve_words(const CalibrationProduct& product);
 std::vector<std::string> next_texts(const calibration::Calibration& calibration);
 /// input_error_words() of every input error that would explain the data.
 std::vector<std::string> input_error_texts(const CalibrationProduct& product);
-/// The notes for a page. Of notes that differ only in numbers, the first two are kept and the others counted.
+/// The notes for a page. Of four or more notes that differ only in numbers, the first two are kept and the others
+/// counted.
 std::vector<std::string> shortened_notes(const std::vector<std::string>& notes);
 
 // ---- Comparison -----------------------------------------------------------------------------------------------------

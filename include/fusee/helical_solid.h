@@ -109,8 +109,8 @@ std::vector<FloorLine> helical_floors(const solid::TriangleMesh& mesh, double sc
 
 /// Axial positions of the tendons on the part. Heights are above its lower face.
 struct TendonsLaid {
-  double z1 = 0,
-         z2 = 0;  ///< heights of the fixed ends of the sloping free paths: the attachments, or the collars of the pins
+  /// Heights of the fixed ends of the sloping free paths: the attachments, or the collars of the pins.
+  double z1 = 0, z2 = 0;
   bool collar = false;  ///< the pins hold the tendons at these heights, so that only the span below them slopes
   double spare1 = 0, spare2 = 0;  ///< angle by which the grooves continue past the working arcs to the knots, rad
 };

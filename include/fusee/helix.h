@@ -89,8 +89,8 @@ using MinLead = std::function<double(double step)>;
 /// The cross-section of a mechanism's helical grooves, which the module `helical_solid` defines.
 struct HelixGroove {
   double groove_edge = 0;  ///< height of the groove edge over the floor, mm
-  double room_at_groove_edge =
-      0;  ///< sideways play of a tendon at the height of the groove edge, up to the nearer wall, mm
+  /// Sideways play of a tendon at the height of the groove edge, up to the nearer wall, mm.
+  double room_at_groove_edge = 0;
   MinLead least_lead;
 };
 
@@ -102,7 +102,7 @@ constexpr double k_noted_fleet = radians(1.5);
 constexpr double k_warned_fleet = radians(2.0);
 
 /// The accuracy of the curves: as they will be built, or coarse and some ten times faster. The conditions of coarse
-/// curves agree with the full ones to a thousandth, and convergence of the lengths is not required.
+/// curves agree with those of fine ones to a thousandth, and convergence of the lengths is not required.
 enum class HelixAccuracy { fine, coarse };
 
 /// Computes no advice.

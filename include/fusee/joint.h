@@ -287,8 +287,8 @@ std::vector<profile::Condition> turns_inward_as_drawn(const profile::SynthesisRe
 Polygon as_made(Polygon drawn, const OutlineError& outline);
 /// Inverse of draw_for_making() for an open line. Normals are averaged over `beside` points on either side.
 Polygon line_as_made(Polygon drawn, const OutlineError& outline, std::size_t beside);
-/// An equivalent joint for a groove floor with an offset error: the tendon is thicker and the pins are thinner by that
-/// offset, so that all centre lines are those of the real joint.
+/// An equivalent joint for a groove floor with an offset error. The tendon's radius is larger by that offset, and the
+/// radii of pins and drum are smaller by it, so that all centre lines are those of the real joint.
 Mechanism with_inset(const IdentifiedJoint& joint);
 
 /// Assembly angle: position of the motor at which the tendons are tied, with the unloaded joint at home, so that the

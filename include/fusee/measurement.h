@@ -102,8 +102,8 @@ struct Measurement {
 };
 
 /// Reads and checks all files. Throws InputError (file, line, what to change) for unreadable text and for a run that is
-/// given twice. Readable data that cannot be evaluated are reported in `not_testable`. If the logs have more than a
-/// million rows in all, a million are kept, evenly spaced, and a note says so.
+/// given twice. Readable data that cannot be evaluated are reported in `not_testable`. Of n files each may have 1/n of
+/// a million rows. Of a longer file every second, fourth … row is kept, and a note says so.
 Measurement read_measurement(const std::vector<std::filesystem::path>& files, const MeasurementOptions& options = {},
                              FileAccess& access = disk());
 

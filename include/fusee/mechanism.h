@@ -439,7 +439,8 @@ struct Spring {
   double torque(double theta) const { return preload + stiffness * (theta - free); }
 };
 
-/// The motor that turns the pulley. Zero: not written; a model of the catalogue supplies it (mechanism/catalogue.h).
+/// The motor that turns the pulley. A travel, torque or speed of 0 is not written; the model supplies it
+/// (mechanism/catalogue.h).
 struct Motor {
   std::string model = "none";    ///< a name of the catalogue
   double travel = 0;             ///< angle from one end of its range to the other, rad

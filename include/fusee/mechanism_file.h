@@ -69,10 +69,10 @@ std::span<const Field> fields();
 /// Finds a field by its dotted name; null when there is none.
 const Field* find_field(std::string_view name);
 
-/// A key of earlier file versions: one number that now stands for two.
+/// A key of earlier file versions whose number is now the value of two keys.
 struct FormerKey {
-  std::string_view name;
-  std::array<std::string_view, 2> now;
+  std::string_view name;                ///< dotted name of the former key
+  std::array<std::string_view, 2> now;  ///< dotted names of the two keys that replace it
 };
 /// Finds a former key by its dotted name; null when there is none.
 const FormerKey* find_former_key(std::string_view name);

@@ -143,8 +143,8 @@ struct WrappedTendon {
   /// Radius of the link's drum about O, to the tendon's centre line, if the tendon lies on it at every angle of the
   /// range; 0 otherwise.
   double drum = 0;
-  std::vector<Vec2>
-      on_drum;            ///< points of the link that the tendon covers at every angle, from its end on, close together
+  /// Points of the link that the tendon covers at every angle, from its end on, close together.
+  std::vector<Vec2> on_drum;
   Vec2 drum_outer{0, 0};  ///< a point beyond the drum, on the side on which the tendon passes it after these points
   Vec2 off_drum{0, 0};    ///< a fixed point on the tendon's straight part from drum to pin
   std::optional<Vec2> sheath_exit = std::nullopt;  ///< exit of the tendon's sheath, beside the pulley
@@ -155,10 +155,10 @@ struct WrappedTendon {
 struct TendonModel {
   std::array<WrappedTendon, 2> tendons;
   std::array<std::string, 2> omission;  ///< reason why a simulator cannot represent a tendon; "": it can
-  transmission::Side constrained =
-      transmission::Side::left;  ///< the tendon whose length is constrained to the polynomial
-  Polynomial length;             ///< of that tendon, minus home_length; mm over rad
-  double error = 0;              ///< largest error of θ over the range, rad
+  /// The tendon whose length is constrained to the polynomial.
+  transmission::Side constrained = transmission::Side::left;
+  Polynomial length;  ///< length of that tendon as a function of α, minus home_length; mm over rad
+  double error = 0;   ///< largest error of θ over the range, rad
 };
 
 /// Empty, with the reason in `why_not`, if neither tendon can be represented. Tendons are excluded if they leave the
@@ -211,8 +211,8 @@ struct JointTable {
 /// Limit of the size of a table.
 constexpr int k_most_pieces = 4096;
 
-/// The shortest table (a power of two) whose error of θ is at most `most`, rad, in both directions of conversion. Empty
-/// if k_most_pieces are too few.
+/// The shortest table whose error of θ is at most `most`, rad, in both directions of conversion. Its number of pieces
+/// is a power of two, 16 or more. Empty if k_most_pieces are too few.
 std::optional<JointTable> joint_table(const JointCurve& curve, const Mechanism& mechanism, const MotorUnit& unit,
                                       double most);
 /// Errors of a table with respect to its curve, in 32-bit arithmetic, at eight points of each piece.

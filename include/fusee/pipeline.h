@@ -52,7 +52,8 @@ struct BuildOptions {
   double chord_error_mm = 0.01;  ///< largest distance of a facet from its curve (sagitta)
   AsBuiltLimits limits;
   formats::DxfVersion dxf = formats::DxfVersion::ac1015;
-  /// Writes pulley.step, too. build() throws InputError if the part is too large for it, or if step_missing().
+  /// Writes pulley.step, too. build() throws InputError if the part is too large for it, or if
+  /// formats::step_missing() (export/step/step.h) names a reason.
   bool step = false;
   std::filesystem::path folder;  ///< folder of the output files
   bool force = false;
@@ -382,8 +383,9 @@ struct RewoundPart {
 /// InputError also for a mirrored mesh or one of another size.
 RewoundPart rewind_moved_part(const joint::IdentifiedJoint& joint, const Part& part);
 
-/// Checks "theta_error" and "excess_length" against their limits. Those of method = "paper" are expected: they are
-/// reported as "theta_error_reported" and "excess_length_reported", with the limits 180 deg and the joint's length.
+/// Checks "theta_error" and "excess_length" against their limits. Pulleys of method = "paper" may exceed these. Their
+/// values are reported as "theta_error_reported" and "excess_length_reported", with limits that only a bug exceeds: 180
+/// deg and R + EF.
 std::vector<Check> as_built_checks(const Mechanism& mechanism, const profile::RewindResult& as_built,
                                    const AsBuiltLimits& limits);
 

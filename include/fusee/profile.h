@@ -109,12 +109,12 @@ struct Advice {
   bool empty() const { return alone.empty() && together.empty() && !layout; }
 };
 
-/// Searches each number of joint, guides, pulley and tendon that the law uses, and `more_keys` (for which 0 is not a
-/// number). All numbers move outwards together in growing steps, up to five times their magnitude, until a few are
-/// feasible. If none is, they are searched in smaller steps up to the bounds of the field table. Bisection then finds
-/// the border, rounded to three digits on the safe side. If no single number suffices, the most helpful ones are
-/// changed in pairs. `more_keys` are easier to change and move three times as far. `known`: number of changes that are
-/// known already and need not be found.
+/// Searches each number of joint, guides, pulley and tendon that the law uses, and `more_keys` (numbers for which 0
+/// means "automatic", so that they are never reduced to 0). All numbers move outwards together in growing steps, up to
+/// five times their magnitude, until a few are feasible. If none is, they are searched in smaller steps up to the
+/// bounds of the field table. Bisection then finds the border, rounded to three digits on the safe side. If no single
+/// number suffices, the most helpful ones are changed in pairs. `more_keys` are easier to change and move three times
+/// as far. `known`: number of changes that are known already and need not be found.
 Advice find_advice(const Mechanism& mechanism, const FeasibilityOracle& oracle,
                    const std::vector<std::string>& more_keys = {}, std::size_t known = 0);
 
@@ -146,7 +146,7 @@ struct SynthesisOptions {
 
 /// A feasibility condition: its result, and its tightest place along the stroke.
 struct Condition {
-  std::string name;  ///< "convex_floor", "tendon_on_pin_D", "one_turn" …
+  std::string name;  ///< "convex_floor_P2", "tendon_on_pin_D", "one_turn_P1" …
   bool ok = true;
   double alpha = 0;  ///< tightest place, rad
   double value = 0;  ///< value at the tightest place

@@ -402,8 +402,8 @@ struct PlacementResult {
 std::vector<TriangleMesh> bodies_of(const TriangleMesh& mesh);
 
 /// Searches for the pulley with these floors, or for one of the two when the mesh has one groove. The deviation must be
-/// below 2 % of the radius. If two placements fit equally well, the one not turned over is chosen. A single groove
-/// looks the same mirrored and turned over, so it is never reported as mirrored.
+/// below 2 % of the radius, for a mirrored or scaled part below 0.1 %. If two placements fit equally well, the one not
+/// turned over is chosen. A single groove looks the same mirrored and turned over, so it is never reported as mirrored.
 PlacementResult find_placement(const TriangleMesh& mesh, const GrooveFloors& expected, double tendon_diameter);
 
 }  // namespace fusee::solid

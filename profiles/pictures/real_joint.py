@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Draws the residual of a real joint, from its gain to a cable that stiffens and rubs along its way.
+"""Draws the residual of a real joint, from its gain to a cable that stiffens and rubs along its path.
 
     profiles/pictures/real_joint.py RUNS [picture.svg]
 
-RUNS: a folder with run_*.csv or tool*.csv files (time_s, alpha_deg, theta_deg, tau_out_Nm). Every fourth run is held
-out; all figures and curves are of these. Prints the table of docs/background/real-joint.md. Has the equations of its
-own, and runs no program of this project. Needs numpy. The data of the page are O'Neill, Stephens and Kowalewski's (Open Database License 1.0).
+RUNS: a folder with one .csv file for each run (time_s, alpha_deg, theta_deg, tau_out_Nm). Every fourth run is held out,
+and all figures and curves are of held-out runs. Prints the table of docs/background/real-joint.md. The equations are
+written anew here, and no program of this project runs. Needs numpy. The data of the page are O'Neill, Stephens and
+Kowalewski's (Open Database License 1.0).
 """
 
 import pathlib
@@ -13,8 +14,8 @@ import sys
 
 import numpy as np
 
-RATIO = -1 / 0.915  # motor angle per joint angle: the start of the fit's gain is 1 / RATIO
-SETTLING = 75  # rows: 1.5 s, in which the play of a run is not known
+RATIO = -1 / 0.915  # motor angle per joint angle; the fit of the gain starts at 1 / RATIO
+SETTLING = 75  # rows, 1.5 s: omitted at the beginning of a run, where the state of its play is unknown
 
 
 def read(path):
@@ -24,14 +25,14 @@ def read(path):
 
 def play(angle, width):
     """The play operator: the output follows when the input is half the width away."""
-    lag, at = np.empty(len(angle)), angle[0]
+    follower, at = np.empty(len(angle)), angle[0]
     for i, value in enumerate(angle):
         at = min(max(at, value - width / 2), value + width / 2)
-        lag[i] = at
-    return lag
+        follower[i] = at
+    return follower
 
 
-# Each step beside those above it: least squares, no program of this project.
+# Columns of a regression. Each step adds its columns to those of the steps above it.
 STEPS = [
     ("gain", lambda run: [np.ones(len(run)), run["alpha_deg"]]),
     ("and play of 4°", lambda run: [play(run["alpha_deg"], 4)]),
@@ -72,17 +73,18 @@ def cable(runs, numbers):
 
 
 def cable_fitted(runs, held):
-    """Residuals of the held-out runs, numbers by Levenberg and Marquardt."""
+    """Residuals of the held-out runs, and the numbers fitted to the others by Levenberg and Marquardt's method."""
     fitted = [k for k in range(len(runs)) if k not in held]
 
-    def off(log):
+    # The last three numbers are positive, and are fitted by their logarithms. The zero is the mean of the residuals.
+    def residuals_of(log):
         numbers = np.array([log[0], log[1], log[2], *np.exp(log[3:])])
         angles = cable(runs, numbers)
         zero = np.mean(np.concatenate([(runs[k]["theta_deg"] - angles[k])[SETTLING:] for k in fitted]))
         return [run["theta_deg"] - angle - zero for run, angle in zip(runs, angles)], numbers
 
     def column(log):
-        residuals, _ = off(log)
+        residuals, _ = residuals_of(log)
         return np.concatenate([residuals[k][SETTLING:] for k in fitted])
 
     at = np.array([1 / RATIO, -60, -2, np.log(50), np.log(0.006), np.log(0.12)])
@@ -98,7 +100,7 @@ def cable_fitted(runs, held):
             at, here = at + move, there
             if gained < 1e-5 * (here @ here):
                 break
-    residuals, numbers = off(at)
+    residuals, numbers = residuals_of(at)
     return {k: residuals[k] for k in held}, numbers
 
 

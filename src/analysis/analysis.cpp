@@ -91,8 +91,8 @@ void summarise(UnderLoad& result) {
     const double alpha = row.declared.alpha;
     update_tensions(tensions, row.rising, true);
     update_tensions(tensions, row.falling, false);
-    const bool both_held = has_equilibrium(row.rising) && has_equilibrium(row.falling);
-    if (!both_held) {
+    const bool both_exist = has_equilibrium(row.rising) && has_equilibrium(row.falling);
+    if (!both_exist) {
       if (!result.lost_at) result.lost_at = alpha;
       continue;
     }
@@ -151,10 +151,10 @@ double three_digits_up(double value) {
   return std::stod(rounded(std::ceil(value / unit) * unit, 3));
 }
 
-/// UnderLoad::taut_pretension within 1 %, rounded up: doubled until the tendons stay taut, then bisected.
+/// UnderLoad::taut_pretension within 1 % or 0.01 N, rounded up: doubled until the tendons stay taut, then bisected.
 std::optional<double> taut_pretension(const Mechanism& mechanism, const std::vector<AnalysisRow>& rows) {
   constexpr double k_first = 1.0, k_least = 0.01;  // N
-  constexpr double k_tolerance = 1.01;             // taut per slack pretension
+  constexpr double k_tolerance = 1.01;             // largest ratio of the taut pretension to the slack one
   std::vector<double> alphas;
   for (const AnalysisRow& row : rows) alphas.push_back(row.declared.alpha);
   double slack = mechanism.tendon.pretension;

@@ -62,6 +62,7 @@ ErrorSource thickness_ignored(const Mechanism& mechanism) {
 ErrorSource paper_stretch(const Mechanism& mechanism) {
   ErrorSource source{"stretch_paper", "stretch under the load, by [9]-[11]"};
   const transmission::Transmission declared(mechanism);
+  // PaperForces::theta_error counts against +θ, a deviation towards it.
   for (const double alpha : alphas_of(declared))
     add_deviation(source, -transmission::paper_forces(mechanism, declared.at_alpha(alpha)).theta_error, alpha);
   return source;

@@ -10,7 +10,7 @@
 namespace fusee::analysis {
 namespace {
 
-/// Rounding may put a range above a limit that equals it.
+/// Relative tolerance: rounding may put a range above a limit that equals it.
 constexpr double k_rounding = 1e-9;
 
 /// Required torque, and ratio, at one place and in one direction of the stroke.
@@ -31,9 +31,9 @@ std::vector<Demand> demands(const UnderLoad& load) {
   return all;
 }
 
-/// Lowest speed of the joint over the stroke, with its place. `loaded`: under the load, else without it. Speed falls linearly with torque down to stall; a motor
-/// that `holds` runs at full speed under any torque up to its limit. The magnitude of the torque counts: a load that
-/// drives the motor does not speed it up.
+/// Lowest speed of the joint over the stroke, rad/s, with its place. `loaded`: under the load, else without it. The
+/// motor's speed falls linearly with torque down to stall; a motor that `holds` runs at full speed under any torque up
+/// to its limit. The magnitude of the torque counts: a load that drives the motor does not speed it up.
 Extreme lowest_joint_speed(const MotorModel& motor, const std::vector<Demand>& all, bool loaded) {
   Extreme lowest{std::numeric_limits<double>::infinity(), 0};
   for (const Demand& demand : all) {
@@ -59,7 +59,8 @@ bool suffices(const MotorModel& model, const MotorCheck& need, const std::vector
          (model.speed > 0 && lowest_joint_speed(model, all, true).value >= need.joint_speed_needed * (1 - k_rounding));
 }
 
-/// Sets the models of the catalogue that suffice, and the strongest that fits.
+/// Sets the models of the catalogue that suffice, and the strongest that fits the bore. Models that fit the bore come
+/// first; within both groups, the weaker ones.
 void add_models(MotorCheck& need, const Mechanism& mechanism, const std::vector<Demand>& all) {
   std::vector<const MotorModel*> found;
   for (const MotorModel& model : motor_models()) {
@@ -78,7 +79,7 @@ void add_models(MotorCheck& need, const Mechanism& mechanism, const std::vector<
 
 /// True if a bore that names no shaft has the diameter of one of the model's shafts.
 bool has_diameter_of_shaft(const Body& body, const MotorModel& model) {
-  constexpr double k_usual_bore = 5.0, k_same = 0.01;  // mm
+  constexpr double k_usual_bore = 5.0, k_same = 0.01;  // mm; k_usual_bore: if the file states no diameter
   if (find_shaft(body.shaft) != nullptr || body.bore == Bore::horn) return false;
   const double bore = body.bore_diameter > 0 ? body.bore_diameter : k_usual_bore;
   return std::any_of(model.fits.begin(), model.fits.end(), [bore](const std::string& name) {
@@ -182,7 +183,7 @@ std::vector<std::string> MotorCheck::models_texts() const {
   constexpr std::size_t k_shown = 3;
   if (sufficient_models.empty()) return {"no motor of the catalogue suffices"};
   const std::size_t shown = std::min(sufficient_models.size(), k_shown);
-  // A bore that no model is named for excludes none.
+  // If no model of the catalogue fits the bore, the list is not divided by the bore.
   const std::size_t fitting = strongest_model.empty() ? shown : std::min(fitting_models, shown);
   const auto list = [this](std::size_t begin, std::size_t end) {
     std::string text;

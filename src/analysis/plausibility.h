@@ -11,8 +11,8 @@
 
 namespace fusee::analysis {
 
-/// Likely input errors: degrees for radians, lengths in cm or m, moduli in GPa, the sign of OE. In the order of the
-/// file's tables.
+/// Likely input errors, in this order: angles in radians, lengths in another unit than mm, the sign of OE, a modulus in
+/// GPa.
 std::vector<Diagnostic> likely_input_errors(const MechanismFile& file);
 
 /// Warning where the declared load stresses the identified joint's tendons beyond their known or estimated strength.

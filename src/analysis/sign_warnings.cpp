@@ -37,9 +37,10 @@ Unevenness unevenness(const Mechanism& mechanism) {
   return worst;
 }
 
-/// Ratio of the largest to the smallest radius above which the sign is implausible. With the pins below the joint, moment
-/// arms fall faster towards the ends of the range, so radii vary more. The ratio is 1.1 to 2.3 in the profiles, and 2.8
-/// to 10.5 with their sign reversed. In random joints (tests/laws) it is 5.2 at most, and above 3.5 in one of fifty.
+/// Ratio of the largest to the smallest radius above which the sign is implausible. With the pins below the joint,
+/// moment arms fall faster towards the ends of the range, so radii vary more. The ratio is 1.1 to 2.3 in the profiles,
+/// and 2.8 to 10.5 with their sign reversed. In random joints (tests/laws) it is 5.2 at most, and above 3.5 in one of
+/// fifty.
 constexpr double k_uneven = 4.0;
 /// Factor by which the opposite sign must reduce that ratio for a warning.
 constexpr double k_improvement = 3.0;

@@ -54,9 +54,9 @@ InputWarning radians_for_degrees(const std::string& key, double written) {
 
 // ---- lengths --------------------------------------------------------------------------------------------------------
 
-/// Plausible range of a length relative to OC. Profiles and 300 random joints from finger to arm (tests/laws) stay within
-/// these bounds by a factor of two. A length that is wrong by a factor of ten exceeds them. Typical: EB and ED 0.3 … 0.75, |OE| up to 0.5, EF 0.5 …
-/// 1.6, r1 0.11 … 0.2. A pulley may be far from its joint.
+/// Plausible range of a length relative to OC. Profiles and 300 random joints from finger to arm (tests/laws) stay
+/// within these bounds by a factor of two. A length that is wrong by a factor of ten exceeds them. Typical: EB and ED
+/// 0.3 … 0.75, |OE| up to 0.5, EF 0.5 … 1.6, r1 0.11 … 0.2. A pulley may be far from its joint.
 struct Proportion {
   const char* key;
   double least;  ///< of length / OC
@@ -129,8 +129,8 @@ std::string beside_the_joint(const DeclaredMechanism& mechanism, const char* key
   return "is " + rounded(proportion(mechanism, key), 2) + " times " + k_reference_key;
 }
 
-/// The one length that, in another unit or units, makes all proportions plausible. That of the joint is tried last,
-/// because it is the reference of the others.
+/// The one length that, in another unit or units, makes all proportions plausible. The length of the joint is tried
+/// last, because it is the reference of the others.
 std::vector<InputWarning> single_length_warning(const DeclaredMechanism& mechanism) {
   const auto factors_that_suffice = [&](const char* key, std::vector<double> factors) {
     std::erase_if(factors, [&](double factor) {

@@ -159,7 +159,7 @@ BundledFile read_bundled(const Index& index, std::map<std::string, std::string>&
 /// Rejects bundles from which a replay would create too many files and folders, or one name as both.
 void demand_replayable(const Bundle& bundle, const Index& index) {
   std::set<std::string_view> folders, files;
-  const auto count = [&](const char* key, std::string_view path) {
+  const auto add_path = [&](const char* key, std::string_view path) {
     const bool is_folder = path.ends_with('/');
     if (is_folder) path.remove_suffix(1);
     if (!is_inner_path(path)) index.wrong(key, "a list of paths within the bundle");
@@ -170,8 +170,8 @@ void demand_replayable(const Bundle& bundle, const Index& index) {
       index.wrong(key, fmt::format("a list of at most {} files and folders", k_most_bundled_files));
   };
   for (const BundledFile& file : bundle.files)
-    if (!file.failure) count("files", file.path);
-  for (const std::string& path : bundle.in_the_way) count("in_the_way", path);
+    if (!file.failure) add_path("files", file.path);
+  for (const std::string& path : bundle.in_the_way) add_path("in_the_way", path);
   for (const std::string_view file : files)
     if (folders.count(file) != 0) index.wrong("files", fmt::format("consistent: {} is a file and a folder", file));
 }
@@ -206,15 +206,15 @@ bool is_bundle(std::string_view bytes) {
 
 Bundle read_bundle(std::string_view bytes, const std::string& name) {
   std::map<std::string, std::string> entries = entries_of(bytes, name);
-  auto text = entries.extract(k_index), result = entries.extract(k_result);
-  if (text.empty() || result.empty())
-    fail(name, text.empty() ? k_index : k_result, "is missing: this is not a bundle of fusee");
-  const Json json = parse_foreign_json(text.mapped());
+  auto index_entry = entries.extract(k_index), result_entry = entries.extract(k_result);
+  if (index_entry.empty() || result_entry.empty())
+    fail(name, index_entry.empty() ? k_index : k_result, "is missing: this is not a bundle of fusee");
+  const Json json = parse_foreign_json(index_entry.mapped());
   const Index index(name, json, "the bundle");
   if (index.text("tool") != "fusee bundle") index.wrong("tool", "\"fusee bundle\"");
   if (index.integer("schema") != k_schema) index.wrong("schema", "1: it was written by a later version of fusee");
   Bundle bundle;
-  bundle.outcome.result = std::move(result.mapped());
+  bundle.outcome.result = std::move(result_entry.mapped());
   bundle.version = index.text("version");
   bundle.built_with = index.text("built_with");
   bundle.runs_on = index.text("runs_on");

@@ -60,8 +60,8 @@ Bundle read_bundle(std::string_view bytes, const std::string& name);
 bool is_bundle(std::string_view bytes);
 
 /// True for a relative UTF-8 path like "a/b.csv" whose parts do not begin with a dot. Colons, backslashes and
-/// characters that cleaned() replaces are rejected: the path stays inside its folder on every system and can be
-/// printed.
+/// characters that cleaned_line() replaces are rejected: the path stays inside its folder on every system and can be
+/// printed. It has at most 1000 bytes, and each part at most 255.
 bool is_inner_path(std::string_view path);
 
 }  // namespace fusee

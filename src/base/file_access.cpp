@@ -45,12 +45,12 @@ void FileAccess::read(const ReadRequest& request, const TakeBlock& take) {
   const std::size_t size = demand_readable(request, file);
   // First touches of memory pages cost more than reading into them. The buffer is therefore no larger than the file,
   // and not zeroed. One extra byte detects the end of the file, or that it grew.
-  constexpr std::size_t k_least = std::size_t{1} << 12, k_most = std::size_t{1} << 18;
-  const std::size_t room = std::clamp(size + 1, k_least, k_most);
-  const auto block = std::make_unique_for_overwrite<char[]>(room);
+  constexpr std::size_t k_least_capacity = std::size_t{1} << 12, k_most_capacity = std::size_t{1} << 18;
+  const std::size_t capacity = std::clamp(size + 1, k_least_capacity, k_most_capacity);
+  const auto block = std::make_unique_for_overwrite<char[]>(capacity);
   std::size_t remaining = request.limit;
   for (;;) {
-    const ssize_t count = ::read(file.number(), block.get(), room);
+    const ssize_t count = ::read(file.number(), block.get(), capacity);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw InputError(name, "cannot be read: " + error_text(errno));
     if (count == 0) return;

@@ -106,6 +106,7 @@ void add_written_files(const fs::path& folder, WrittenFiles& written) {
     for (const Json& output : manifest["outputs"])
       written.emplace(output.at("file").get<std::string>(), output.at("sha256").get<std::string>());
   } catch (const InputError&) {
+    // There is no readable manifest.
   } catch (const Json::exception&) {
     // A manifest of another form. Entries read before the error may stay, because is_unchanged() compares the bytes.
   }

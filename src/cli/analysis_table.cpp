@@ -10,7 +10,7 @@
 namespace fusee::cli {
 namespace {
 
-constexpr std::size_t k_short_table = 13;
+constexpr std::size_t k_short_table = 13;  // rows of a table for terminals
 
 // ---- columns of the files -------------------------------------------------------------------------------------------
 

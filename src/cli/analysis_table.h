@@ -18,7 +18,8 @@ std::string stroke_tables(const std::vector<analysis::AnalysisRow>& rows, bool a
 /// - paper_…: by equations [6]-[11] of the paper;
 /// - rising_… and falling_…: by the full model while alpha grows and falls:
 ///   - status: held, loose or no_equilibrium; theta_deg; theta_error_deg = declared − theta_deg;
-///   - T1_N, T2_N above the pins, T1_below_N, T2_below_N below them; slack and elongation of each tendon;
+///   - T1_N, T2_N above the pins, T1_below_N, T2_below_N below them; slack and elongation of each tendon; phi1_deg and
+///     phi2_deg;
 ///   - motor_torque_Nmm, positive towards +alpha;
 ///   - stiffness_Nmm_per_deg with sliding pins, stiffness_stuck_… with sticking pins;
 ///   - pin1, pin2: stick, slip_up (towards the joint), slip_down or slack.

@@ -20,7 +20,7 @@ namespace {
 
 // ---- summary --------------------------------------------------------------------------------------------------------
 
-constexpr std::size_t k_column = 18;  // at which the texts begin
+constexpr std::size_t k_column = 18;  // of the texts, see titled()
 
 std::string line(const std::string& title, const std::string& text) { return titled(title, text, k_column); }
 
@@ -236,7 +236,7 @@ std::string ending_of(const std::string& file) {
   return ending;
 }
 
-/// Called before the analysis.
+/// Throws UsageError. Called before the analysis, which takes some time.
 void refuse_unknown_ending(const Arguments& arguments) {
   const std::optional<std::string> file = arguments.text("--out");
   if (!file || std::find(k_endings.begin(), k_endings.end(), ending_of(*file)) != k_endings.end()) return;

@@ -17,6 +17,7 @@ fs::path absolute_path(const fs::path& here, const fs::path& path) {
 }
 
 /// Index at which a path begins in a word: after "--out=", "-o" and "pulley.table="; the word's size if it has none.
+/// `is_setting`: the word is a value of --set.
 std::size_t path_begin(const std::string& word, bool is_setting) {
   std::size_t begin = 0;
   if (word.rfind("--", 0) == 0) {
@@ -134,8 +135,8 @@ std::vector<std::string> BundleNames::inner_words(const std::vector<std::string>
   bool only_paths = false;  // after "--"
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
-    const std::string flag = i == 0 || only_paths ? "" : words[i - 1];
-    const std::size_t begin = only_paths ? 0 : path_begin(word, flag == "--set");
+    const bool is_setting = i > 0 && words[i - 1] == "--set";
+    const std::size_t begin = only_paths ? 0 : path_begin(word, is_setting);
     const std::string value = word.substr(begin);
     // A value of --set is relative to the mechanism file's folder, where the replayed run looks for its name.
     if (!value.empty() && (fs::path(value).is_absolute() || is_outside(path_from(here_, value)) || !is_utf8(value)))

@@ -65,9 +65,10 @@ std::string effect_text(const calibration::FoundEffect& effect, const std::strin
   std::vector<std::string> rivals = formats::rivals_of(effect);
   std::erase(rivals, calibration::k_unmodelled);
   const std::string unmodelled = formats::unmodelled_words(effect);
-  words += !rivals.empty()      ? "; equally likely: " + formats::joined(rivals, ", ")
-           : unmodelled.empty() ? "; nothing else is as likely"
-                                : "; no other cause of the catalogue is as likely";
+  if (!rivals.empty())
+    words += "; equally likely: " + formats::joined(rivals, ", ");
+  else
+    words += unmodelled.empty() ? "; nothing else is as likely" : "; no other cause of the catalogue is as likely";
   std::string sentences;
   for (const std::string& more : {formats::audit_words(effect), formats::beside_words(effect, load_unit), unmodelled})
     sentences += more.empty() ? "" : (sentences.empty() ? ". " : " ") + more;

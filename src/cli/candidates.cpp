@@ -110,17 +110,17 @@ Candidates argument_candidates(const Command& command, std::size_t index) {
   const std::vector<std::string> expected = split(command.positionals, ' ');
   if (expected.empty() || (index >= expected.size() && !command.positionals.ends_with("..."))) return {};
   const std::string& name = expected[std::min(index, expected.size() - 1)];
-  const auto is = [&name](const char* word) { return name.find(word) != std::string::npos; };
-  if (is("TEMPLATE")) return names_of_templates();
-  if (is("KEY")) return keys();
-  if (is("COMMAND")) return names_of_commands();
-  if (is("SHELL")) {
+  const auto contains = [&name](const char* word) { return name.find(word) != std::string::npos; };
+  if (contains("TEMPLATE")) return names_of_templates();
+  if (contains("KEY")) return keys();
+  if (contains("COMMAND")) return names_of_commands();
+  if (contains("SHELL")) {
     Candidates shells;
     for (const char* shell : {"bash", "zsh", "fish"}) shells.words.push_back({shell, ""});
     return shells;
   }
-  if (is("SPEC")) return files(".toml");
-  if (is(".csv")) return files(".csv");
+  if (contains("SPEC")) return files(".toml");
+  if (contains(".csv")) return files(".csv");
   return files();
 }
 

@@ -5,7 +5,8 @@ namespace fusee::cli {
 namespace {
 
 // Each script asks the program, so that a shell offers what the program accepts. An answer has one word per
-// line and, after a tab, its meaning. ":files .toml" stands for file names, ":open" for no blank after the word.
+// line and, after a tab, its meaning. ":files.toml" stands for the names of files with that ending, ":files" for those
+// of all files, and ":open" for no blank after the word.
 
 constexpr std::string_view k_bash = R"sh(# In ~/.bashrc: source <(fusee completion bash)
 _fusee() {

@@ -17,7 +17,8 @@ namespace {
 bool write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());
-    if (written < 0 && errno == EINTR && !is_interrupted()) continue;  // a Ctrl-C while the reader is blocked
+    // Other signals are no failure. After Ctrl-C the reader may be blocked for ever, so the write ends.
+    if (written < 0 && errno == EINTR && !is_interrupted()) continue;
     if (written <= 0) return false;
     text.remove_prefix(static_cast<std::size_t>(written));
   }
@@ -80,7 +81,7 @@ std::optional<std::string> Console::ask(std::string_view question) {
   std::string line;
   char c = 0;
   while (line.size() < k_longest_answer) {
-    // one byte at a time: further input may belong to another program
+    // One byte at a time: input after this line may belong to another program.
     const ssize_t count = ::read(STDIN_FILENO, &c, 1);
     if (count < 0 && errno == EINTR && !is_interrupted()) continue;
     if (count <= 0) {

@@ -48,7 +48,7 @@ void catch_signals() {
 
 void watch(const std::stop_source& source) {
   do {
-    while (::sem_wait(&wake) != 0) {
+    while (::sem_wait(&wake) != 0) {  // a signal interrupts the wait
     }
     if (!interrupted) continue;
     source.request_stop();

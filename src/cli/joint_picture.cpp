@@ -27,13 +27,15 @@ class Sheet {
     low_ = low_.cwiseMin(centre - Vec2(radius, radius));
     high_ = high_.cwiseMax(centre + Vec2(radius, radius));
   }
-  /// Chooses the scale.
+  /// Chooses the scale: all included points lie between the side margins, and on k_lines - 1 lines at most. A line is
+  /// as high as two columns are wide.
   void fit() {
     const Vec2 size = high_ - low_;
     column_ = std::max({size.x() / (k_columns - 2 * k_side_margin), 0.5 * size.y() / (k_lines - 2), 1e-9});
     lines_.assign(static_cast<std::size_t>(std::lround(size.y() / (2 * column_))) + 1, std::string(k_columns, ' '));
     middle_ = 0.5 * (low_.x() + high_.x());
   }
+  /// Puts a character at a point, unless the point is outside of the sheet.
   void put(const Vec2& at, char sign) {
     char* cell = find(at);
     if (cell != nullptr) *cell = sign;
@@ -42,7 +44,7 @@ class Sheet {
     const int steps = std::max(12, static_cast<int>(8 * radius / column_));
     for (int i = 0; i < steps; ++i) put(centre + radius * unit(k_two_pi * i / steps), sign);
   }
-  /// A line of strokes '|', '-', '/' or '\\' by its slope, or of `sign`.
+  /// A line of `sign`, or of strokes '|', '-', '/' or '\\' by its slope if `sign` is 0.
   void line(const Vec2& from, const Vec2& to, char sign = 0) {
     const Vec2 direction = to - from;
     const double rise = std::abs(direction.y()) / 2, run = std::abs(direction.x());  // a line is 2 columns high

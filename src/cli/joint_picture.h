@@ -8,8 +8,8 @@
 
 namespace fusee::cli {
 
-/// The joint at home to scale, 2 columns as wide as a line is high: link, drum, pins, pulley and tendons. Beside it
-/// each letter with its place and the key of the file.
+/// The joint at home, to scale if two columns are as wide as a line is high: link, drum, pins, pulley and tendons.
+/// Beside it the meaning of each letter, and its place.
 std::string joint_picture(const formats::Product& product);
 
 }  // namespace fusee::cli

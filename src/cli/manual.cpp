@@ -9,7 +9,14 @@ namespace {
 /// Escapes a line so that troff takes it for text, and "-" for the character to type.
 std::string plain(std::string_view line) {
   std::string text = line.rfind('.', 0) == 0 || line.rfind('\'', 0) == 0 ? "\\&" : "";
-  for (const char c : line) text += c == '\\' ? "\\e" : c == '-' ? "\\-" : std::string(1, c);
+  for (const char c : line) {
+    if (c == '\\')
+      text += "\\e";
+    else if (c == '-')
+      text += "\\-";
+    else
+      text += c;
+  }
   return text;
 }
 

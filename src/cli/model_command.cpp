@@ -21,7 +21,7 @@ double whole_number(const Arguments& arguments, std::string_view option, double 
   return value;
 }
 
-/// The prefix of all names in the header.
+/// The prefix of all names in joint_table.h; "" without --prefix.
 std::string prefix_from(const Arguments& arguments) {
   const std::string prefix = arguments.text("--prefix").value_or("");
   constexpr std::size_t k_longest = 40;
@@ -62,7 +62,7 @@ pipeline::ModelOptions model_options_from(const Arguments& arguments) {
   return options;
 }
 
-/// Smaller angles than 0.000001 deg are rounding errors, and reported as that.
+/// An angle, rad, in degrees. Angles below 0.000001 deg are rounding errors, and are reported as 0.000001 deg.
 std::string deg_text(double angle) {
   return angle < radians(1e-6) ? "0.000001 deg" : rounded(degrees(angle), 2) + " deg";
 }

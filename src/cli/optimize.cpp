@@ -9,7 +9,7 @@
 namespace fusee::cli {
 namespace {
 
-/// Names in the order of SearchMethod.
+/// Names in the order of SearchMethod, which is also that of the alternatives of OptimizeResult::search.
 constexpr std::string_view k_methods[] = {"certified", "ga", "pareto"};
 
 std::optional<pipeline::SearchMethod> method_from(const Arguments& arguments) {

@@ -100,7 +100,7 @@ std::string generations_text(const optimize::GeneticOptions& options, std::size_
          std::to_string(options.population);
 }
 
-/// Generations after the random first one, or the boxes of a certified search.
+/// The number of generations after the random first one, or of the boxes of a certified search.
 std::string progress_text(const pipeline::OptimizeOptions& options, const pipeline::OptimizeResult& result) {
   if (const auto* genetic = std::get_if<optimize::GeneticResult>(&result.search)) {
     const std::size_t finished = genetic->generations.size();
@@ -192,7 +192,8 @@ void add_certified(const pipeline::OptimizeOptions& options, const pipeline::Opt
   if (result.then) reply.text += then_line(*options.then, *result.then);
   add_ties(result.problem, search.ties, options.then.has_value(), reply);
   if (search.proven || options.then || result.stopped) return;
-  // A relative gap of 0.1 % is below manufacturing accuracy; such a proof counts as finished, with its gap.
+  // A relative gap of 0.1 % is below manufacturing accuracy: an unfinished proof with such a gap is a warning, and no
+  // failure.
   constexpr double k_sufficient_gap = 1e-3;
   const bool is_enough = search.relative_gap <= k_sufficient_gap;
   if (!is_enough) reply.exit = Exit::check_failed;

@@ -16,6 +16,7 @@ constexpr double k_most_minutes = 1e5;  // ten weeks
 constexpr double k_most_load = 1e6;     // N
 constexpr double k_most_speed = 1e5;    // deg/s
 constexpr double k_most_angle = 1e5;    // deg
+/// Largest number of loads or of speeds.
 constexpr std::size_t k_most_levels = 12;
 
 // ---- options --------------------------------------------------------------------------------------------------------

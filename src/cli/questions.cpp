@@ -20,7 +20,7 @@
 namespace fusee::cli {
 namespace {
 
-// So that an endless input without a usable answer ends.
+// Number of tries for one question: the command also ends for an endless input without a usable answer.
 constexpr int k_most_tries = 50;
 
 constexpr std::string_view k_joint_picture = R"(
@@ -50,7 +50,7 @@ constexpr std::string_view k_load_picture = R"(
             O
 )";
 
-/// The answers so far. A text that was read is a proposal when its question is asked again.
+/// The answers so far.
 struct Answers {
   std::string name;
   double length = 0;  ///< of the link, mm
@@ -151,6 +151,7 @@ const std::vector<Question>& questions() {
       {"room", std::string(k_room_picture), "How wide may the pulley be (⌀30 mm)?",
        [](const Answers& answers) { return rounded(std::round(std::clamp(0.7 * answers.length, 30.0, 80.0))) + " mm"; },
        [](Answers& answers, std::string_view text) {
+         // The bounds of pulley.EF_mm, 1 to 10000 mm: those of body.room_diameter_mm include 0, which is no limit.
          return stored(length_for("pulley.EF_mm", text, answers), answers.room, length_words(answers));
        }},
       {"load", std::string(k_load_picture), "Which load (10 N, 0.5 kg, 2 lbf, 0.8 Nm)?", fixed_proposal("10 N"),
@@ -339,6 +340,7 @@ class Layouts {
     constexpr int k_room_question = 4, k_motor_question = 6, k_tendon_question = 7;  // numbers in questions()
     if (const auto room = nearest(answers, &Answers::room, {1.1, 1.25, 1.5, 2, 3, 5, 8}))
       add(k_room_question, rounded(*room) + " mm", rounded(answers.room) + " mm");
+    // Thinner tendons, the thickest first, in numbers of two digits.
     for (const double share : {0.75, 0.5, 0.3, 0.15}) {
       Answers other = answers;
       other.tendon.diameter = std::stod(rounded(share * answers.tendon.diameter, 2));
@@ -346,6 +348,7 @@ class Layouts {
       add(k_tendon_question, rounded(other.tendon.diameter) + " mm", rounded(answers.tendon.diameter) + " mm");
       break;
     }
+    // Plain shafts thinner than the answered one, or any if a motor was named. The thickest comes first.
     for (const char* motor : {"5 mm", "3 mm", "2 mm", "1 mm"}) {
       Answers other = answers;
       other.motor = std::get<TypedMotor>(read_motor(motor));

@@ -1,5 +1,6 @@
 /// \file
-/// `fusee new --ask`: seven questions, and the file of a joint whose pulley was built once.
+/// `fusee new --ask`: seven questions, and the mechanism file of a joint whose pulley is known to be feasible, because
+/// it was built once.
 #pragma once
 
 #include <string>
@@ -12,7 +13,7 @@
 
 namespace fusee::cli {
 
-/// Another answer with which a layout exists: it was tried.
+/// Another answer to one question with which a layout exists, as a trial has shown.
 struct OtherAnswer {
   int question = 0;    ///< 1 … 7
   std::string words;   ///< "room for the pulley"
@@ -29,7 +30,8 @@ struct AskedMechanism {
 
 /// Asks on stderr and reads lines from stdin. An empty line takes the proposal; an answer that cannot be used is asked
 /// again with the reason. Answers without a layout are asked again, too, until the input ends. `settings` overrule the
-/// answers. Throws InputError where the input ends before the last answer, and Stopped.
+/// answers. Throws InputError if the input ends before the last answer or if a question has no usable answer in many
+/// tries, and Stopped after a signal.
 AskedMechanism ask_for_mechanism(Console& console, const std::vector<Setting>& settings, const RunContext& context);
 
 }  // namespace fusee::cli

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t k_most_differences = 8;
+constexpr std::size_t k_most_differences = 8;  // in the printed text; the JSON document has all
 
 // ---- run ------------------------------------------------------------------------------------------------------------
 

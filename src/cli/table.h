@@ -19,7 +19,8 @@ struct Column {
 /// bytes. In a table wider than 80 columns the cells of the widest columns are wrapped.
 std::string table(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows);
 
-/// A title, and a text that begins at `column`, or after a blank if the title is longer.
+/// A line of a title, indented by two blanks, and a text. The text begins `column` characters after the title begins,
+/// or after a blank if the title is longer.
 std::string titled(std::string title, const std::string& text, std::size_t column = 12);
 
 }  // namespace fusee::cli

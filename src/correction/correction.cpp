@@ -13,8 +13,7 @@
 
 // Errors are simulated with predict(), for the identified joint with its present pulley and with the pulley of
 // corrected.toml. Errors on held-out rows are measured, and only their change by the pulley is simulated. The error is
-// the deviation from the declared θ(α). The table corrects the residual error with the
-// corrected pulley.
+// the deviation from the declared θ(α). The table corrects the residual error with the corrected pulley.
 
 namespace fusee::correction {
 namespace {
@@ -154,7 +153,7 @@ class NodeMeans {
   }
 
   Curve curve() const {
-    constexpr double k_least_weight = 0.2;
+    constexpr double k_least_weight = 0.2;  // values; a node with less counts as one without values
     Curve curve{bins_.span, std::vector<double>(k_intervals + 1, 0)};
     for (int i = 0; i <= k_intervals; ++i) {
       int nearest = -1;
@@ -234,10 +233,10 @@ measurement::ValueRange common_span(const DirectionalCurves& effects, const cali
 
 /// Motion of the joint in one direction, sorted by θ. Rows in which θ does not grow are omitted.
 std::vector<LawRow> motion_rows(const transmission::TargetMotion& law, const JointDeviation& deviation, bool rising) {
-  constexpr int places = 800;
+  constexpr int steps = 800;
   std::vector<LawRow> rows;
-  for (int i = 0; i <= places; ++i) {
-    const double alpha = deviation.alphas.least + deviation.alphas.size() * i / places;
+  for (int i = 0; i <= steps; ++i) {
+    const double alpha = deviation.alphas.least + deviation.alphas.size() * i / steps;
     rows.push_back({alpha, law.theta(alpha) + deviation.at(alpha, rising)});
   }
   if (rows.back().theta < rows.front().theta) std::reverse(rows.begin(), rows.end());
@@ -271,9 +270,9 @@ std::vector<CompensationRow> compensation_rows(const transmission::TargetMotion&
   const double low = std::max(rising.all.front().theta, falling.all.front().theta),
                high = std::min(rising.all.back().theta, falling.all.back().theta);
   std::vector<CompensationRow> table;
-  constexpr int rows = 60;
-  for (int i = 0; i <= rows && high > low; ++i) {
-    const double theta = low + (high - low) * i / rows;
+  constexpr int steps = 60;
+  for (int i = 0; i <= steps && high > low; ++i) {
+    const double theta = low + (high - low) * i / steps;
     table.push_back(
         {theta, rising.alpha(theta), falling.alpha(theta), rising.of_curve(theta), falling.of_curve(theta)});
   }
@@ -423,8 +422,8 @@ Correction correct(const DeclaredMechanism& declared, const measurement::Measure
     return held_out_squares({declared, corrected, correction.has_pulley, assembly_angle}, measurement, law,
                             calibration.left_out);
   };
-  // Without the table, the tendons are tied at assembly_angle(). With it they are tied at 0, and the table contains that
-  // offset.
+  // Without the table, the tendons are tied at assembly_angle(). With the table they are tied at 0, and the
+  // table contains that offset.
   if (correction.has_pulley) {
     correction.by_pulley = held_out_rows(joint::assembly_angle(corrected)).removed_by_pulley();
     correction.has_pulley = correction.by_pulley > 0;

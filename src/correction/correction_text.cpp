@@ -53,7 +53,7 @@ constexpr const char* k_title =
 std::string without_earlier_comment(std::string text) {
   const std::size_t title = text.find(k_title);
   if (title == std::string::npos) return text;
-  std::size_t end = title;
+  std::size_t end = title;  // every line of the comment begins with #
   while (end < text.size() && text[end] == '#') end = std::min(text.find('\n', end), text.size() - 1) + 1;
   return text.erase(title, end - title);
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int k_intervals = 60;                      ///< of the stroke
 constexpr double k_speed = radians(20);              ///< motor speed, rad/s: slow, as on a bench
-constexpr double k_least_influence = radians(1e-3);  ///< smaller effects are not listed
+constexpr double k_least_influence = radians(1e-3);  ///< on the sensed angle, rad; smaller effects are not listed
 
 /// No load, and the largest logged loads in both directions, ascending; the declared load if none was logged as a
 /// force.

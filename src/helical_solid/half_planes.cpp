@@ -10,7 +10,7 @@
 namespace fusee::helical_solid {
 namespace {
 
-// Pieces shorter than this along the axis count as level.
+// Pieces shorter than this along the axis count as level, mm.
 constexpr double k_level = 1e-7;
 // Largest variation of the radius within a floor (mm), from float rounding in a large part.
 constexpr double k_floor_variation = 1e-3;
@@ -179,8 +179,8 @@ std::vector<OutlinePiece> outermost(std::vector<OutlinePiece> pieces) {
 std::vector<FloorPlace> floors_of(const std::vector<OutlinePiece>& outline, double least_rise) {
   std::vector<FloorPlace> floors;
   if (outline.empty()) return floors;
-  // Follows the outline upwards from each crest to the least radius after it. A rise of at least `least_rise` from
-  // there ends a floor.
+  // Follows the outline upwards from each crest to the least radius after it. A rise of at least `least_rise` from that
+  // radius ends a floor.
   double crest = outline.front().r0, crest_z = outline.front().z0;
   double least = crest, from = crest_z, to = crest_z;  // least radius since the crest, and the heights that have it
   bool is_in_groove = false;

@@ -24,7 +24,7 @@ namespace {
 using Index = std::uint32_t;
 using Facet = std::array<Index, 3>;
 
-// Sagitta of the hub's circle.
+// Largest sagitta of the hub's facets, mm.
 constexpr double k_hub_sagitta = 0.01;
 
 // Fraction of a turn after which a ring leaves the outermost turn towards its end. Also the fraction of the filled rows
@@ -178,7 +178,8 @@ class BlankBuilder {
 
   // Cost of a triangle: the length of its last side, plus a large penalty if it does not face outwards.
   double cost_of(const Facet& facet) const {
-    constexpr double k_fold = 1e6, k_edge_on = 0.02;
+    constexpr double k_fold = 1e6;      // mm, longer than all sides together
+    constexpr double k_edge_on = 0.02;  // least cosine of the angle between the normal and outwards
     const Vec3 &p = mesh_.vertices[facet[0]], &q = mesh_.vertices[facet[1]], &r = mesh_.vertices[facet[2]];
     const Vec3 normal = (q - p).cross(r - p), outward(p.x(), p.y(), 0.0);
     const bool is_fold = !(normal.dot(outward) > k_edge_on * normal.norm() * outward.norm());

@@ -9,12 +9,12 @@
 
 namespace fusee::helical_solid {
 
-/// Heights of the rings that bound the grooves. The lowest ring, at height 0, is chamfered.
+/// Heights of the rings that bound the grooves, mm. The lowest ring, at height 0, is chamfered.
 struct RingHeights {
-  double lower = 0;  ///< of the middle flange
-  double upper = 0;  ///< of the middle flange; a cone joins both rings where P2 projects over P1
-  double top = 0;
-  double hub_top = 0;
+  double lower = 0;    ///< lower ring of the middle flange
+  double upper = 0;    ///< its upper ring; a cone joins both where P2 projects over P1
+  double top = 0;      ///< ring of the upper face
+  double hub_top = 0;  ///< top of the hub; equal to `top` without a hub
 };
 
 /// Outline of the lower face (P1) or the upper face (P2).

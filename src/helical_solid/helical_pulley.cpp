@@ -34,27 +34,28 @@ namespace {
 
 // Thickness of a rib: two lines of a 0.4 mm nozzle, plus the loss of a typical printer. mm
 constexpr double k_rib = 0.9;
-// Diameters tried for an automatic bore, as for one-turn pulleys (solid/plan.cpp).
+// Diameters tried for an automatic bore, as for one-turn pulleys (solid/plan.cpp). mm
 constexpr std::array<double, 6> k_bore_diameters{5.0, 4.0, 3.0, 2.5, 2.0, 1.5};
 // Additional slope of ceilings. Slicers simplify outlines (PrusaSlicer to 0.0125 mm at layers of 0.2 mm), and
 // neighbouring layers of a groove's flank get different corners. With the margin of other parts, 2.5° above the
 // requested slope, PrusaSlicer put supports under 3 of 64 parts (seed 17001). A layer then projects too far already at
 // 47.9°, because 0.2/tan(46°) − 0.0125 = 0.2/tan(47.9°). With this addition a part has the same margin as others.
 constexpr double k_simplification_slope = radians(1.5);
-// Automatic wall, as for one-turn pulleys: of parts of ordinary size, per mm of radius for small ones, and the least.
+// Automatic wall, as for one-turn pulleys: of parts of ordinary size (mm), per mm of radius for small ones, and the
+// least (mm).
 constexpr double k_wall = 1.2, k_wall_per_radius = 0.12, k_least_wall = 0.4;
 // Fractions of the automatic knot pocket tried if the full size does not fit. Knots are 2.5 to 3 tendons thick.
 constexpr std::array k_pocket_shares{1.0, 0.9, 0.8, 0.72};
-// Height of the groove edge that the chamfer at the bed leaves.
+// Size of the groove edge that the chamfer at the bed must leave, outwards and upwards. mm
 constexpr double k_least_groove_edge = 0.2;
-// Minimum material between a channel and the outside.
+// Minimum material between a channel and the outside, mm.
 constexpr double k_channel_cover = 0.25;
 // Least depth of a groove in tendon diameters. In a shallower one a channel stays open too long for its ceiling to be
 // supported.
 constexpr double k_least_depth_ratio = 2.0 / 3.0;
-// Tolerance of rounding for a size at its limit.
+// Tolerance of rounding for a size at its limit, mm.
 constexpr double k_grain = 1e-6;
-// Minimum height of the cone between the middle flange's two rings, which keeps them distinct.
+// Minimum height of the cone between the middle flange's two rings, which keeps them distinct. mm
 constexpr double k_least_cone = 0.2;
 
 profile::Condition condition_of(std::string name, bool ok, double value, double limit, std::string message) {
@@ -261,7 +262,8 @@ class Planner {
     return std::abs(rows[end].height - rows[beside].height);
   }
 
-  // Minimum height between the edges of the filled rows and of the turn below, reduced by the height of their own step.
+  // Minimum height between the edges of the filled rows and of the turn below, less the height that the step between
+  // both radii requires.
   double least_rise_to_fill(const Winding& winding) const {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < winding.filled_front && j + fan_.columns() < winding.rows.size(); ++j) {
@@ -294,7 +296,7 @@ class Planner {
                      face_rim(transmission::Side::right)});
   }
 
-  // Minimum distance of a pocket from the axis.
+  // Distance of a pocket's edge from the axis.
   double pocket_inside(std::size_t i) const {
     return pocket_place(ends_[i], run_outs_[i]).norm() - run_outs_[i].pocket_radius;
   }
@@ -430,7 +432,8 @@ class Planner {
     const double volume = solid::enclosed_volume(blank);
     const bool has_screw = layout.set_screw.present;
     // Every passage is a handle: bore, screw holes, run-outs, and branches for the set screw and its nut.
-    const int screw_handles = has_screw ? (layout.set_screw.nut_trap ? 2 : 1) : 0;
+    int screw_handles = 0;
+    if (has_screw) screw_handles = layout.set_screw.nut_trap ? 2 : 1;
     const int handles = 1 + static_cast<int>(layout.bore.screw_holes.size() + ends_.size()) + screw_handles;
     pulley_.expected_euler = 2 - 2 * handles;
     const int variants = solid::cut_variants(blank.triangles.size(), wanted_variants);

@@ -16,11 +16,11 @@
 namespace fusee::helical_solid {
 namespace {
 
-// Least depth of a groove. Shallower minima are chamfer edges or chords.
+// Least depth of a groove, mm. Shallower minima are chamfer edges or chords.
 constexpr double k_least_depth = 0.3;
-// Number of places on either side over which a groove's slope is averaged, a fifth of a turn. With few corners the
-// floor's steps would show, and each adds to a steep tendon's length (0.04° of a joint with r1 of 3.2 mm and a lead of
-// 6.9 mm).
+// Number of places on either side over which a groove's slope is averaged: a fifth of a turn with 720 half-planes.
+// Over few corners the floor's steps would show, and each adds to a steep tendon's length (0.04° of a joint with r1 of
+// 3.2 mm and a lead of 6.9 mm).
 constexpr std::size_t k_slope_window = 160;
 // Polygon sides that turn by less against each other are one side: rounding of a straight line to float, rad.
 constexpr double k_straight = 1e-4;
@@ -189,7 +189,8 @@ class HelicalString {
   }
 
   FloorLine floor_;
-  double hand_, half_;
+  double hand_;
+  double half_;  // half the string's thickness
   profile::StringAbove above_;
   double end_height_;
   bool collar_;
@@ -209,19 +210,21 @@ class HelicalString {
 
 // The joint angle at which the string is as long as at home.
 double taut_angle(const HelicalString& string, double alpha, double guess) {
+  constexpr double k_first_reach = 0.005, k_last_reach = 0.7;  // rad
+  constexpr int k_bisections = 52;                             // to the last bit of a double
   // Grows with θ on both sides.
   const auto growing = [&string](double theta) { return -string.hand() * string.excess(theta); };
-  double reach = 0.005;  // rad
+  double reach = k_first_reach;
   while (!(growing(guess - reach) < 0 && growing(guess + reach) > 0)) {
     reach *= 2;
-    if (reach > 0.7)  // rad
+    if (reach > k_last_reach)
       throw InputError("",
                        "no joint angle near the declared one makes " + string.name() +
                            " taut at α = " + rounded(degrees(alpha), 4) + "°",
                        "is this the pulley of this mechanism, in mm, its axis at the origin?");
   }
   double low = guess - reach, high = guess + reach;
-  for (int i = 0; i < 52; ++i) {
+  for (int i = 0; i < k_bisections; ++i) {
     const double middle = 0.5 * (low + high);
     (growing(middle) < 0 ? low : high) = middle;
   }

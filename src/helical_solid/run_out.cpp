@@ -13,12 +13,13 @@
 namespace fusee::helical_solid {
 namespace {
 
-// Least width of an automatic channel. Narrower ones close in printing, as on one-turn pulleys.
+// Least width of an automatic channel, mm. Narrower ones close in printing, as on one-turn pulleys.
 constexpr double k_least_channel = 0.6;
 // The channel begins k_before_end before the groove's end, so that the end wall is removed completely. Its peaked
 // ceiling rises above the groove's upper wall and leaves a tooth there, which ends k_past_end beyond the end wall. mm
 constexpr double k_before_end = 0.02;
 constexpr double k_past_end = 0.06;
+// Number of facets of a channel and of a pocket in the first variant, and number of chords of the arc.
 constexpr int k_channel_facets = 14;
 constexpr int k_pocket_facets = 28;
 constexpr int k_arc_steps = 9;
@@ -29,7 +30,7 @@ constexpr double k_sharpest_bend = 2.0;
 // Least radius of the arc, in channel radii. Seen from above, the flanks of the peaked ceiling must not meet on the
 // inside of the bend. They would at 2.46, where a rising channel has turned by 78°.
 constexpr double k_sharpest_channel_bend = 2.8;
-// Number of radii tried, from the gentlest to the sharpest bend.
+// Number of radii of the arc that are tried, from the gentlest to the sharpest bend.
 constexpr int k_bends = 5;
 // Least slope of a channel's ceiling. Channels dive at 45°, and the ridge of a ceiling of that slope would lie in the
 // plane of the next section.
@@ -137,8 +138,8 @@ solid::TriangleMesh pocket_of(const GrooveEnd& end, const RunOutSizes& sizes, in
 // none of its faces coincides with the groove's. In a round seat the entry is centred on the tendon. In others it lies
 // further out, where their walls leave clearance.
 void set_entry(RunOutSizes& sizes, const Body& body, double d) {
-  constexpr double k_inside = 0.03, k_further_out = 0.15, k_least = 0.5;  // of the tendon
-  double radius = body.seat_ratio;
+  constexpr double k_inside = 0.03, k_further_out = 0.15, k_least = 0.5;  // in tendon diameters
+  double radius = body.seat_ratio;  // in tendon diameters, of the groove about the entry's centre
   if (body.groove != Groove::u) {
     sizes.entry_outward = k_further_out * d;
     radius = k_least + k_further_out * elementary::sin(0.5 * body.groove_angle);
@@ -251,11 +252,12 @@ std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& 
     add(arc_place(end, sizes, k), elementary::cos(turn) * along + elementary::sin(turn) * towards,
         sizes.channel_radii[static_cast<std::size_t>(k - 1)]);
   }
-  // A straight channel continues into the pocket. Below the lower face it ends in a point where ball and cone meet in
-  // front. A flat end would have a ceiling as shallow as the channel.
+  // A straight channel continues into the pocket. Below the upper face it rises and ends in a point where ball and cone
+  // meet in front. A flat end would have a ceiling as shallow as the channel. Above the lower face a flat end has none.
   const Vec3 last = channel_end(end, sizes);
   if (end.outward < 0) {
-    add(last + 0.8 * sizes.channel_radius * towards, towards, sizes.channel_radius);
+    constexpr double k_past_middle = 0.8;  // of the pocket, in channel radii
+    add(last + k_past_middle * sizes.channel_radius * towards, towards, sizes.channel_radius);
     return rings;
   }
   if ((last - rings.back().middle).norm() > k_shortest_straight * sizes.channel_radius)

@@ -13,6 +13,7 @@ namespace {
 constexpr double k_same_column = 0.004;
 // Fraction of the tolerance that the fan uses, because radii of curvature are sampled at columns only.
 constexpr double k_share_of_tolerance = 0.9;
+// Largest angle from column to column at any tolerance.
 constexpr double k_widest_column = radians(8);
 
 // Distance from a groove's end wall to the first filled row, so that the groove edges cover the channel from its entry

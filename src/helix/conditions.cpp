@@ -41,8 +41,8 @@ profile::Condition turn_count_condition(const transmission::Transmission& planar
   return condition;
 }
 
-/// Limit of the fleet angle δ. A straight tendon rises by the groove's depth h over the length √(2ρh) and moves aside by
-/// that length times tan δ. Above the limit it touches the groove edge. The largest radius of curvature ρ gives the
+/// Limit of the fleet angle δ. A straight tendon rises by the groove's depth h over the length √(2ρh) and moves aside
+/// by that length times tan δ. Above the limit it touches the groove edge. The largest radius of curvature ρ gives the
 /// lowest limit.
 profile::Condition fleet_condition(const HelixSide& helix, transmission::Side side, const HelixGroove& groove,
                                    double largest_radius) {
@@ -69,7 +69,7 @@ profile::Condition lead_condition(const Mechanism& mechanism, const HelixGeometr
   condition.value = geometry.slope * geometry.circumference;
   condition.limit = geometry.needed_lead;
   condition.unit = "mm";
-  constexpr double k_rounding = 1e-9;
+  constexpr double k_rounding = 1e-9;  // relative
   condition.ok = condition.value >= condition.limit * (1.0 - k_rounding);
   if (!condition.ok) {
     condition.message =
@@ -100,7 +100,7 @@ profile::Condition spare_turn_condition(const Mechanism& mechanism, const Spiral
 }
 
 profile::Condition closure_condition(const Windings& windings) {
-  constexpr double k_limit = 0.002;
+  constexpr double k_limit = 0.002;  // mm
   profile::Condition condition = at_most("sloped_paths_close", 0, windings.closure, k_limit, "mm");
   if (!condition.ok) {
     condition.message = "the tendon lengths along the sloped paths do not converge: the residual is " +
@@ -115,10 +115,10 @@ std::vector<profile::Condition> turn_conditions(const Mechanism& mechanism, cons
   std::vector<profile::Condition> conditions;
   for (const transmission::Side side : k_sides) {
     conditions.push_back(turn_count_condition(planar, side));
-    for (const double kink : profile::lift_offs(mechanism, planar, side)) {
+    for (const double lift_off : profile::lift_offs(mechanism, planar, side)) {
       profile::Condition condition;
       condition.name = "on_drum_all_the_way";
-      condition.alpha = planar.alpha(transmission::mirror_sign(side) * kink);
+      condition.alpha = planar.alpha(transmission::mirror_sign(side) * lift_off);
       condition.ok = false;
       condition.message = "a tendon leaves the joint's drum at " + profile::at_alpha_text(condition.alpha) +
                           ": with a multi-turn pulley it must stay on the drum, or off it, over the whole range";

@@ -7,7 +7,7 @@ namespace fusee::helix {
 namespace {
 
 struct SpiralSample {
-  double psi;  ///< unrolled over all turns, in the image
+  double psi;  ///< direction of the normal, unrolled over all turns, in the image
   SpiralPoint point;
 };
 
@@ -36,7 +36,7 @@ Spiral draw_spiral(const PitchSpiral& curve, transmission::Side side, double slo
   add_points(points, curve, curve.begin(), curve.working_begin(), drawing);
   const std::size_t working_first = points.size();
   add_points(points, curve, curve.working_begin(), curve.working_end(), drawing);
-  const std::size_t working_last = points.size();
+  const std::size_t working_last = points.size();  // the point at working_end(), with which the spare turns begin
   add_points(points, curve, curve.working_end(), curve.end(), drawing);
   points.push_back({curve.end(), curve.at(curve.end())});
 

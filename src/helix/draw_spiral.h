@@ -10,10 +10,11 @@ namespace fusee::helix {
 struct SpiralDrawing {
   double chord_error_mm = 0.01;        ///< largest sagitta of a chord, mm
   double reach = 0;                    ///< distance of the outermost parallel curve that keeps the tolerance, mm
-  double largest_turn = radians(1.5);  ///< largest angle from row to row
+  double largest_turn = radians(1.5);  ///< largest angle from row to row, rad
 };
 
-/// The rows of a curve in the world, with the spare turns. `slope`: tan λ of the groove.
+/// The rows of a curve with its spare turns, in the pulley's frame: P1's mirrored curve is mirrored back. `slope`:
+/// tan λ of the groove.
 Spiral draw_spiral(const PitchSpiral& curve, transmission::Side side, double slope, const SpiralDrawing& drawing);
 
 }  // namespace fusee::helix

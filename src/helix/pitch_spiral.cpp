@@ -6,6 +6,7 @@
 namespace fusee::helix {
 namespace {
 
+// Number of equal intervals of the joint angle between samples of the working arc.
 constexpr int k_samples = 192;
 
 /// Weight w(u) that falls from 1 to 0 over the spare turns with zero slope at both ends, and its derivatives.
@@ -19,7 +20,7 @@ Taper taper(double u, double length) {
   return {1.0 - x * x * (3.0 - 2.0 * x), -6.0 * x * (1.0 - x) / length, -6.0 * (1.0 - 2.0 * x) / (length * length)};
 }
 
-/// ∫ sin u w(u) du from 0, Simpson's rule.
+/// ∫ sin v w(v) dv from 0 to u, by Simpson's rule. `length`: angle of the spare turns.
 double tapered_sine_integral(double u, double length) {
   constexpr int k_steps = 64;
   const auto value = [length](double v) { return elementary::sin(v) * taper(v, length).w; };
@@ -52,7 +53,7 @@ FreePath PitchSpiral::free_path(const profile::TakeOff& take_off) const {
   return path;
 }
 
-// From the length balance L + σ = q + const.
+// From the balance of lengths L + σ = q + const (sloped_paths.cpp), where L is the free path's whole length.
 double PitchSpiral::sigma(const profile::TakeOff& take_off) const {
   return lengthened(take_off.stroke.alpha) - lengthened(home_.stroke.alpha) - free_path(take_off).whole +
          free_path(home_).whole;
@@ -71,9 +72,11 @@ SpiralPoint PitchSpiral::at(double psi) const {
   double low = sign * (above - 1)->stroke.theta, high = sign * above->stroke.theta;
   profile::TakeOff found = *(above - 1);
   double theta = low;
-  for (int i = 0; i < 60; ++i) {
+  constexpr int k_most_steps = 60;
+  constexpr double k_solved = 1e-13;  // relative
+  for (int i = 0; i < k_most_steps; ++i) {
     const double miss = found.curve.psi - psi;
-    if (std::abs(miss) < 1e-13 * (1.0 + std::abs(psi))) break;
+    if (std::abs(miss) < k_solved * (1.0 + std::abs(psi))) break;
     (miss > 0 ? high : low) = theta;
     double next = theta - miss * found.stroke.g / found.dpsi;
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);

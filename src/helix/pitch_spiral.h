@@ -1,6 +1,6 @@
 /// \file
 /// Internal: one side's pitch curve over all its turns, in the pulley's frame. The left side is mirrored to a
-/// right-hand one.
+/// right-hand one, the "image".
 #pragma once
 
 #include <array>
@@ -20,12 +20,12 @@ struct SpiralPoint {
 /// Planar lengths of the free part of a tendon.
 struct FreePath {
   double whole = 0;    ///< from its end on the joint to the pulley, mm
-  double sloping = 0;  ///< the part that rises: all of it, or with collars the part below the guide
+  double sloping = 0;  ///< the part that rises: all of it, or with collars the part below the guide, mm
 };
 
-/// The pitch curve of one side. Beyond the working arc, either end continues for the spare turns and approaches a circle
-/// about the axis. At the angle u beyond an end with the support h and its slope h', the support is h + h' sin u w(u),
-/// with w falling from 1 to 0. Keeps a reference to the take-offs.
+/// The pitch curve of one side. Beyond the working arc, either end continues for the spare turns and approaches a
+/// circle about the axis. At the angle u beyond an end with the support h and its slope h', the support is
+/// h + h' sin u w(u), with w falling from 1 to 0. Keeps a reference to the take-offs.
 class PitchSpiral {
  public:
   /// `lengthening`: q(α) of the side (transmission::SlopedPaths), null for a planar tendon.
@@ -46,8 +46,8 @@ class PitchSpiral {
   FreePath free_path(const profile::TakeOff& take_off) const;
 
  private:
-  /// Point of the spare turns at the angle `turned` beyond an end `from` of the working arc. `direction`: +1 with growing
-  /// ψ, −1 against it.
+  /// Point of the spare turns at the angle `turned` beyond an end `from` of the working arc. `direction`: +1 with
+  /// growing ψ, −1 against it.
   SpiralPoint beyond(double turned, const SpiralPoint& from, double direction) const;
   /// q at the pulley angle α. mm
   double lengthened(double alpha) const { return lengthening_ != nullptr ? lengthening_->at(alpha).d0 : 0.0; }

@@ -5,7 +5,8 @@
 //
 // L' is the part of L that rises: the span below the guide with collars, else all of it. Hence L + σ = q + const with
 //   q = −(Λ − L) − σ (1/cos λ − 1)                                                                    [H1]
-// and from d(L + σ) = −m dθ + p dα in the plane: p = m dθ/dα + dq/dα                                  [H2]
+// and from d(L + σ) = −m dθ + p dα in the plane, with the moment arms m about the joint's axis and p about the
+// pulley's: p = m dθ/dα + dq/dα                                                                         [H2]
 // For a round P1 this gives θ(α) = θ_planar(α + q1/r1). q is a few tenths of a mm and is found by fixed-point
 // iteration: each round reduces the residual by about the sines of both slopes.
 //
@@ -20,7 +21,7 @@
 namespace fusee::helix {
 namespace {
 
-constexpr int k_nodes = 48;  // of the Chebyshev series of q
+constexpr int k_nodes = 48;  ///< number of nodes of the Chebyshev series of q
 /// Directions per turn at which neighbouring turns are compared.
 constexpr int k_directions = 72;
 constexpr int k_coarse_directions = 18;
@@ -66,7 +67,7 @@ double below_of_smallest_fleet(HelixGeometry geometry, transmission::Side side,
   double low = -1e4, high = 1e4;  // mm, far beyond any part
   for (int i = 0; i < 100; ++i) {
     geometry.below = 0.5 * (low + high);
-    double least = 1e9, most = -1e9;
+    double least = 1e9, most = -1e9;  // rad, beyond any angle
     for (const WindingPoint& point : points) {
       const double fleet = helix_point(geometry, side, point.path, point.sigma).fleet;
       least = std::min(least, fleet);

@@ -15,7 +15,7 @@ namespace fusee::helix {
 struct HelixGeometry {
   double slope = 0;          ///< tan λ of the groove
   double below = 0;          ///< height of the take-off at home above the tendon's end on the joint, mm
-  double circumference = 0;  ///< of the shortest turn, mm
+  double circumference = 0;  ///< length of the shortest turn in plan, mm
   double needed_lead = 0;    ///< least lead over the shortest turn that leaves room for the tightest pair of turns, mm
   double tightest_at = 0;    ///< ψ of the earlier turn of that pair, in the image
 };
@@ -28,7 +28,8 @@ struct Windings {
   double closure = 0;  ///< by how much the tendons' lengths vary over the range, mm
 };
 
-/// +1 where the take-off rises as the image's tendon is wound: later turns are further up the spiral on both sides.
+/// +1 (P2) if the take-off rises as the wound length σ of the image grows, −1 (P1) if it falls. On both pulleys, later
+/// turns of the spiral are higher.
 inline double helix_sign(transmission::Side side) { return transmission::mirror_sign(side); }
 /// Rise Δ of the sloping part of a tendon's free path, at the planar wound length σ. mm
 inline double rise(const HelixGeometry& geometry, transmission::Side side, double sigma) {

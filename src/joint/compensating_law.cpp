@@ -25,7 +25,7 @@ constexpr int k_rows_beyond = 4;  ///< rows beyond each end of the range, at the
 
 /// Accuracy of the search for the law.
 struct LawAccuracy {
-  int rows = 152;  ///< intervals of the range
+  int intervals = 152;  ///< into which the rows of the law divide the range of θ
   /// Residual error of the loaded joint at which the iteration ends.
   double reached = radians(1e-5);
 };
@@ -44,14 +44,14 @@ bool is_deflected(const Imperfections& errors) {
 /// The target motion as rows that include both ends of the range, and slightly beyond them where the law continues.
 /// Beyond the end of a table all θ have one α, up to rounding; such rows are skipped. Empty where the law does not
 /// exist.
-std::vector<LawRow> declared_rows(const Mechanism& declared, int count) {
+std::vector<LawRow> declared_rows(const Mechanism& declared, int intervals) {
   const transmission::Transmission law(declared);
   if (law.dead_centre()) return {};
   const double low = declared.joint.theta_min, high = declared.joint.theta_max;
   const double least_step = 1e-9 * (law.alpha(high) - law.alpha(low));
   std::vector<LawRow> rows;
-  for (int i = -k_rows_beyond; i <= count + k_rows_beyond; ++i) {
-    const double theta = (low * (count - i) + high * i) / count;
+  for (int i = -k_rows_beyond; i <= intervals + k_rows_beyond; ++i) {
+    const double theta = (low * (intervals - i) + high * i) / intervals;
     const LawRow row{law.alpha(theta), theta};
     if (!std::isfinite(row.alpha) || (!rows.empty() && !(row.alpha > rows.back().alpha + least_step))) continue;
     rows.push_back(row);
@@ -144,8 +144,8 @@ class ChebyshevSmoother {
   LeastSquares solver_;
 };
 
-/// The law minus the residual error of θ; null where θ would not increase with α. The last rows within the declared
-/// range become the ends of the range without load.
+/// The law minus the residual error of θ; null where θ would not increase with α. Its θ at the ends of the declared
+/// range are the range without load, widened to contain 0.
 std::optional<CompensatingLaw> corrected_law(CompensatingLaw compensating, const std::vector<LawRow>& target,
                                              const Joint& joint, const Eigen::VectorXd& error) {
   constexpr double k_rounding = 1e-12;  // rad
@@ -163,8 +163,8 @@ std::optional<CompensatingLaw> corrected_law(CompensatingLaw compensating, const
 }
 
 /// The law with which `joint`, deflected by its load, follows the target motion `declared`. Null if there is none.
-/// Fixed-point iteration: each round subtracts the error of the loaded joint. Friction at the pins is ignored: it causes
-/// hysteresis about the mean, and a pulley cannot correct its reversals at the ends of the range.
+/// Fixed-point iteration: each round subtracts the error of the loaded joint. Friction at the pins is ignored: it
+/// causes hysteresis about the mean, and a pulley cannot correct its reversals at the ends of the range.
 std::optional<CompensatingLaw> law_under_load(Mechanism joint, const CompensatingLaw& declared, double tip_force,
                                               double reached) {
   joint = transmission::without_friction(std::move(joint));
@@ -197,7 +197,7 @@ std::optional<CompensatingLaw> law_under_load(Mechanism joint, const Compensatin
 
 CompensatingLaw compensating_law(const DeclaredMechanism& declared, LawSearch search) {
   const LawAccuracy accuracy = accuracy_of(search);
-  const CompensatingLaw as_declared{declared_rows(declared, accuracy.rows), 0, declared.joint.theta_min,
+  const CompensatingLaw as_declared{declared_rows(declared, accuracy.intervals), 0, declared.joint.theta_min,
                                     declared.joint.theta_max, false};
   if (as_declared.rows.empty() || !is_deflected(declared.identified)) return as_declared;
   const auto compensating =
@@ -208,14 +208,15 @@ CompensatingLaw compensating_law(const DeclaredMechanism& declared, LawSearch se
 
 namespace {
 
-/// Maximum error of θ of the law of `joint` against the compensating law. If the latter is shifted, the assembly angle is
-/// free, and the best one counts.
+/// Maximum error of θ of the law of `joint` against the compensating law. If the latter is shifted, the assembly angle
+/// is free, and the best one counts.
 double largest_error(const Mechanism& joint, const CompensatingLaw& compensating) {
   const transmission::Transmission law(joint);
   constexpr double none = std::numeric_limits<double>::infinity();
   if (law.dead_centre()) return none;
   double least = none, most = -none;
   for (const LawRow& row : compensating.rows) {
+    // First order: Δθ = g Δα, with g = dθ/dα.
     const double error = (law.alpha(row.theta) - row.alpha) * law.at_theta(row.theta).g;
     if (!std::isfinite(error)) return none;
     least = std::min(least, error);

@@ -38,8 +38,8 @@ class TendonCreep {
   std::array<CreepMemory, 2> memory_;
 };
 
-/// The joint on its bench. Caches the latest motions, which do not depend on sensor errors, and the latest geometries,
-/// which few effects change. Not thread-safe.
+/// The joint on its bench. Caches the latest motions, which do not depend on errors of the joint sensor, and the latest
+/// geometries, which few effects change. Not thread-safe.
 class Forward {
  public:
   Forward(const Mechanism& declared, const BenchLog& log) : Forward(declared, log, declared) {}
@@ -48,10 +48,10 @@ class Forward {
   /// With runs of an earlier state, if any: imperfections are then added to it and act only in the later runs.
   Forward(const Mechanism& declared, const BenchLog& log, const std::optional<EarlierState>& earlier);
 
-  /// Readings of the joint sensor. NaN without an equilibrium. With both tendons slack: the angle to which the joint was
-  /// last pushed.
+  /// Readings of the joint sensor. NaN without an equilibrium. With both tendons slack: the angle to which the joint
+  /// was last pushed.
   Readings operator()(const Imperfections& imperfections);
-  /// Possible deviation from that angle within the play, rad; zero where a tendon is taut.
+  /// Play by which the joint angle may deviate from its prediction, rad; zero where a tendon is taut.
   const Readings& looseness(const Imperfections& imperfections) {
     return motion_of(with_earlier_state(imperfections)).loose;
   }
@@ -62,8 +62,8 @@ class Forward {
   /// A cached motion of the joint, without the errors of the joint sensor.
   struct Motion {
     Imperfections key;
-    Readings theta;  ///< joint angle
-    Readings loose;  ///< play about it
+    Readings theta;  ///< joint angle, rad
+    Readings loose;  ///< play about `theta`, rad
   };
 
   /// A cached model of both tendon paths.
@@ -89,7 +89,7 @@ class Forward {
 
   const Mechanism& declared_;
   const BenchLog& log_;
-  std::vector<double> clock_;     ///< offset of each run's time
+  std::vector<double> clock_;     ///< offset of each run's time, s
   std::vector<std::size_t> all_;  ///< all runs
   /// For each run, the first run with identical inputs except for its speed.
   std::vector<std::size_t> first_alike_;

@@ -11,8 +11,8 @@ struct GeometryError {
   PulleyError pulley;
   PinPlaceError left_pin;
   PinPlaceError right_pin;
-  double pin_radius = 0;
-  double joint_length = 0;
+  double pin_radius = 0;    ///< PinError::radius, mm
+  double joint_length = 0;  ///< JointError::length, mm
   DrumError drum;
   AttachmentError end1;
   AttachmentError end2;

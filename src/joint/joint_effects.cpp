@@ -15,6 +15,7 @@ DrumContact drum_contact(const Mechanism& mechanism, transmission::Side side) {
   if (!(mechanism.joint.drum_radius > 0)) return {};
   const auto leaves = transmission::lift_off(transmission::pin_place(mechanism, side, mechanism.seen_pitch_radius()));
   if (!leaves) return {};
+  // The left tendon is seen in its mirror image, in which θ has the opposite sign.
   const double least = side == transmission::Side::right ? mechanism.joint.theta_min : -mechanism.joint.theta_max;
   const double most = side == transmission::Side::right ? mechanism.joint.theta_max : -mechanism.joint.theta_min;
   return {*leaves > least, *leaves >= most};

@@ -10,7 +10,7 @@
 
 namespace fusee::joint {
 
-/// Quintic interpolation over six pulley angles about 1.5° apart, accurate to 1e-7 mm. Outside the table, and where a
+/// Quintic interpolation over six pulley angles about 1.4° apart, accurate to 1e-7 mm. Outside the table, and where a
 /// tendon has no path, JointModel::lower is called.
 class LowerPathTable {
  public:
@@ -34,8 +34,8 @@ class LowerPathTable {
   bool covers(double alpha) const;
   Interpolation interpolation_at(double alpha) const;
 
-  double least_;
-  double step_;
+  double least_;  ///< lower end of the table, rad
+  double step_;   ///< distance of its nodes, rad
   std::vector<Node> values_;
   std::function<std::array<LowerPath, 2>(double)> exact_;
   std::function<double(double)> exact_expected_;

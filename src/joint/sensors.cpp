@@ -38,8 +38,8 @@ std::vector<double> delayed(const BenchRun& run, const std::vector<double>& thet
   return late;
 }
 
-/// θ after the filter τ y' = θ − y, exact for linear θ between samples. Before the first sample the joint rests; after
-/// a gap the filter restarts.
+/// θ after the filter τ y' = θ − y, exact for linear θ between samples. Before the first sample the joint rests. The
+/// filter restarts after rows without θ, and where the time of arrival is unknown.
 std::vector<double> filtered(const BenchRun& run, const std::vector<double>& theta, double lag) {
   std::vector<double> smooth = theta;
   for (std::size_t i = 1; i < theta.size(); ++i) {
@@ -60,7 +60,7 @@ double wave(double angle, double order, double sin_part, double cos_part) {
   return sin_part * elementary::sin(order * angle) + cos_part * (elementary::cos(order * angle) - 1.0);
 }
 
-/// Transforms the coefficients of sin n(x + a) and cos n(x + a) to those of nx.
+/// Transforms the coefficients of sin n(x + a) and cos n(x + a) to those of sin nx and cos nx. `angle`: n a, rad.
 void turn_wave(double angle, double& sin_part, double& cos_part) {
   if (angle == 0) return;
   const double c = elementary::cos(angle), s = elementary::sin(angle);

@@ -24,14 +24,14 @@ struct SlidingTendon {
     const double root = std::sqrt(b * b + 4.0 * total() * c);
     return b >= 0 ? 2.0 * c / (b + root) : (root - b) / (2.0 * total());
   }
-  /// Derivative of the stretch by the upper tension `t`. mm/N
+  /// Derivative of the stretch by the upper tension `t`: dX/dt = Lu k/(k + t)² + r Ll k/(rk + t)². mm/N
   double slope(double t) const {
     const double k = spans.EA;
     const double u = k / (k + t);
     const double l = k / (ratio * k + t);
     return spans.upper_length * u * u / k + ratio * spans.lower_length * l * l / k;
   }
-  /// Derivatives of the upper tension by the upper length and by the ratio.
+  /// Derivatives of the upper tension by the upper length, N/mm, and by the ratio, N, from the total differential of X.
   double per_length(double t) const { return (1.0 - t / (spans.EA + t)) / slope(t); }
   double per_ratio(double t) const {
     const double below = ratio * spans.EA + t;

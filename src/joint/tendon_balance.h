@@ -7,7 +7,8 @@
 
 namespace fusee::joint {
 
-/// Both spans of a tendon: path lengths and unstretched material, mm. A span of length L with material n has the tension EA (L/n − 1), or is slack.
+/// Both spans of a tendon: path lengths and unstretched material, mm. A span of length L with material n has the
+/// tension EA (L/n − 1), or is slack.
 struct Spans {
   double upper_length = 0;
   double upper_material = 0;
@@ -24,12 +25,12 @@ inline double tension_of(double EA, double length, double material) {
 
 /// Tensions of both spans, and the material that crosses the pin.
 struct TendonBalance {
-  double upper = 0;  ///< tensions, N
-  double lower = 0;
+  double upper = 0;    ///< tension of the upper span, N
+  double lower = 0;    ///< tension of the lower span, N
   double crossed = 0;  ///< material that crossed the pin upwards, mm
   PinContact contact = PinContact::stick;
-  double per_length = 0;   ///< d upper / d upper_length while sticking or sliding as now
-  double per_capstan = 0;  ///< d upper / d ln(capstan)
+  double per_length = 0;   ///< d upper / d upper_length while sticking or sliding as now, N/mm
+  double per_capstan = 0;  ///< d upper / d ln(capstan), N
 };
 
 TendonBalance balance(const Spans& spans);

@@ -12,9 +12,10 @@ constexpr std::size_t k_bends = ThreadedSpans::k_bends;
 constexpr std::size_t k_spans = k_bends + 1;
 using Slides = std::array<int, k_bends>;
 
-/// The set of sliding bends is found by trial. Few sets are tried, since sliding spreads through the sheath from one end.
-/// Only rounding can make a set recur, which the limit ends.
+/// The set of sliding bends is found by trial. Few sets are tried, since sliding spreads through the sheath from one
+/// end. Only rounding can make a set recur, which the limit ends.
 constexpr int k_most_trials = 64;
+/// Limit of the Newton steps for one tension.
 constexpr int k_most_steps = 60;
 /// Relative Newton step that ends the search: convergence is quadratic, so the error left is rounding.
 constexpr double k_last_relative_step = 1e-7;
@@ -119,7 +120,7 @@ ThreadedBalance balance_of(const ThreadedSpans& spans, const Slides& slides) {
   return now;
 }
 
-/// Lets bends slide that exceed their friction. False if there are none.
+/// Lets those bends slide at which the ratio of tensions exceeds what friction sustains. False if there are none.
 bool let_slide(const ThreadedSpans& spans, const ThreadedBalance& now, Slides& slides) {
   bool any = false;
   for (std::size_t j = 0; j < k_bends; ++j) {

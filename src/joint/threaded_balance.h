@@ -22,7 +22,7 @@ struct ThreadedSpans {
   std::array<double, k_bends + 1> length{};
   std::array<double, k_bends + 1> material{};
   std::array<double, k_bends> holds{};
-  double EA = 0;
+  double EA = 0;  ///< axial stiffness, N
 };
 
 /// Tensions of all spans, and the material that passes each bend.

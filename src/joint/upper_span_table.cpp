@@ -34,8 +34,8 @@ double slope_at(const std::array<double, 6>& c, double u) {
   return c[1] + u * (2.0 * c[2] + u * (3.0 * c[3] + u * (4.0 * c[4] + u * 5.0 * c[5])));
 }
 
-/// The tabulated quantities of a span at a node, in units of the interval. Knot::length has −m as its slope.
-struct Knot {
+/// The tabulated quantities of a span at a node, in units of the interval. Node::length has −m as its slope.
+struct Node {
   End length, m, normal;
 };
 
@@ -48,7 +48,7 @@ transmission::UpperSpan made_longer(transmission::UpperSpan span, double theta, 
   return span;
 }
 
-Knot knot_at(const transmission::PinPlace& place, double theta, double h, const PathError& longer) {
+Node node_at(const transmission::PinPlace& place, double theta, double h, const PathError& longer) {
   const transmission::UpperSpan span = made_longer(transmission::upper_span(place, theta), theta, longer);
   return {{span.length, -h * span.m, -h * h * span.dm},
           {span.m, h * span.dm, h * h * span.d2m},
@@ -81,9 +81,9 @@ UpperSpanTable::Pieces UpperSpanTable::pieces(const transmission::PinPlace& plac
   all.least = least;
   all.step = (most - least) / k_intervals;
   all.curves.reserve(k_intervals);
-  Knot from = knot_at(place, least, all.step, longer);
+  Node from = node_at(place, least, all.step, longer);
   for (std::size_t i = 1; i <= k_intervals; ++i) {
-    const Knot to = knot_at(place, least + all.step * static_cast<double>(i), all.step, longer);
+    const Node to = node_at(place, least + all.step * static_cast<double>(i), all.step, longer);
     all.curves.push_back({quintic(from.length, to.length), quintic(from.m, to.m), quintic(from.normal, to.normal)});
     from = to;
   }

@@ -43,8 +43,8 @@ class UpperSpanTable {
   };
   static Pieces pieces(const transmission::PinPlace& place, double least, double most, const PathError& longer);
 
-  double on_drum_until_ = -std::numeric_limits<double>::infinity();  ///< rad; the table begins there
-  double on_drum_from_ = 0;
+  double on_drum_until_ = -std::numeric_limits<double>::infinity();  ///< rad; from there on, `free_` holds
+  double on_drum_from_ = 0;          ///< lower end of the table if the tendon lies on the drum there, rad
   transmission::UpperSpan on_drum_;  ///< at on_drum_from_
   double wound_up_ = 0;              ///< sum of wrap on the drum, normal and θ; constant while on the drum, rad
   Pieces over_drum_;                 ///< for an eccentric drum only

@@ -74,7 +74,8 @@ SlidContent slid_content(const GrooveArc& groove, const GroovePlace& from, const
     const double origin = groove.arc(to.turn) - arc;
     const double width = turn / panels;
     const double half_fall = elementary::exp(0.5 * fall * width);
-    // q at the nodes of the first panel. One exponential serves all panels, as q has the same ratio from panel to panel.
+    // q at the nodes of the first panel. One exponential serves all panels, as q has the same ratio from panel to
+    // panel.
     const auto [ahead, behind] = exp_of_both_signs(0.5 * fall * width * k_gauss[2][0]);
     const std::array<double, 3> q_at_nodes{half_fall * behind, half_fall, half_fall * ahead};
     double material = 0, energy = 0, length = 0;
@@ -130,8 +131,8 @@ WoundPiece part_below(const GrooveArc& groove, WoundPiece piece, const GroovePla
 /// The capstan bound on the strain. Its logarithm is linear in the turn.
 struct Bound {
   double turn = 0;        ///< turn of its upper end
-  double log_strain = 0;  ///< there
-  double fall = 0;        ///< increase of the logarithm per rad towards the knot
+  double log_strain = 0;  ///< logarithm of the bound at `turn`
+  double fall = 0;        ///< increase of that logarithm per rad towards the knot
   bool pulls = true;      ///< true: a higher strain pulls the tendon out; false: a lower one lets it slip back
 
   /// Logarithm of bound / stored strain at the turn `at`; `log_stored`: logarithm of the stored strain. Positive if the
@@ -172,16 +173,16 @@ GrooveArc::GrooveArc(std::vector<GroovePlace> along, double knot_beyond) {
       const double left = along[i].turn - along[i - 1].turn, right = along[i + 1].turn - along[i].turn;
       node_slope = (slope(i - 1) * right + slope(i) * left) / (left + right);
     }
-    knots_.push_back({along[i].turn, along[i].arc, node_slope, 0, 0});
+    nodes_.push_back({along[i].turn, along[i].arc, node_slope, 0, 0});
   }
   for (std::size_t i = 0; i < last; ++i) {
     const double h = along[i + 1].turn - along[i].turn;
-    const double from = knots_[i].slope - slope(i), to = knots_[i + 1].slope - slope(i);
-    knots_[i].bend = -(2.0 * from + to) / h;
-    knots_[i].twist = (from + to) / (h * h);
+    const double from = nodes_[i].slope - slope(i), to = nodes_[i + 1].slope - slope(i);
+    nodes_[i].bend = -(2.0 * from + to) / h;
+    nodes_[i].twist = (from + to) / (h * h);
   }
-  per_turn_ = static_cast<double>(last) / (knots_.back().turn - knots_.front().turn);
-  knot_ = {knots_.front().turn - knot_beyond / knots_.front().slope, knots_.front().arc - knot_beyond};
+  per_turn_ = static_cast<double>(last) / (nodes_.back().turn - nodes_.front().turn);
+  knot_ = {nodes_.front().turn - knot_beyond / nodes_.front().slope, nodes_.front().arc - knot_beyond};
 }
 
 // The straight part between drum and knot has the strain at the drum's end. slid_content() starts at the knot's arc, so
@@ -193,15 +194,15 @@ GrooveArc GrooveArc::round(double radius, double behind) {
 }
 
 double GrooveArc::arc(double turn) const {
-  const Knot& first = knots_.front();
-  const Knot& last = knots_.back();
+  const Node& first = nodes_.front();
+  const Node& last = nodes_.back();
   if (turn <= first.turn) return first.arc + (turn - first.turn) * first.slope;
   if (turn >= last.turn) return last.arc + (turn - last.turn) * last.slope;
   // The nodes are nearly equidistant.
-  std::size_t i = std::min(static_cast<std::size_t>((turn - first.turn) * per_turn_), knots_.size() - 2);
-  while (knots_[i].turn > turn) --i;
-  while (knots_[i + 1].turn < turn) ++i;
-  const Knot& from = knots_[i];
+  std::size_t i = std::min(static_cast<std::size_t>((turn - first.turn) * per_turn_), nodes_.size() - 2);
+  while (nodes_[i].turn > turn) --i;
+  while (nodes_[i + 1].turn < turn) ++i;
+  const Node& from = nodes_[i];
   const double h = turn - from.turn;
   return from.arc + h * (from.slope + h * (from.bend + h * from.twist));
 }

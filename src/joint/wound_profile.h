@@ -2,8 +2,9 @@
 /// The tendon on a pulley, from its knot to the take-off: the material (unstretched length) that it holds, and its
 /// sliding in the groove.
 ///
-/// Capstan law [7] along the whole wrap, with memory: an element at the wrap φ behind the take-off has a tension
-/// between T e^(−μφ) and T e^(μφ), and keeps its own within these bounds. Strains are tensions / EA.
+/// Capstan law, [7] in transmission/equations.h, along the whole wrap, with memory: an element at the wrap φ behind the
+/// take-off has a tension between T e^(−μφ) and T e^(μφ), and keeps its own within these bounds. A strain is a tension
+/// over EA.
 #pragma once
 
 #include <memory>
@@ -21,7 +22,7 @@ struct GroovePlace {
 class GrooveArc {
  public:
   /// `along`: from the unwound end of the range to the wound one, strictly increasing, at least two. Beyond both ends
-  /// the groove is assumed round with the radius there.
+  /// the groove is assumed round with the radius there. `knot_beyond`: arc from the unwound end to the knot, mm.
   GrooveArc(std::vector<GroovePlace> along, double knot_beyond);
   /// A round drum of `radius`, from the turn 0. `behind`: straight length from the drum to the knot.
   static GrooveArc round(double radius, double behind);
@@ -30,11 +31,12 @@ class GrooveArc {
   const GroovePlace& knot() const { return knot_; }
 
  private:
-  struct Knot {
+  /// A node of the interpolation.
+  struct Node {
     double turn, arc, slope;
     double bend, twist;  ///< arc + h (slope + h (bend + h twist)) at h beyond the node, up to the next
   };
-  std::vector<Knot> knots_;
+  std::vector<Node> nodes_;
   double per_turn_ = 0;  ///< nodes per rad
   GroovePlace knot_;
 };
@@ -86,19 +88,19 @@ struct Slide {
   GroovePlace cut;        ///< end of the sliding part
   WoundContent sliding;   ///< content of the sliding part between the cut and TurnedPulley::before
   std::size_t below = 0;  ///< number of unchanged pieces beyond the cut
-  WoundPiece remainder;   ///< of the piece that was cut
+  WoundPiece remainder;   ///< part beyond the cut of the piece that was cut
   bool has_remainder = false;
 };
 
-/// The tendon on a pulley: last wound, first paid out, and sliding in between as far as friction permits. With the strain ε
-/// at the take-off, an element at the wrap φ behind it has a strain between ε e^{−μφ} and ε e^{μφ}, and keeps its own
-/// within these bounds.
+/// The tendon on a pulley: last wound, first paid out, and sliding in between as far as friction permits. With the
+/// strain ε at the take-off, an element at the wrap φ behind it has a strain between ε e^{−μφ} and ε e^{μφ}, and keeps
+/// its own within these bounds.
 ///
 /// `swelling`: 1 + expansion of the material since home, to which all material here refers.
 class WoundProfile {
  public:
   WoundProfile() = default;
-  /// Winds from the knot to `take_off` at `density`.
+  /// Winds from the knot to `take_off` at `density`. `friction`: coefficient μ between tendon and groove.
   WoundProfile(std::shared_ptr<const GrooveArc> groove, double friction, const GroovePlace& take_off, double density);
 
   const GroovePlace& take_off() const { return take_off_; }

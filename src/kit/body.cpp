@@ -39,7 +39,8 @@ double least_radius(const DiscHull& hull) {
       ->radius;
 }
 
-/// Least distance between any two of a slab's loops.
+/// Least distance between any two loops of a slab, from the corners of one to the edges of the other. Infinite for a
+/// single loop.
 double least_gap(const std::vector<Polygon>& loops) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < loops.size(); ++i) {
@@ -152,7 +153,7 @@ Polygon outline_of(const DiscHull& hull, double grow) {
   Polygon points;
   points.reserve(static_cast<std::size_t>(hull.corners));
   for (int i = 0; i < hull.corners; ++i) {
-    // Half a step off the axes, where two discs of a box would be equally far.
+    // Normals are half a step off the axes: along an axis two discs of a box would be equally far.
     const Vec2 normal = unit(k_two_pi * (i + 0.5) / hull.corners);
     const auto furthest = std::max_element(hull.discs.begin(), hull.discs.end(), [&](const Disc& a, const Disc& b) {
       return a.centre.dot(normal) + a.radius < b.centre.dot(normal) + b.radius;
@@ -182,8 +183,9 @@ SlabBody trimmed(const SlabBody& body, const PrintTrim& trim) {
       loop.grow_low += compensation + beyond_circle;
       loop.grow_high += compensation + beyond_circle;
     }
+    // Width of the chamfer, whose height is at most half of the slab's.
     double foot = std::min(trim.elephant_foot, 0.5 * (slab.high - slab.low) / trim.foot_slope);
-    // A thin wall gets a smaller chamfer.
+    // Chamfers of both sides of a thin wall take at most half of it.
     if (result.slabs.empty() && foot > 0) foot = std::min(foot, 0.25 * least_gap(outlines(changed, false)));
     for (const SlabLoop& loop : slab.loops) foot = std::min(foot, loop.hole ? foot : 0.9 * least_radius(loop.hull));
     if (result.slabs.empty() && foot > 0) {

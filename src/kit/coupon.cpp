@@ -1,4 +1,4 @@
-// The fit coupon: a flat piece with every fit of a kit in five steps.
+// The fit coupon: a flat part with every fit of a kit in five steps.
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +37,8 @@ SlabBody coupon_body(const Mechanism& mechanism) {
   const auto cut = [&through](DiscHull hull) { through.push_back({std::move(hull), true, 0, 0}); };
   for (int i = 0; i < k_steps; ++i) {
     const double x = column(i), more = i * k_step;
+    // Holes for the shaft, grooves for the tendon, and pegs in holes. The first hole for the shaft is nominal; the
+    // first groove and the first hole of a peg have a clearance of one step.
     cut(disc({x, 42}, 0.5 * (tried_shaft(mechanism) + more)));
     cut(slot({x, 22}, {x, 31}, 0.5 * (tried_tendon(mechanism) + more + k_step)));
     cut(disc({x, 11}, k_peg + more + k_step));

@@ -9,7 +9,8 @@
 
 namespace fusee::kit {
 
-// Clearance: ISO 273, fine (medium for M2). Tapping into plastic: 0.85 of the thread. Heads: ISO 4762. Nuts: ISO 4032.
+// In the order of Thread. Clearance: ISO 273, fine, and 0.1 mm more for M2 and M3. Tapping into plastic: 0.85 of the
+// thread. Heads: ISO 4762. Nuts: ISO 4032.
 inline constexpr std::array<Thread, 5> k_threads{{{"M2", 2, 2.3, 1.7, 1.9, 4.0, 1.6},
                                                   {"M3", 3, 3.3, 2.6, 2.75, 5.5, 2.4},
                                                   {"M4", 4, 4.3, 3.4, 3.5, 7.0, 3.2},
@@ -27,13 +28,13 @@ constexpr const std::array<Thread, 5>& threads_of(LengthUnit units) {
   return units == LengthUnit::inch ? k_inch_threads : k_threads;
 }
 
-/// The largest thread no thicker than `diameter`, or the smallest one.
+/// The thickest thread that is no thicker than `diameter`, or the thinnest of all if there is none.
 const Thread& thread_within(double diameter, LengthUnit units = LengthUnit::mm);
 /// Distance from the centre of a nut to its corner.
 double nut_corner_radius(const Thread& thread);
-/// Name with the next stock length, such as "M3 × 16" or "#4-40 × 5/8 in".
+/// Name with the shortest stock length of at least `length`, mm: "M3 × 16" or "#4-40 × 5/8 in".
 std::string screw_words(const Thread& thread, double length);
-/// The next stock length, mm.
+/// The shortest metric stock length of at least `length`, mm.
 double stock_length(double length);
 
 }  // namespace fusee::kit

@@ -13,6 +13,7 @@
 namespace fusee::kit {
 namespace {
 
+/// The screw of a motor, M1.6 for holes thinner than all threads of the kit.
 std::string motor_screw(const fusee::MotorType& motor, double length) {
   if (motor.hole < k_threads.front().diameter) return "M1.6 × " + rounded(stock_length(length));
   return screw_words(thread_within(motor.hole), length);
@@ -44,11 +45,13 @@ Vec2 motor_front(const Vec2& pulley) { return {0, pulley.y() > 0 ? -1.0 : 1.0}; 
 std::vector<SlabLoop> motor_holes(const fusee::MotorType& motor, const Vec2& pulley, const Vec2& front) {
   std::vector<SlabLoop> holes;
   const auto through = [&holes](DiscHull hull) { holes.push_back({std::move(hull), true, 0, 0}); };
+  constexpr double k_around_pilot = 0.5;  // clearance in diameter, mm
+  constexpr double k_around_motor = 0.3;  // clearance on each side, mm
   if (motor.pilot > 0) {
-    through(disc(pulley, 0.5 * (motor.pilot + 0.5)));
+    through(disc(pulley, 0.5 * (motor.pilot + k_around_pilot)));
   } else {
-    const Vec2 a = pulley + (motor.front + 0.3) * front, b = pulley - (motor.back + 0.3) * front;
-    const double side = motor.side + 0.3;
+    const Vec2 a = pulley + (motor.front + k_around_motor) * front, b = pulley - (motor.back + k_around_motor) * front;
+    const double side = motor.side + k_around_motor;
     through(box({-side, std::min(a.y(), b.y())}, {side, std::max(a.y(), b.y())}));
   }
   for (const double x : {-motor.hole_x, motor.hole_x}) {
@@ -58,6 +61,7 @@ std::vector<SlabLoop> motor_holes(const fusee::MotorType& motor, const Vec2& pul
   return holes;
 }
 
+// A screw's head is taken to be as wide as two of its holes.
 double distance_to_motor(const fusee::MotorType& motor, const Vec2& from_axis, const Vec2& front) {
   const double along = from_axis.dot(front);
   return std::max({std::abs(from_axis.x()) - std::max(motor.side, motor.hole_x + motor.hole),
@@ -66,14 +70,18 @@ double distance_to_motor(const fusee::MotorType& motor, const Vec2& from_axis, c
 }
 
 std::vector<Disc> motor_corners(const fusee::MotorType& motor, const Vec2& pulley, const Vec2& front) {
+  constexpr double k_beyond_hole = 4;  // width of the plate beyond a screw's hole, mm
+  const double to_front = std::max(motor.front, motor.hole_front + k_beyond_hole);
+  const double to_back = std::max(motor.back, motor.hole_back + k_beyond_hole);
   std::vector<Disc> corners;
   for (const double x : {-1.0, 1.0}) {
-    for (const double along : {std::max(motor.front, motor.hole_front + 4), -std::max(motor.back, motor.hole_back + 4)})
+    for (const double along : {to_front, -to_back})
       corners.push_back({pulley + Vec2(x * motor.side, 0) + along * front, 0});
   }
   return corners;
 }
 
+// Screws reach 4 mm into the motor. Those of a motor with a horn reach through its flange and a nut, 8 mm for both.
 void buy_motor(KitPlan& plan, const fusee::MotorType& motor, double plate) {
   plan.items.push_back({1, motor.name + ": " + motor.description, "drives the pulley; assumed: " + motor.source});
   if (motor.shaft > 0)

@@ -10,7 +10,7 @@ namespace fusee::kit {
 
 /// The first motor of the catalogue with the mechanism's shaft or horn; null if there is none.
 const fusee::MotorType* motor_for(const Mechanism& mechanism, const solid::BodyLayout& layout);
-/// Direction of the motor's front, towards the joint.
+/// Direction of the motor's front, along y towards the joint. `pulley`: position of the pulley's axis.
 Vec2 motor_front(const Vec2& pulley);
 /// Holes through the plate. `pulley`: position of the pulley's axis.
 std::vector<SlabLoop> motor_holes(const fusee::MotorType& motor, const Vec2& pulley, const Vec2& front);

@@ -56,12 +56,13 @@ DiscHull link_hull(const KitSizes& sizes, double R) {
   return hull_of(discs, 144);
 }
 
-/// The scale is on the far side of the axis, under the link's pointer.
+/// Outline of the scale, with its feet. The lines are on the far side of the axis from C, under the link's pointer.
 DiscHull scale_hull(const KitPlan& plan, const Joint& joint) {
   const KitSizes& sizes = plan.sizes;
   std::vector<Disc> discs{{{0, 0}, sizes.axle_tube + 3}};
   for (const Vec2& foot : plan.feet) discs.push_back({foot, 0.5 * sizes.foot->clearance + 3});
-  const double more = std::max(radians(8), 7 / (sizes.pointer + 7));  // half the width of a number
+  // Angle beyond the range, rad, with space for half of a number: 7 mm at the radius of the numbers.
+  const double more = std::max(radians(8), 7 / (sizes.pointer + 7));
   const double from = joint.theta_min - more, to = joint.theta_max + more;
   const int steps = static_cast<int>(std::ceil(degrees(to - from) / 5));
   for (int i = 0; i <= steps; ++i)
@@ -199,7 +200,7 @@ class PartMaker {
     std::vector<DiscHull> lines;
     const double step = sizes_.graduation, tip = sizes_.pointer;
     int numbered = 10;
-    while (radians(numbered) * (tip + 7) < 11) numbered += 10;
+    while (radians(numbered) * (tip + 7) < 11) numbered += 10;  // at least 11 mm between numbers
     const int first = static_cast<int>(std::ceil(mechanism_.joint.theta_min / step - 1e-6)) - 1;
     const int last = static_cast<int>(std::floor(mechanism_.joint.theta_max / step + 1e-6)) + 1;
     for (int i = first; i <= last; ++i) {
@@ -246,14 +247,15 @@ class PartMaker {
   double ledge_hole() const {
     return sizes_.bearing->outer - std::min(2.0, 0.5 * (sizes_.bearing->outer - sizes_.bearing->spacer));
   }
-  double slide_start() const { return mechanism_.joint.R + sizes_.post + 2.5; }
+  /// y of the slide's end towards C, at home.
+  double slide_start() const { return mechanism_.joint.R + sizes_.post + k_post_to_slide; }
 
   /// The post hangs down from its flange and is printed standing on it.
   void add_post() {
     const Thread& small = *sizes_.small;
     const double top = sizes_.link_low + sizes_.link + sizes_.flange;
     const double cone = sizes_.post - sizes_.waist, chamfer_height = 0.4;
-    // Heights as it is printed, from the top of its flange.
+    // Heights in print orientation, upside down, from the top of the flange.
     const double waist_begin = top - sizes_.z_tendon2 - 0.5 * sizes_.tendon_gap,
                  waist_end = waist_begin + sizes_.tendon_gap;
     const double end = top - sizes_.post_low;
@@ -344,7 +346,7 @@ class PartMaker {
         const Vec2 place(x * board.pitch.x(), y * board.pitch.y());
         shape.push_back({place, 0.5 * board.hole + 2});
         plate.loops.push_back(round_hole(place, board.hole));
-        spacers.push_back(fixed_at(place, sizes_.bracket_low - 3));
+        spacers.push_back(fixed_at(place, sizes_.bracket_low - k_board_spacer));
       }
     }
     for (const Vec2& foot : plan_.feet) {
@@ -352,13 +354,14 @@ class PartMaker {
       plate.loops.push_back(round_hole(foot, sizes_.foot->clearance));
     }
     plate.loops.push_back(edge(hull_of(shape)));
-    add_printed("board_spacer", "spacer between bracket and board", tube(0.5 * board.hole + k_wall, board.hole, 3),
-                spacers, 4);
+    add_printed("board_spacer", "spacer between bracket and board",
+                tube(0.5 * board.hole + k_wall, board.hole, k_board_spacer), spacers, 4);
     add_plate("bracket", "bracket: the board hangs under it, chip down", {{plate}},
               {fixed_at({0, 0}, sizes_.bracket_low)});
     buy(1, board.name + ": " + board.description, "reads the joint's angle; assumed: " + board.source);
     buy(4,
-        screw_words(thread_within(board.hole, mechanism_.units), sizes_.bracket + 3 + board.thickness + 4) +
+        screw_words(thread_within(board.hole, mechanism_.units),
+                    sizes_.bracket + k_board_spacer + board.thickness + 4) +
             " with nuts",
         "board, under the bracket");
   }
@@ -366,6 +369,7 @@ class PartMaker {
   void set_tendon_lengths() {
     const Thread& small = *sizes_.small;
     const double top = sizes_.link_low + sizes_.link + sizes_.flange;
+    // Tendon 1 is wound three times round the clamping screw, tendon 2 once round the post's waist.
     plan_.tendons[0] = {transmission::Side::left,
                         top - sizes_.post_low + slide_start() - mechanism_.joint.R + 0.5 * slide_lengths(small).clamp,
                         3 * k_pi * small.diameter};
@@ -394,9 +398,11 @@ double tensioner_axis(const Thread& thread) { return 2.3 + nut_corner_radius(thr
 double tensioner_height(const Thread& thread) { return tensioner_axis(thread) + thread.head_radius; }
 
 std::vector<DiscHull> number_strokes(int number, const Vec2& middle, const Vec2& up) {
-  // Seven strokes a digit: top, upper left, upper right, middle, lower left, lower right, bottom.
+  // Seven strokes a digit, from the highest bit on: top, upper left, upper right, middle, lower left, lower right,
+  // bottom.
   constexpr std::array<unsigned, 10> k_digits{0b1110111, 0b0010010, 0b1011101, 0b1011011, 0b0111010,
                                               0b1101011, 0b1101111, 0b1010010, 0b1111111, 0b1111011};
+  // mm. Strokes end at k_short from the corners of the digit and from the middle stroke, so that they do not touch.
   constexpr double k_half_width = 0.9, k_half_height = 1.8, k_short = 0.65, k_digit_pitch = 3.0, k_radius = 0.3;
   const double w = k_half_width - k_short, x = k_half_width, y = k_half_height;
   const std::array<std::pair<Vec2, Vec2>, 7> strokes{{{{-w, y}, {w, y}},

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: builds bodies from places and sizes. mm
+/// Internal: builds the bodies of the rig's parts from their places and sizes. mm
 #pragma once
 
 #include <optional>
@@ -12,9 +12,13 @@ namespace fusee::kit {
 inline constexpr double k_leg_radius = 5;
 inline constexpr double k_wall = 1.2;  ///< three lines of a 0.4 mm nozzle
 inline constexpr double k_collar_height = 2.5;
-inline constexpr double k_scale_reach = 10;  ///< distance from the pointer's tip to the edge of the scale
+inline constexpr double k_layer_gap = 1.5;      ///< between parts that move over each other, in height
+inline constexpr double k_board_spacer = 3;     ///< height of the spacers between bracket and board
+inline constexpr double k_post_to_slide = 2.5;  ///< distance of the tensioner's slide from the post at C
+inline constexpr double k_scale_reach = 10;     ///< distance of the scale's outer edge beyond the pointer's tip
 
-/// Lengths along the tensioner's slide, from C outwards: below the clamping screw, a wall, the nut, a wall.
+/// Lengths along the tensioner's slide, in the direction from C to the link's end: the seat of the clamping screw, a
+/// wall, the slot of the nut, a wall. mm
 struct SlideLengths {
   double clamp, back, nut, front;
   double whole() const { return clamp + back + nut + front; }
@@ -38,7 +42,8 @@ void make_parts(KitPlan& plan, const Mechanism& mechanism, const solid::BodyLayo
 KitPlan plan_template(const Mechanism& mechanism, const solid::BodyLayout& layout,
                       const std::optional<TendonHeights>& heights);
 
-/// Strokes of a number such as "-20" for engraving, which do not touch. `up`: height and direction of the digits.
+/// Strokes of a number such as "-20" for engraving, which do not touch. `up`: unit vector towards the top of the
+/// digits.
 std::vector<DiscHull> number_strokes(int number, const Vec2& middle, const Vec2& up);
 
 }  // namespace fusee::kit

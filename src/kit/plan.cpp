@@ -16,12 +16,12 @@ namespace fusee::kit {
 namespace {
 
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
-constexpr double k_clear = 0.5;  // clearance of moving parts: a desktop printer is accurate to 0.2 mm
-constexpr int k_places = 49;     // number of places of the stroke at which distances are checked
+constexpr double k_clear = 0.5;  // clearance of moving parts, mm: a desktop printer is accurate to 0.2 mm
+constexpr int k_places = 49;     // number of joint positions at which distances are checked
 
 /// True for commercial rod diameters of either unit, mm.
 bool is_stock_rod(double diameter) {
-  constexpr double k_thickest = 12.72, k_tolerance = 0.025;
+  constexpr double k_thickest = 12.72, k_tolerance = 0.025;  // mm; the thickest rod is half an inch, 12.7 mm
   if (diameter > k_thickest) return false;
   for (const LengthUnit units : {LengthUnit::mm, LengthUnit::inch}) {
     if (std::abs(stock_rod(diameter - k_tolerance, units) - diameter) < k_tolerance + 1e-9) return true;
@@ -29,7 +29,7 @@ bool is_stock_rod(double diameter) {
   return false;
 }
 
-/// Distance outside a convex polygon, negative inside; a lower bound near corners.
+/// Distance of a point outside a convex polygon, negative inside. Beyond a corner it is a lower bound.
 double distance_outside(const Polygon& convex, const Vec2& point) {
   double most = -k_infinite;
   for (std::size_t i = 0; i < convex.size(); ++i) {
@@ -61,7 +61,7 @@ std::vector<Vec2> tendon_path(const Mechanism& mechanism, const transmission::Tr
 /// Positions and tendon paths of the mechanism, computed once.
 struct Scene {
   const Mechanism& mechanism;
-  Vec2 pulley;               ///< its axis
+  Vec2 pulley;               ///< the pulley's axis
   std::array<Vec2, 2> pins;  ///< B and D
   std::vector<transmission::TransmissionPoint> stroke;
   std::array<std::vector<std::vector<Vec2>>, 2> paths;  ///< of tendons 1 and 2, at each place of the stroke
@@ -134,8 +134,9 @@ KitPin pin_of(const KitSizes& sizes, const Scene& scene, transmission::Side side
   const double height = side == transmission::Side::left ? sizes.z_tendon1 : sizes.z_tendon2;
   pin.gap_low = height - 0.5 * sizes.tendon_gap;
   pin.gap_high = height + 0.5 * sizes.tendon_gap;
+  constexpr double k_thinnest_screw = 2.8;  // mm: M3 or #4
   for (const Thread& thread : threads_of(scene.mechanism.units)) {
-    if (thread.diameter >= 2.8 && thread.clearance + 2 * k_wall <= 2 * guides.radius) pin.screw = &thread;
+    if (thread.diameter >= k_thinnest_screw && thread.clearance + 2 * k_wall <= 2 * guides.radius) pin.screw = &thread;
   }
   const double inner = pin.screw ? 0.5 * pin.screw->clearance : guides.radius + 0.1;
   pin.collar = std::max(guides.radius + std::max(scene.mechanism.tendon.diameter, 0.8), inner + k_wall);
@@ -149,10 +150,10 @@ void size_link(KitSizes& sizes, const Scene& scene, double pins_top) {
   const double R = mechanism.joint.R, d = mechanism.tendon.diameter;
   const fusee::BearingType& bearing = *sizes.bearing;
   const Thread &small = *sizes.small, &cap_screw = *sizes.cap_screw;
-  sizes.scale_low = std::max(pins_top, sizes.pulley_high) + 1.5;
+  sizes.scale_low = std::max(pins_top, sizes.pulley_high) + k_layer_gap;
   sizes.scale_plate = 3;
   sizes.ledge = k_wall;
-  sizes.link_low = sizes.scale_low + sizes.scale_plate + 1.5;
+  sizes.link_low = sizes.scale_low + sizes.scale_plate + k_layer_gap;
   sizes.link = sizes.ledge + 2 * bearing.width;
   sizes.recess = std::max(nut_corner_radius(*sizes.axle), 0.5 * sizes.board->magnet) + 0.6;
   sizes.cap_screws = std::max(0.5 * bearing.outer, sizes.recess) + 0.5 * cap_screw.clearance + 0.9;
@@ -169,7 +170,7 @@ void size_link(KitSizes& sizes, const Scene& scene, double pins_top) {
   sizes.slide_width = 2 * nut_corner_radius(small) + 4;
   sizes.slide = slide_lengths(small).whole();
   sizes.travel = std::clamp(0.03 * scene.longest, 5.0, 15.0);
-  sizes.link_end = R + sizes.post + 2.5 + sizes.slide + sizes.travel + 5;
+  sizes.link_end = R + sizes.post + k_post_to_slide + sizes.slide + sizes.travel + 5;
   sizes.pointer = std::clamp(0.45 * R, 16.0, 45.0);
   for (const double step : {1.0, 2.0, 5.0, 10.0}) {
     sizes.graduation = radians(step);
@@ -177,7 +178,7 @@ void size_link(KitSizes& sizes, const Scene& scene, double pins_top) {
   }
   const double magnet = sizes.link_low + sizes.link + sizes.cap_height;
   const fusee::BoardType& board = *sizes.board;
-  sizes.bracket_low = magnet + board.gap + board.chip + board.thickness + 3;
+  sizes.bracket_low = magnet + board.gap + board.chip + board.thickness + k_board_spacer;
   sizes.bracket = 4;
   sizes.leg = (sizes.motor ? sizes.motor->depth : 20) + 5;
   sizes.motor_front = motor_front(scene.pulley);
@@ -348,6 +349,7 @@ class FootPlaces {
     // Radius around the place that must be free.
     const double own = foot_radius(sizes) + k_clear + 0.3;
     if (on_scale(place, own)) return false;
+    // The board's corners lie on a circle about the joint's axis.
     if (place.norm() < 0.5 * sizes.board->size.norm() + own + 1) return false;
     if ((place - scene_.pulley).norm() < sizes.pulley_radius + own) return false;
     for (const KitPin& pin : plan_.pins) {
@@ -382,7 +384,7 @@ class FootPlaces {
 std::optional<Vec2> foot_on(const FootPlaces& places, double side, double reach) {
   for (double radius = 8; radius < reach; radius += 1) {
     for (int step = 0; step < 21; ++step) {
-      // Starts straight to the side and alternates below and above.
+      // Begins straight to the side, then alternates below, in steps of 5°, and above, in steps of 2°.
       const double angle = radians(step % 2 ? -5.0 * ((step + 1) / 2) : 2.0 * (step / 2));
       const Vec2 place = radius * Vec2(side * elementary::cos(angle), elementary::sin(angle));
       if (places.is_free(place)) return place;
@@ -396,7 +398,8 @@ std::optional<Vec2> foot_on(const FootPlaces& places, double side, double reach)
 /// All features on or under the base plate, with their radii.
 std::vector<Disc> base_features(const Scene& scene, const KitPlan& plan) {
   const KitSizes& sizes = plan.sizes;
-  std::vector<Disc> all{{{0, 0}, sizes.axle_tube}, {scene.pulley, 8}};
+  constexpr double k_around_shaft = 8;  // of the plate, mm
+  std::vector<Disc> all{{{0, 0}, sizes.axle_tube}, {scene.pulley, k_around_shaft}};
   for (const KitPin& pin : plan.pins) all.push_back({pin.place, pin.collar});
   for (const Vec2& foot : plan.feet) all.push_back({foot, nut_corner_radius(*sizes.foot) + 1});
   if (sizes.motor) {
@@ -418,7 +421,7 @@ void place_legs(const Scene& scene, KitPlan& plan) {
   plan.legs = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
 }
 
-/// The rig with this bearing, without its parts.
+/// The plan of a rig with this bearing: sizes, places and conditions, but no parts yet.
 KitPlan plan_with_bearing(const Scene& scene, const profile::SynthesisResult& synthesis,
                           const solid::BodyLayout& layout, const fusee::BearingType& bearing) {
   KitPlan plan;
@@ -497,7 +500,7 @@ KitPlan plan_kit(const Mechanism& mechanism, const profile::SynthesisResult& syn
   const std::vector<fusee::BearingType>& all = bearing_types();
   KitPlan plan;
   for (const fusee::BearingType& bearing : all) {
-    // Bearings wider than a third of R are avoided, except the smallest.
+    // The catalogue begins with the largest bearing. Bearings wider than a third of R are avoided, except the smallest.
     if (bearing.outer > mechanism.joint.R / 3 && &bearing != &all.back()) continue;
     plan = plan_with_bearing(scene, synthesis, layout, bearing);
     if (plan.made()) break;

@@ -32,7 +32,7 @@ struct NamedHole {
   double radius = 0;
 };
 
-/// Adds a hole unless one is at its place already, because both tendons may end in one hole.
+/// Adds a hole unless its place already has one: both tendons may end in one hole.
 void add_hole(std::vector<NamedHole>& holes, const NamedHole& hole) {
   const auto same = [&hole](const NamedHole& other) { return (other.place - hole.place).norm() < 1e-6; };
   if (std::none_of(holes.begin(), holes.end(), same)) holes.push_back(hole);
@@ -160,15 +160,15 @@ class TemplateMaker {
     }
     const Vec2 pulley = transmission::pin_place(mechanism_, transmission::Side::left, 0).pulley_axis();
     const fusee::MotorType* motor = motor_that_fits(holes, pulley);
-    std::vector<Disc> more;
-    if (motor) more = motor_corners(*motor, pulley, motor_front(pulley));
-    for (Disc& corner : more) corner.radius = 1;
+    std::vector<Disc> above_motor;  // corners of the part of the plate that carries the motor
+    if (motor) above_motor = motor_corners(*motor, pulley, motor_front(pulley));
+    for (Disc& corner : above_motor) corner.radius = 1;
     // Radius of the hole for the pulley's axis.
     const double axis_hole = mechanism_.body.bore == Bore::horn ? 0.5 * horn_of(mechanism_).bolt_circle + 5
                                                                 : 0.5 * shaft_of(mechanism_, layout_) + 0.5;
     if (!motor) holes.push_back({"pulley_axis", pulley, axis_hole});
     check_distances(plan_, holes);
-    SlabBody plate = plate_of(holes, more);
+    SlabBody plate = plate_of(holes, above_motor);
     if (motor) {
       for (SlabLoop& loop : motor_holes(*motor, pulley, motor_front(pulley)))
         plate.slabs.front().loops.push_back(std::move(loop));

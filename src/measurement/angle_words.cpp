@@ -50,7 +50,8 @@ constexpr std::array<std::string_view, 66> k_other_words = {
     "tiempo",   "strom",   "spannung",  "drehmoment", "geschwindigkeit",
     "datum"};
 
-/// The letter without its accent, for the letters of Latin-1 in UTF-8, where `second` follows 0xC3; else a blank.
+/// The letter without its accent, for U+00C0 … U+00FF in UTF-8: there, `second` follows 0xC3 and begins at 0x80. A
+/// blank for × and ÷.
 char without_accent(char second) {
   constexpr std::string_view k_letters = "aaaaaaaceeeeiiiidnooooo ouuuuytsaaaaaaaceeeeiiiidnooooo ouuuuyty";
   const auto at = static_cast<unsigned char>(second) - 0x80U;
@@ -66,7 +67,8 @@ std::string without_accents(std::string_view name) {
   return letters;
 }
 
-/// A word ends at a character that is no letter, and before a capital that follows a small letter.
+/// Lower-case words of a name. A word ends at a character that is no letter, and before a capital that follows a small
+/// letter.
 NameWords words_in(std::string_view accented) {
   const std::string letters = without_accents(accented);
   const std::string_view name = letters;
@@ -115,7 +117,7 @@ bool is_analog_input(std::string_view name) {
 }
 
 bool is_other_quantity(std::string_view name) {
-  if (is_analog_input(name)) return false;
+  if (is_analog_input(name)) return false;  // its only word is "a", which is also the unit ampere
   return name.empty() || has_one_of(words_in(name), k_other_words) ||
          parse_column_name(name, Quantity::load).unit != nullptr ||
          parse_column_name(name, Quantity::temperature).unit != nullptr;

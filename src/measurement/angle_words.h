@@ -36,8 +36,8 @@ struct AnglePair {
 /// other quantities ("motor_current") and of commands ("setpoint"), except for the command of a servo without a sensor.
 AnglePair choose_table_angles(const std::vector<std::string>& names, AnglePair given);
 
-/// The likeliest columns, to be suggested in a message; also where the choice is not obvious. Columns in `given` are
-/// kept.
+/// The likeliest column of each angle, to be suggested in a message. Unlike choose_table_angles(), this takes the first
+/// of several candidates. Columns in `given` are kept.
 AnglePair likely_table_angles(const std::vector<std::string>& names, AnglePair given);
 
 }  // namespace fusee::measurement

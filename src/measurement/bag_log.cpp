@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::size_t k_most_topics = 10000;
 constexpr std::size_t k_longest_topic = 1000;  // bytes
-/// 256 MB, at 32 bytes a point.
+/// 256 MiB, at 32 bytes a point.
 constexpr std::size_t k_most_points = std::size_t{1} << 23;
-/// ns; differences of times stay within 64 bits.
+/// ns. Larger times are clamped to it, so that differences of two times stay within 64 bits.
 constexpr std::int64_t k_latest_time = 4'000'000'000'000'000'000;
 /// Larger values are garbage. As k_largest_value of row_reader.cpp.
 constexpr double k_largest_number = 1e15;
@@ -239,7 +239,7 @@ BagLog::Clock BagLog::choose_clock(const std::vector<ChosenColumn>& chosen, std:
     if (!is_stamped || is_constant) reason = shown(each.column.name) + " has no stamps";
     if (each.column.quantity == Quantity::angle) angles.push_back(spans);
   }
-  // Stamps of one clock overlap as long as the times of arrival do.
+  // Stamps of one clock overlap for about as long as the times of arrival do.
   if (reason.empty() && angles.size() == 2 &&
       overlap(angles[0].stamps, angles[1].stamps) < 0.5 * overlap(angles[0].log_times, angles[1].log_times))
     reason = "the stamps of motor and joint come from two clocks";

@@ -14,7 +14,7 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// True if `mark` groups three digits: "1,020" and "-12,345,678.5" with the comma.
+/// True if `mark` groups three digits: "1,020" and "-12,345,678.5" with the comma. In "0,020" it is a decimal mark.
 bool is_grouped(std::string_view text, char mark) {
   if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
   std::size_t digits = 0, groups = 0;
@@ -45,7 +45,7 @@ std::string with_point(std::string_view text, char mark) {
   return plain;
 }
 
-/// The decimal mark that a cell proves; 0 if it has none, or an ambiguous one as "1,020".
+/// The decimal mark that a cell proves; 0 if it is no number, has no mark, or an ambiguous one as "1,020".
 char decimal_mark_of(std::string_view text) {
   double value = 0;
   const std::size_t comma = text.rfind(','), point = text.rfind('.');
@@ -62,7 +62,8 @@ constexpr std::string_view k_group_marks[] = {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\
 /// Minus sign and en dash of typeset tables.
 constexpr std::string_view k_minus_signs[] = {"\xE2\x88\x92", "\xE2\x80\x93"};
 
-/// The number in plain characters; empty if it has no such mark, or marks that do not group three digits.
+/// The number without group marks and with an ASCII minus sign. Empty if `text` has no group mark and no typeset minus
+/// sign, or if its marks do not group three digits.
 std::string plain_number(std::string_view text) {
   std::string plain;
   const std::size_t size = text.size();
@@ -110,6 +111,7 @@ bool is_missing(std::string_view text) {
 
 CellContent read_number(std::string_view text, double& value) {
   value = std::numeric_limits<double>::quiet_NaN();
+  // from_chars() accepts no plus sign. In "+-1" it stays, so that this is no number.
   if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
   if (text.empty()) return CellContent::missing;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -224,7 +226,7 @@ std::optional<double> time_of_day(Scanner& scanner, bool compact) {
   if (!hour || (!has_colon && !compact)) return std::nullopt;
   const auto minute = scanner.number(2, 2);
   if (!minute || *minute > 59) return std::nullopt;
-  if (has_colon && scanner.take(".,"))
+  if (has_colon && scanner.take(".,"))  // the two numbers were minutes and seconds
     return *hour > 59 ? std::nullopt : std::optional(60 * *hour + *minute + scanner.fraction());
   if (*hour > 24) return std::nullopt;
   double second = 0;
@@ -265,8 +267,8 @@ std::optional<double> date_by_year(Scanner& scanner) {
   return 86400 * days_since_1970(static_cast<int>(*year), static_cast<int>(*month), static_cast<int>(*day));
 }
 
-/// "01.03.2025 ", "01-Mar-2025 ": s since 1970. "3/1/2025 " is 0, because day and month may be exchanged: the time of
-/// day is continued over midnight.
+/// "01.03.2025 ", "01-Mar-2025 ": s since 1970. "3/1/2025 " is 0, because day and month may be exchanged; clock.cpp
+/// then continues the time of day over midnight.
 std::optional<double> date_by_day(Scanner& scanner) {
   const auto day = scanner.number(1, 2);
   if (!day || scanner.rest().empty()) return std::nullopt;

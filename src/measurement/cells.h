@@ -18,8 +18,9 @@ CellContent read_number(std::string_view text, double& value);
 /// "1.020,5".
 class NumberReader {
  public:
-  /// Determines the decimal mark from the first row with a cell in which it is certain. If the separator is the comma,
-  /// only quoted cells can hold a comma.
+  /// Determines the decimal mark from a row; without effect once a row has determined it. The first cell with a certain
+  /// mark decides. In a row whose only marks are ambiguous ("1,020"), the comma counts as the decimal mark. If the
+  /// separator is the comma, only quoted cells can hold a comma.
   void settle_mark(const std::vector<std::string_view>& row);
   CellContent read(std::string_view text, double& value) const;
   bool has_decimal_comma() const { return mark_ == ','; }
@@ -28,8 +29,9 @@ class NumberReader {
   char mark_ = 0;  ///< 0 until a cell determines it
 };
 
-/// ISO 8601 ("2025-03-01T10:00:00.020Z", a blank for the T, a comma in the seconds, an offset) as s since 1970, or a
-/// time of day ("10:00:00.020") as s since midnight. Empty for other text.
+/// ISO 8601 ("2025-03-01T10:00:00.020Z", a blank for the T, a comma in the seconds, an offset) or "01.03.2025 10:00:00"
+/// as s since 1970; a time of day ("10:00:00.020") as s since midnight; a duration ("2 days 00:00:01.5") in s. Empty
+/// for other text.
 std::optional<double> read_time_stamp(std::string_view text);
 
 }  // namespace fusee::measurement

@@ -65,11 +65,11 @@ class ClockJoiner {
   bool join(const NoteSink& add_note) {
     if (rows_.empty()) return true;
     std::vector<double> joined(rows_.size(), time(0));
-    double shift = 0;       // from the logged clock to the continued one
-    double high = time(0);  // latest logged time since the last restart
+    double shift = 0;       // from the logged clock to the continued one, s
+    double high = time(0);  // latest logged time since the last restart or overflow
     double first = high;    // logged time at the last restart
     for (std::size_t k = 1; k < rows_.size(); ++k) {
-      const bool restarts_here = samples_[rows_[k]].after_break;  // as the log itself shows
+      const bool restarts_here = samples_[rows_[k]].after_break;  // at a repeated header
       if (!restarts_here && time(k) < high) {
         if (const double period = period_over(high, time(k)); period > 0) {
           shift += period;
@@ -117,8 +117,8 @@ class ClockJoiner {
     return one.alpha == two.alpha && one.theta == two.theta;
   }
 
-  /// Number of late rows from `k` on; 0 if they are not late. After late rows the clock continues beyond `high`, and
-  /// each of them fits between earlier rows.
+  /// Number of late rows from `k` on; 0 if they are not late. After late rows the clock continues beyond `high`. Each
+  /// late row lies in a gap between the times of nearby rows, or repeats the reading of one of them.
   std::size_t late_rows(std::size_t k, double first, double high) const {
     std::size_t end = k;
     while (end < rows_.size() && end < k + k_most_late_rows + 1 && !(time(end) > high)) ++end;
@@ -183,7 +183,7 @@ void separate_equal_times(Run& run, const NoteSink& add_note) {
     add_note("the clock stands still: time is not used");
     return drop_time(run);
   }
-  const bool is_coarse = samples.size() >= 3 * ticks.size();  // several rows share a tick
+  const bool is_coarse = samples.size() >= 3 * ticks.size();  // three or more rows share a tick on average
   const std::vector<Sample> rows = std::move(samples);
   samples.clear();
   for (std::size_t k = 0; k < ticks.size(); ++k) {

@@ -33,8 +33,8 @@ const std::vector<std::string>& words_of(const std::string& role) {
   return found == words.end() ? none : found->second;
 }
 
-/// Load and force in the languages of builders. With a unit of a load, the first kind is the joint's load. A force may
-/// be a tendon's.
+/// Load and force in the languages of builders. A column with a word of the first list and a unit of a load is taken as
+/// the joint's load. A force may be a tendon's: a word of the second list only adds a note.
 constexpr std::array<std::string_view, 7> k_load_words = {"last",   "belastung", "carga",     "carico",
                                                           "charge", "lading",    "obciążenie"};
 constexpr std::array<std::string_view, 14> k_force_words = {"force",  "kraft",  "fuerza",  "forza",  "força",
@@ -50,7 +50,7 @@ bool is_one_of(const Words& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// A column name as an shell_argument of --column, quoted if the shell requires it.
+/// A column name as an argument of --column, quoted if the shell requires it.
 std::string shell_argument(const std::string& name) {
   const bool is_plain = name.find_first_of(" '\"$\\`;&()[]{}<>|*?#!~%") == std::string::npos;
   return is_plain ? name : "\"" + name + "\"";
@@ -65,10 +65,11 @@ class ColumnFinder {
 
   Header find() {
     bool all_angles = true;
-    for (const auto& [role, usual] : column_roles()) {
+    for (const auto& [role, default_name] : column_roles()) {
       const auto given = options_.columns.find(role);
       const bool is_given = given != options_.columns.end();
-      std::optional<std::size_t> index = is_given ? index_of(to_utf8(given->second)) : usual_index(role, usual);
+      std::optional<std::size_t> index =
+          is_given ? index_of(to_utf8(given->second)) : index_of_recognised_name(role, default_name);
       if (!index && !is_given) index = ros_index(role);
       if (!index && !is_given) index = index_by_words(role);
       if (!index && !is_given && role == "load") index = load_in_other_languages();
@@ -76,7 +77,7 @@ class ColumnFinder {
       if (index) {
         add_column(role, *index, is_given);
       } else if (is_needed || is_given) {
-        report_missing(role, is_given ? to_utf8(given->second) : usual);
+        report_missing(role, is_given ? to_utf8(given->second) : default_name);
         all_angles = all_angles && !is_needed;
       }
     }
@@ -127,11 +128,12 @@ class ColumnFinder {
     return role == "alpha" ? pair.alpha : pair.theta;
   }
 
-  /// The angles that an option or a usual name determines.
+  /// The angles that an option or a recognised name determines.
   AnglePair known_angles() {
-    const auto known = [&](const char* role, const char* usual) {
+    const auto known = [&](const char* role, const char* default_name) {
       const auto given = options_.columns.find(role);
-      return given != options_.columns.end() ? index_of(to_utf8(given->second)) : usual_index(role, usual);
+      return given != options_.columns.end() ? index_of(to_utf8(given->second))
+                                             : index_of_recognised_name(role, default_name);
     };
     const Header before = header_;
     const AnglePair found{known("alpha", "alpha_deg"), known("theta", "theta_deg")};
@@ -163,9 +165,9 @@ class ColumnFinder {
     return index;
   }
 
-  /// A column with the usual name of the role, or with another recognised name in any unit.
-  std::optional<std::size_t> usual_index(const std::string& role, const std::string& usual) {
-    if (const auto index = index_of(usual)) return index;
+  /// A column with the default name of the role, or with another recognised name in any unit.
+  std::optional<std::size_t> index_of_recognised_name(const std::string& role, const std::string& default_name) {
+    if (const auto index = index_of(default_name)) return index;
     const std::vector<std::string>& words = words_of(role);
     for (std::size_t i = 0; i < names_.size(); ++i) {
       if (std::find(words.begin(), words.end(), lower(trimmed(names_[i]))) != words.end()) return i;
@@ -233,6 +235,8 @@ class ColumnFinder {
     if (column.unit != nullptr) return;
     const ColumnName name = parse_column_name(without_field(column.name), column.quantity);
     column.unit = name.unit;
+    // The angle at which an encoder is mounted is no reading of an encoder: it is in degrees unless its name states a
+    // unit.
     const bool is_mounting = column.quantity == Quantity::angle && member_of(column.role) == nullptr;
     if (is_mounting && (name.unit == nullptr || name.unit->is_counts())) column.unit = usual_unit(Quantity::angle);
     if (column.unit != nullptr) return;
@@ -281,7 +285,7 @@ class ColumnFinder {
                                    : ", and the load of the file, " + rounded(options_.tip_force, 3) + " N, is assumed";
   }
 
-  /// Lists the columns without a role, except those that no person wrote.
+  /// Lists the columns without a role, except those that a program named: of ROS, and of `fusee simulate`.
   void list_unused() {
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const bool is_expected = is_ros_name(names_[i]) || is_one_of(k_simulated_columns, names_[i]);
@@ -309,7 +313,7 @@ class ColumnFinder {
     const AnglePair likely = likely_table_angles(names_, known_angles());
     std::string options;
     bool are_all_likely = true;
-    for (const auto& [role, usual] : missing_) {
+    for (const auto& [role, default_name] : missing_) {
       const std::optional<std::size_t> index = role == "alpha" ? likely.alpha : likely.theta;
       are_all_likely = are_all_likely && index.has_value();
       options +=
@@ -387,7 +391,7 @@ class ColumnFinder {
   Header header_;
   AnglePair by_words_;                                        ///< angles chosen by words of their names
   std::set<std::size_t> noted_;                               ///< columns without a role that a note names
-  std::vector<std::pair<std::string, std::string>> missing_;  ///< angles: roles and usual names
+  std::vector<std::pair<std::string, std::string>> missing_;  ///< angles: roles and default names
 };
 
 }  // namespace

@@ -60,9 +60,9 @@ struct Header {
 Header find_columns(const std::vector<std::string>& names, const MeasurementOptions& options,
                     bool above_numbers = false);
 
-/// Determines the units that neither option nor name states, converts `samples` to s, rad, °C and N, or torques
-/// to the unit in which they are computed (Nm or Nmm), and unwraps counters of 16 and 32 bits. Returns one line about unusual units, or "". Throws InputError (`name`) for
-/// units that stay undetermined.
+/// Determines the units that neither option nor name states. Converts `samples` to s, rad, °C and N, and loads that are
+/// torques to Nm or Nmm (Unit::base). Unwraps counters of 16 and 32 bits. Returns one line about unusual units, or "".
+/// Throws InputError (`name`) for units that stay undetermined.
 std::string settle_units(std::vector<Column>& columns, std::vector<Sample>& samples, const MeasurementOptions& options,
                          const std::string& name);
 

@@ -80,7 +80,7 @@ void RecordSplitter::add(std::string_view bytes) {
     start_ += bytes;
     if (start_.size() < 3) return;
     const std::string start = std::move(start_);
-    start_ = start.substr(0, 3);
+    start_ = start.substr(0, 3);  // which detect_encoding() reads
     detect_encoding();
     start_.clear();
     const bool has_utf8_mark = start.compare(0, 3, "\xEF\xBB\xBF") == 0;
@@ -166,7 +166,7 @@ void RecordSplitter::end_line() {
   if (!in_record_) {
     first_line_ = lines_;
     if (line_.find('"') == std::string::npos || is_comment(line_) || !ends_in_quotes(line_, false)) {
-      std::swap(record_, line_);
+      std::swap(record_, line_);  // record_ was empty: the line becomes the record without a copy
       return end_record(false);
     }
     record_.clear();

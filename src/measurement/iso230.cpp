@@ -50,12 +50,13 @@ double residual_at(const Run& run, const Stroke& stroke, const std::vector<doubl
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+/// Number of positions of α at which the deviations are compared.
 constexpr int k_positions = 21;
 
 /// α of a position as a share of the range of α: evenly from 5 % to 95 %.
 double share_of(int position) { return 0.05 + 0.9 * position / (k_positions - 1); }
 
-/// `deviations[i][d][k]`, as in iso230().
+/// `deviations[i][d][k]`, rad: position i, direction d (0 up, 1 down), repeat k.
 using Deviations = std::vector<std::array<std::vector<double>, 2>>;
 
 /// Adds the mean of each dwell to the position nearest to it.

@@ -57,7 +57,7 @@ bool is_recording(const std::string& name) {
                      [&](std::string_view ending) { return name.ends_with(ending); });
 }
 
-/// Orders the parts of a recording by their numbers: bag_2 before bag_10.
+/// Orders the parts of a recording by their numbers: bag_2 before bag_10, since its name is shorter.
 bool is_before(const std::string& one, const std::string& other) {
   return one.size() != other.size() ? one.size() < other.size() : one < other;
 }

@@ -23,7 +23,7 @@ LogFormat format_of(std::string_view start);
 /// Takes one file in blocks.
 class LogFile {
  public:
-  /// With `bag`, the file is one part of a bag in several files, and no CSV text.
+  /// With `bag`, the file is one part of a bag in several files, and no CSV text. `name` must outlive this object.
   LogFile(const std::string& name, const MeasurementOptions& options, std::size_t most_samples, BagLog* bag = nullptr);
 
   void add(std::string_view block);

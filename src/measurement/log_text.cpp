@@ -53,9 +53,10 @@ std::string shown(std::string_view text) {
 }
 
 std::string quoted_list(const std::vector<std::string>& names) {
+  constexpr std::size_t k_longest_list = 300;  // bytes, before the last name
   std::string list;
   for (const std::string& name : names) {
-    if (!name.empty() && list.size() < 300) list += (list.empty() ? "" : ", ") + shown(name);
+    if (!name.empty() && list.size() < k_longest_list) list += (list.empty() ? "" : ", ") + shown(name);
   }
   return list;
 }

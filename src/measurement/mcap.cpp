@@ -82,7 +82,10 @@ void McapReader::add(std::string_view bytes) {
     std::size_t taken = 0;
     if (part_ == Part::magic) {
       taken = fill(bytes, k_mcap_magic.size());
-      if (held_.size() == k_mcap_magic.size()) part_ = Part::head, held_.clear();
+      if (held_.size() == k_mcap_magic.size()) {
+        part_ = Part::head;
+        held_.clear();
+      }
     } else if (part_ == Part::head) {
       taken = fill(bytes, k_head_size);
       if (held_.size() == k_head_size) begin_record();

@@ -13,11 +13,11 @@
 namespace fusee::measurement {
 namespace {
 
-/// Evenly spaced rows, about 500: enough to compare a long run with the declared joint.
+/// Evenly spaced rows, 500 at most: enough to compare a long run with the declared joint.
 std::vector<Sample> thinned(const Run& run) {
-  constexpr std::size_t enough = 500;
+  constexpr std::size_t most_rows = 500;
   std::vector<Sample> samples;
-  const std::size_t every = run.samples.size() / enough + 1;
+  const std::size_t every = run.samples.size() / most_rows + 1;
   for (std::size_t i = 0; i < run.samples.size(); i += every) samples.push_back(run.samples[i]);
   return samples;
 }
@@ -93,7 +93,7 @@ void remove_whole_turns(const transmission::TargetMotion& law, Measurement& meas
   }
 }
 
-/// Message about an offset too large for a sensor's zero and for any effect; "" if there is none.
+/// Message about an offset of 30° or more, too large for a sensor's zero and for any effect; "" if there is none.
 std::string wrong_zero_message(const transmission::TargetMotion& law, const Measurement& measurement) {
   if (!law.has_zero()) return {};
   for (const Run& run : measurement.runs) {
@@ -119,6 +119,7 @@ struct Slopes {
 /// True if α is constant and the load alone moves the joint: there is no slope.
 bool is_moved_by_load(const Run& run) { return run.strokes.size() == 1 && run.strokes.front().direction == 0; }
 
+/// Least squares over all runs: a common slope, and for each run an intercept of its own.
 Slopes slopes_of(const transmission::TargetMotion& law, const Measurement& measurement) {
   double products = 0, declared_products = 0, squares = 0, theta_squares = 0, count = 0;
   Slopes slopes;
@@ -170,6 +171,7 @@ std::string slope_message(const transmission::TargetMotion& law, const Slopes& s
     return "alpha moves over " + rounded(degrees(slopes.alpha_span), 3) + " deg of the declared " +
            rounded(degrees(range), 4) + ": both angles look like radians" + k_radians_advice;
   }
+  // Errors of a joint change its slope by less than a factor of 2.5.
   if (ratio > 0.4 && ratio < 2.5) return {};
   const double expected = std::abs(slopes.declared) * slopes.alpha_span;
   if (expected < 3 * slopes.scatter && std::abs(slopes.measured) * slopes.alpha_span < 3 * slopes.scatter) {
@@ -191,7 +193,8 @@ std::string slope_message(const transmission::TargetMotion& law, const Slopes& s
   return slope_text(slopes) + "this is not the declared joint, or a column has another unit";
 }
 
-/// Adds a note if α moves very little. A joint declared by a ratio has no zero and no range to compare with.
+/// Adds a note if α moves by 6.28° at most: a turn in radians, read as degrees. A joint declared by a ratio has no zero
+/// and no range to compare with.
 void note_small_range(const transmission::TargetMotion& law, const Slopes& slopes, Measurement& measurement) {
   if (law.has_zero() || slopes.declared == 0 || slopes.alpha_span > radians(k_two_pi)) return;
   measurement.notes.push_back("alpha moves over only " + rounded(degrees(slopes.alpha_span), 3) +

@@ -11,7 +11,7 @@
 // Strokes of equal direction, load and speed are repeats. The scatter of a row is (2θ − θbefore − θafter)/√6, with θ of
 // the neighbouring repeats at the same α; a steady drift cancels. Further influences:
 //
-// - Outliers: the mean square omits values far outside the bulk, unless they are a part of it.
+// - Outliers: the mean square omits values far outside the bulk, unless more than a tenth of all values are so.
 //
 // - Coloured noise: neighbouring rows are correlated by r, and rows k apart by rᵏ. Degrees of freedom of the variance
 // of n rows are n (1 − r²)/(1 + r²).
@@ -124,7 +124,7 @@ class Scatter {
 
   std::vector<double> values_;
   std::vector<double> alphas_;
-  std::vector<bool> follows_;  ///< the value before is of the neighbouring row
+  std::vector<bool> follows_;  ///< true if the preceding value is of the neighbouring row
   double worth_ = 0;           ///< number of independent differences
 };
 
@@ -136,7 +136,8 @@ struct InterpolatedAngle {
   double weight = 1;  ///< sum of the squared weights of the rows: variance of `theta` per variance of a row
 };
 
-/// Cubic through four rows (Lagrange). Not inside if rows nearly coincide, as in a dwell or by quantisation.
+/// Cubic through the four rows from `first` on (Lagrange). Not inside if two rows are closer in α than `least_gap`,
+/// rad, as in a dwell or by quantisation.
 InterpolatedAngle on_cubic(const Run& run, std::size_t first, double alpha, double least_gap) {
   const auto at = [&](std::size_t i) -> const Sample& { return run.samples[i]; };
   InterpolatedAngle interpolated{true, 0, 0, 0};
@@ -198,7 +199,7 @@ InterpolatedAngle interpolate(const Run& run, const Segment& stroke, double dire
   return interpolated;
 }
 
-/// True away from reversals, where play and friction are still being taken up.
+/// True between 3 % and 97 % of the stroke: away from reversals, where play and friction are still being taken up.
 bool is_inner(const Run& run, const Segment& stroke, double alpha) {
   const double from = run.samples[stroke.first].alpha, to = run.samples[stroke.last].alpha;
   const double share = (alpha - from) / (to - from);
@@ -225,15 +226,19 @@ InterpolatedAngle interpolate_in_dwell(const Pass& pass, double share, double al
 /// Largest difference of two loads that count as equal: a tenth of their range, or four times the load cell's noise.
 double load_tolerance(const Measurement& measurement) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
-  std::vector<double> bends;
+  std::vector<double> second_differences;
   for (const Run& run : measurement.runs) {
     for (std::size_t i = 0; run.has_load && i < run.samples.size(); ++i) {
       least = std::min(least, run.samples[i].load);
       most = std::max(most, run.samples[i].load);
-      if (i > 1) bends.push_back(std::abs(run.samples[i].load - 2 * run.samples[i - 1].load + run.samples[i - 2].load));
+      if (i > 1)
+        second_differences.push_back(
+            std::abs(run.samples[i].load - 2 * run.samples[i - 1].load + run.samples[i - 2].load));
     }
   }
-  return most > least ? std::max(0.1 * (most - least), 4.0 * white_noise_of(std::move(bends))) + 1e-9 : 0;
+  constexpr double rounding = 1e-9;  // of equal loads, in the unit of the loads
+  return most > least ? std::max(0.1 * (most - least), 4.0 * white_noise_of(std::move(second_differences))) + rounding
+                      : 0;
 }
 
 bool same_speed(const Run& a, const Run& b) {
@@ -261,7 +266,7 @@ double slope_of(const Run& run) {
 /// Tolerances within which two passes repeat one another.
 struct RepeatTolerance {
   double load = 0;
-  double alpha = 0;          ///< of dwells, rad: a share of the range, or three sensor steps
+  double alpha = 0;          ///< of dwells, rad: 0.2 % of the range, or three sensor steps
   bool across_runs = false;  ///< passes of two runs may be repeats
 
   bool are_repeats(const Pass& a, const Pass& b) const {

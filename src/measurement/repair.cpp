@@ -41,6 +41,7 @@ Outliers outliers_in(const std::vector<double>& values) {
   for (std::size_t i = 1; i < values.size(); ++i) steps.push_back(std::abs(values[i] - values[i - 1]));
   const auto large_step = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() * 9 / 10);  // 90th percentile
   std::nth_element(steps.begin(), large_step, steps.end());
+  // 12 times the usual distance and 4 times a large step; 0.02° for logs without scatter.
   Outliers outliers{12 * median_of(off) + 4 * *large_step + radians(0.02), {}};
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (off[i] > outliers.limit) outliers.rows.push_back(i);
@@ -88,7 +89,7 @@ void drop_rows(std::vector<Sample>& samples, const Outliers& outliers, const std
   add_note(words + "dropped as outliers");
 }
 
-/// Range of θ without the outermost 1 %, which may be outliers.
+/// Range of θ without the outermost 0.5 % at either end, which may be outliers.
 double span_of_theta(const std::vector<Sample>& samples) {
   std::vector<double> thetas;
   for (const Sample& sample : samples) thetas.push_back(sample.theta);

@@ -11,8 +11,8 @@ namespace fusee::measurement {
 
 using NoteSink = std::function<void(const std::string&)>;
 
-/// Unwraps an encoder that jumps by about a turn. A jump of the motor's encoder is kept if θ moves by a quarter of its
-/// span at the same time: in a point-to-point log a motor may turn as far between two rows.
+/// Unwraps an encoder that jumps by a turn, within 80°. A jump of the motor's encoder is kept if θ moves by a quarter
+/// of its span at the same time: in a point-to-point log a motor may turn as far between two rows.
 void unwrap(std::vector<Sample>& samples, double Sample::*angle, const std::string& name, const NoteSink& add_note);
 
 /// Drops single rows far from their neighbours: sensor spikes. A lasting step is not an outlier.

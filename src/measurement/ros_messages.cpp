@@ -12,7 +12,8 @@ namespace fusee::measurement {
 /// Reads the numbers and texts of one message. After a fault all further reads are 0 or empty.
 class CdrReader {
  public:
-  /// Byte 1 of the encapsulation: 0 big endian, 1 little endian. Others (parameter lists, XCDR2) are faults.
+  /// The second byte of the encapsulation is 0 for big endian, 1 for little endian. Other values (parameter lists,
+  /// XCDR2) are faults.
   explicit CdrReader(std::string_view bytes) : bytes_(bytes.substr(std::min(bytes.size(), k_encapsulation))) {
     ok_ = bytes.size() >= k_encapsulation && bytes[0] == 0 && (bytes[1] == 0 || bytes[1] == 1);
     swapped_ = ok_ && (bytes[1] == 1) != (std::endian::native == std::endian::little);
@@ -69,7 +70,7 @@ class CdrReader {
   }
 
   std::string_view bytes_;  ///< behind the encapsulation, from which alignment counts
-  std::size_t at_ = 0;      ///< of the next byte
+  std::size_t at_ = 0;      ///< index in bytes_ of the next byte
   bool ok_ = false, swapped_ = false;
 };
 

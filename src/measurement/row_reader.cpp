@@ -28,7 +28,8 @@ constexpr std::size_t k_most_problems = 20;
 constexpr std::size_t k_most_faults = 1000;
 /// Lines above the header, such as settings of a logger or an oscilloscope.
 constexpr std::size_t k_longest_preamble = 1000;
-/// Larger values are garbage; their squares are still finite. Times in ns since 1970 are below the limit.
+/// Larger values are garbage. Squares of values within the limits are finite. Times in ns since 1970 are within the
+/// limit of times.
 constexpr double k_largest_value = 1e15, k_largest_time = 1e19;
 
 const char* const k_usual_header =
@@ -41,7 +42,7 @@ double* mounting_of(joint::Mounting& mounting, const std::string& role) {
   return nullptr;
 }
 
-/// A comma within a cell is a decimal mark here.
+/// True if each cell is a number or a time stamp. A single comma in a cell counts as a decimal mark.
 bool all_numbers(const std::vector<std::string>& cells) {
   double value = 0;
   return std::all_of(cells.begin(), cells.end(), [&](std::string cell) {
@@ -236,8 +237,8 @@ class RowReader {
   }
 
   /// The line without the time of day that the serial monitors of Arduino's IDE and PlatformIO can write before it, as
-  /// in "10:00:00.020 -> 1.5,2.5". The time becomes the last cell of a row if the header
-  /// has a time of day, too; else it is dropped.
+  /// in "10:00:00.020 -> 1.5,2.5". If the header line has such a time before it, too, the time becomes the last cell of
+  /// the row; else it is dropped.
   std::string_view without_stamp(std::string_view content) {
     if (columns_.empty()) is_stamped_ = false;
     for (const std::string_view arrow : {std::string_view(" -> "), std::string_view(" > ")}) {

@@ -22,7 +22,7 @@ constexpr std::size_t k_most_samples = std::size_t{1} << 20;
 struct LoggedRows {
   std::vector<Sample> samples;  ///< every `stride`-th row that holds both angles
   std::vector<std::string> notes;
-  std::vector<std::string> sources;  ///< for a bag: topics and clock of the rows; columns not used. No part of results
+  std::vector<std::string> sources;  ///< topics and clock of a bag; unused columns of a table. No part of results
   std::string load_unit;
   bool has_time = false, has_load = false, has_temperature = false;
   joint::Mounting mounting;

@@ -87,6 +87,7 @@ std::vector<RowRange> dwells_among(const std::vector<Sample>& samples, double st
     const std::size_t count = count_of(next);
     const bool is_dwell = count >= k_min_dwell_rows && static_cast<double>(count) * pace > k_widths_of_a_dwell * width;
     if (is_dwell) add_or_join(dwells, next, samples, width);
+    // Only half of other rows is skipped: a dwell may begin among them.
     i += is_dwell ? count : std::max<std::size_t>(1, count / 2);
   }
   return dwells;
@@ -115,7 +116,8 @@ struct Levels {
   double span = 0;   ///< range of all loads
 };
 
-/// Empty if the load changes by less than a tenth of itself, or than its noise.
+/// Empty if the range of the load is below a tenth of its largest magnitude, or below 15 standard deviations of its
+/// noise.
 std::optional<Levels> levels_of(const Run& run) {
   if (!run.has_load || run.samples.empty()) return std::nullopt;
   const ValueRange span = value_range(run.samples, &Sample::load);
@@ -178,13 +180,13 @@ LoadByAlpha load_by_alpha(const Run& run, const Stroke& stroke, const ValueRange
 /// True if all strokes of a direction have the same load at the same α, as with a spring or a weight on a link.
 bool is_function_of_alpha(const Run& run, const Levels& levels) {
   const ValueRange alphas = value_range(run.samples, &Sample::alpha);
-  std::array<std::optional<LoadByAlpha>, 2> first;  // stroke of each direction
+  std::array<std::optional<LoadByAlpha>, 2> first;  // loads of the first stroke in each direction
   for (const Stroke& stroke : run.strokes) {
     const LoadByAlpha loads = load_by_alpha(run, stroke, alphas);
-    std::optional<LoadByAlpha>& other = first[stroke.direction > 0 ? 0 : 1];
-    if (!other) other = loads;
+    std::optional<LoadByAlpha>& expected = first[stroke.direction > 0 ? 0 : 1];
+    if (!expected) expected = loads;
     for (std::size_t i = 0; i < loads.size(); ++i) {
-      if (loads[i] && (*other)[i] && std::abs(*loads[i] - *(*other)[i]) > levels.width) return false;
+      if (loads[i] && (*expected)[i] && std::abs(*loads[i] - *(*expected)[i]) > levels.width) return false;
     }
   }
   return true;

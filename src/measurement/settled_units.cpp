@@ -46,7 +46,8 @@ double largest_jump(const std::vector<Sample>& samples, double Sample::*value) {
   return largest;
 }
 
-/// Counts a turn of an encoder that restarts at 0 after a turn; 0 if the values do not show it.
+/// Counts a turn of an encoder that restarts at 0 after a turn; 0 if the values do not show it. For the usual absolute
+/// encoders, a value in the upper half of the turn is enough; for others, the values must jump by a turn.
 double plausible_ticks(const Column& column, const std::vector<Sample>& samples) {
   if (!column.whole || column.least < 0) return 0;
   for (const double ticks : k_absolute_encoders) {
@@ -227,7 +228,7 @@ class UnitFinder {
   /// Loads without a stated unit that are far from the declared one are in another unit: 200 g are not 200 N. A stated
   /// unit is trusted, with a note.
   void compare_with_declared_load(const Column& column) {
-    constexpr double k_far = 10;
+    constexpr double k_far = 10;  // times the declared load, or its inverse
     const double largest = std::max(std::abs(column.least), std::abs(column.most));
     if (options_.load_scale == 0 || column.is_given || column.unit->base != "N" || !(largest > 0)) return;
     if (!std::isfinite(largest)) return;  // empty

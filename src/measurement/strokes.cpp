@@ -22,13 +22,14 @@ double reversal_threshold(const std::vector<Sample>& samples, double quantum, bo
   return std::min(std::max({0.01 * (most - least), 2.5 * quantum, 5.0 * noise}), 0.25 * (most - least));
 }
 
-/// True for scatter about one angle: successive values are independent, and the steps are below a degree or
-/// uncorrelated with θ. Alternation between two ends, row by row, is a motion. Independence is tested by the von
-/// Neumann ratio, the mean square step over the variance: it is 2 for white noise, and at least 1 counts as
+/// True for scatter about one angle: successive values are independent, and the steps are below a degree rms
+/// or hardly correlated with those of θ. Alternation between two ends, row by row, is a motion. Independence is tested
+/// by the von Neumann ratio, the mean square step over the variance: it is 2 for white noise, and at least 1 counts as
 /// independent.
 bool only_jitters(const std::vector<Sample>& samples) {
   const double n = static_cast<double>(samples.size());
-  double mean = 0, variance = 0, steps = 0, steps_of_theta = 0, covariance = 0;  // mean squares of steps
+  double mean = 0, variance = 0;                         // of α
+  double steps = 0, steps_of_theta = 0, covariance = 0;  // mean squares of the steps of α and θ, and their mean product
   for (const Sample& sample : samples) mean += sample.alpha / n;
   for (const Sample& sample : samples) variance += (sample.alpha - mean) * (sample.alpha - mean) / n;
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -44,9 +45,9 @@ bool only_jitters(const std::vector<Sample>& samples) {
 
 /// One flag for each of `count` rows: true for the given rows.
 std::vector<bool> flags_of(const std::vector<std::size_t>& rows, std::size_t count) {
-  std::vector<bool> marks(count, false);
-  for (const std::size_t row : rows) marks[row] = true;
-  return marks;
+  std::vector<bool> flags(count, false);
+  for (const std::size_t row : rows) flags[row] = true;
+  return flags;
 }
 
 class StrokeSplitter {
@@ -161,8 +162,8 @@ struct Departure {
 /// repeats, by three times their range, and ends at most half as far apart.
 bool begins_in_another_state(const std::vector<Sample>& samples, const std::vector<Stroke>& strokes) {
   constexpr int thirds = 3, places_a_third = 8;
-  constexpr double least_departure = 3.0;  // in ranges of the repeats
-  constexpr double most_left = 0.5;        // of the departure, at the end
+  constexpr double least_departure = 3.0;    // in ranges of the repeats
+  constexpr double largest_remainder = 0.5;  // at the end, as a share of the departure at the beginning
   const Stroke& first = strokes.front();
   const double from = samples[first.first].alpha, travel = samples[first.last].alpha - from;
   std::array<Departure, thirds> departures;
@@ -177,7 +178,7 @@ bool begins_in_another_state(const std::vector<Sample>& samples, const std::vect
   }
   const Departure &begin = departures.front(), &end = departures.back();
   return begin.deviation > least_departure * least_departure * begin.range &&
-         end.deviation < most_left * most_left * begin.deviation;
+         end.deviation < largest_remainder * largest_remainder * begin.deviation;
 }
 
 }  // namespace
@@ -196,10 +197,10 @@ double white_noise_of(std::vector<double> second_differences) {
 }
 
 double noise_of(const std::vector<Sample>& samples, double Sample::*value) {
-  std::vector<double> bends;
+  std::vector<double> second_differences;
   for (std::size_t i = 2; i < samples.size(); ++i)
-    bends.push_back(std::abs(samples[i].*value - 2 * samples[i - 1].*value + samples[i - 2].*value));
-  return white_noise_of(std::move(bends));
+    second_differences.push_back(std::abs(samples[i].*value - 2 * samples[i - 1].*value + samples[i - 2].*value));
+  return white_noise_of(std::move(second_differences));
 }
 
 double noise_of_dwells(const std::vector<Sample>& samples, double Sample::*value) {

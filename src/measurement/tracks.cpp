@@ -109,7 +109,7 @@ class TrackReader {
 
   const Track& track_;
   double Sample::*member_;  ///< for the role of the track
-  double usual_step_;
+  double usual_step_;       ///< ns
   bool keeps_last_value_ = false;
   std::vector<std::vector<TrackPoint>> segments_;  ///< points between restarts, by time
   std::size_t next_ = 0;                           ///< first point that is not before the latest row

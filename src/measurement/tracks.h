@@ -32,7 +32,7 @@ struct Track {
 };
 
 struct JoinedRows {
-  std::size_t rows = 0;
+  std::size_t rows = 0;  ///< points of the track that gives the times, with those whose row is omitted
   std::vector<std::string> notes;
 };
 

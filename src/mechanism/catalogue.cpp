@@ -228,7 +228,7 @@ MotorModel motor_limits(const Motor& motor) {
   if (motor.speed > 0) limits.speed = motor.speed;
   if (motor.stall_torque > 0) {
     limits.stall_torque = motor.stall_torque;
-    limits.holds = false;
+    limits.holds = false;  // [motor] states the torque of a stall, not a continuous one
   }
   if (motor.gear_ratio == 1) return limits;
   limits.name += (limits.name.empty() ? "" : " ") + rounded(motor.gear_ratio) + ":1";

@@ -66,7 +66,8 @@ DeclaredMechanism edited_numbers(const toml::table& root, const std::vector<Valu
   return mechanism;
 }
 
-/// A new line for a key that its table does not contain.
+/// A new line for a key that its table does not contain. `new_tables`: tables that the file does not contain and whose
+/// header an earlier line has added; receives the key's table.
 Replacement new_line(std::string_view text, const toml::table& root, const Field& field, std::string_view value,
                      std::vector<std::string>& new_tables) {
   const std::string line = std::string(field.key) + " = " + std::string(value);

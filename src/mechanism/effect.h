@@ -114,15 +114,15 @@ void reset(Imperfections& joint, const EffectParameter& parameter);
 
 /// Requirements on joint and log without which an effect is not visible.
 struct Needs {
-  bool tendons = false;  ///< the joint is declared with its tendons
-  bool ratio = false;    ///< the joint is declared by a ratio
-  bool drum = false;     ///< the joint has a drum, and a tendon lies on it somewhere in the range
-  bool end1 = false;     ///< tendon 1 has its own attachment, and is clear of any drum somewhere in the range
-  bool end2 = false;     ///< the same for tendon 2
-  bool pins = false;     ///< tendons slide over their guides
-  bool idlers = false;   ///< tendons run over idlers
-  bool sheath = false;   ///< tendons run through sheaths
-  bool time = false;
+  bool tendons = false;      ///< the joint is declared with its tendons
+  bool ratio = false;        ///< the joint is declared by a ratio
+  bool drum = false;         ///< the joint has a drum, and a tendon lies on it somewhere in the range
+  bool end1 = false;         ///< tendon 1 has its own attachment, and is clear of any drum somewhere in the range
+  bool end2 = false;         ///< the same for tendon 2
+  bool pins = false;         ///< tendons slide over their guides
+  bool idlers = false;       ///< tendons run over idlers
+  bool sheath = false;       ///< tendons run through sheaths
+  bool time = false;         ///< times are logged
   bool load = false;         ///< a load is declared or logged
   bool temperature = false;  ///< the temperature is logged and changes
   /// The effect is periodic in the motor's turn, which only a long stroke distinguishes from other smooth curves. Plans

@@ -20,8 +20,9 @@ std::vector<Effect> in_order(JointKind kind) {
 double unconverted(double value) { return value; }
 double percent(double fraction) { return 100.0 * fraction; }
 double fraction(double percent) { return percent / 100.0; }
-double to_ppm(double fraction) { return fraction / 1e-6; }  // 1e6 * fraction would not read back exactly
 double from_ppm(double ppm) { return 1e-6 * ppm; }
+/// The number that from_ppm() converts to exactly `fraction`. 1e6 * fraction misses it for some values.
+double to_ppm(double fraction) { return fraction / 1e-6; }
 
 }  // namespace
 
@@ -161,13 +162,13 @@ Imperfections changed(const Imperfections& before, const Imperfections& change, 
 }
 
 Imperfections beyond_mechanism(const Imperfections& found, JointKind kind) {
-  Imperfections rest = found;
+  Imperfections remaining = found;
   for (const Effect& effect : effects(kind)) {
     for (const EffectParameter& parameter : effect.parameters) {
-      if (parameter.merge_rule != MergeRule::replace) reset(rest, parameter);
+      if (parameter.merge_rule != MergeRule::replace) reset(remaining, parameter);
     }
   }
-  return rest;
+  return remaining;
 }
 
 namespace key {

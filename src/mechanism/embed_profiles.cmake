@@ -1,4 +1,4 @@
-# cmake -DOUTPUT=… -DTEMPLATES="a.toml;b.toml" -DCATALOGUE="…" -P embed_profiles.cmake
+# cmake -DOUTPUT=… "-DTEMPLATES=a.toml|b.toml" "-DCATALOGUE=…" -P embed_profiles.cmake
 # Writes a C++ source that holds the files of profiles/ as raw strings.
 
 function(append_files list_name files)

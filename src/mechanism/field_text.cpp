@@ -55,8 +55,8 @@ std::string choices_text(const std::vector<std::string_view>& choices) {
 }
 
 std::string bounds_text(const Field& field, LengthUnit units) {
-  const auto bound = [&](double mm) {
-    return is_length(field.key) && units != LengthUnit::mm ? rounded(from_mm(mm, units)) : shortest(mm);
+  const auto bound = [&](double value) {
+    return is_length(field.key) && units != LengthUnit::mm ? rounded(from_mm(value, units)) : shortest(value);
   };
   const std::string unit(unit_in_file(field, units));
   return bound(field.least) + " to " + bound(field.most) + (unit.empty() ? "" : " " + unit);
@@ -87,9 +87,9 @@ std::string allowed_text(const Field& field, LengthUnit units) {
 
 std::string kind_text(const Field& field, LengthUnit units) {
   const std::string unit(unit_in_file(field, units));
-  const std::string in_unit = unit.empty() || field.kind == FieldKind::numbers ? ""
-                              : unit == "in"                                   ? " in inches"
-                                                                               : " in " + unit;
+  const bool has_unit = !unit.empty() && field.kind != FieldKind::numbers;
+  const std::string unit_name = unit == "in" ? "inches" : unit;
+  const std::string in_unit = has_unit ? " in " + unit_name : "";
   switch (field.kind) {
     case FieldKind::number:
       return (field.whole ? "a whole number" : "a number") + in_unit;

@@ -12,13 +12,15 @@ namespace fusee {
 
 /// "40 mm", "-5 %", "3".
 std::string with_unit(double value, std::string_view unit);
-/// Allowed values in a file of `units`: "1 to 10000 mm", "two angles, -175 to 175 deg", "\"exact\" or \"paper\"".
+/// Allowed values in a file of `units`: "1 to 10000 mm", "lowest <= 0 <= highest, both -180 to 180 deg", "\"exact\" or
+/// \"paper\"".
 std::string allowed_text(const Field& field, LengthUnit units = LengthUnit::mm);
 /// The bounds of a number in a file of `units`: "1 to 10000 mm".
 std::string bounds_text(const Field& field, LengthUnit units);
-/// Kind of value in a file of `units`: "a number in mm", "two angles [lowest, highest] in deg" …
+/// Kind of value in a file of `units`: "a number in mm", "two numbers [lowest, highest] in deg" …
 std::string kind_text(const Field& field, LengthUnit units = LengthUnit::mm);
-/// Text typed by the user, made printable: control characters escaped, cut after `longest` bytes.
+/// Text typed by the user, made printable: control characters, quotes and backslashes escaped, cut after `longest`
+/// bytes.
 std::string as_shown(std::string_view text, std::size_t longest = 60);
 /// As as_shown(), in quotes.
 std::string in_quotes(std::string_view text);

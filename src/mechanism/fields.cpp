@@ -348,7 +348,7 @@ void add_spring(std::vector<Field>& table) {
   table.back().is_set = has_spring;
 }
 
-constexpr double k_deg_per_s = 6.0;  ///< of one revolution per minute
+constexpr double k_deg_per_s = 6.0;  ///< degrees per second of one revolution per minute
 
 double from_rpm(double rpm) { return radians(k_deg_per_s * rpm); }
 /// The number of revolutions per minute that from_rpm() converts to exactly `speed` (rad/s); the nearest one if there
@@ -781,20 +781,21 @@ std::vector<Effect> in_file_order(std::span<const Effect> all) {
 /// Rows for the effects of all kinds of joints, so that a file may change its kind and keep its values. Order: along
 /// the chain, with those of ratio joints before the joint's sensor.
 void add_identified(std::vector<Field>& table) {
-  std::vector<Field> rows, of_sensors;
+  std::vector<Field> rows, of_joint_sensor;
   const auto add = [&](const Effect& effect) {
     for (const EffectParameter& parameter : in_file_order(effect)) {
       const auto same = [&](const Field& field) { return field.key == parameter.key.name; };
-      if (std::any_of(rows.begin(), rows.end(), same) || std::any_of(of_sensors.begin(), of_sensors.end(), same))
+      if (std::any_of(rows.begin(), rows.end(), same) ||
+          std::any_of(of_joint_sensor.begin(), of_joint_sensor.end(), same))
         continue;
-      (effect.place == ChainPlace::joint_sensor ? of_sensors : rows).push_back(identified(parameter));
+      (effect.place == ChainPlace::joint_sensor ? of_joint_sensor : rows).push_back(identified(parameter));
     }
   };
   for (const Effect& effect : effects(JointKind::tendons)) add(effect);
   rows.push_back(mean_load());
   for (const Effect& effect : in_file_order(effects(JointKind::ratio))) add(effect);
   table.insert(table.end(), rows.begin(), rows.end());
-  table.insert(table.end(), of_sensors.begin(), of_sensors.end());
+  table.insert(table.end(), of_joint_sensor.begin(), of_joint_sensor.end());
 }
 
 void add_prior(std::vector<Field>& table) {

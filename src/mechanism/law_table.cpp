@@ -10,8 +10,8 @@
 namespace fusee {
 namespace {
 
-constexpr double k_home_error_deg = 0.01;
-constexpr std::size_t k_min_rows = 4;
+constexpr double k_home_error_deg = 0.01;  ///< largest |θ| at α = 0
+constexpr std::size_t k_min_rows = 4;      ///< rows that the interpolation of θ(0) uses
 constexpr std::size_t k_max_problems = 20;
 constexpr double k_largest_theta_deg = 360;
 
@@ -24,7 +24,7 @@ bool parse_number(std::string_view written, double& value, bool decimal_comma) {
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
 
-/// Names of the two columns of a table, and its maximum length.
+/// Names of the two columns of a table, the hint of its errors, and its maximum number of rows.
 struct PairColumns {
   const char* first;
   const char* second;

@@ -11,8 +11,8 @@
 namespace fusee {
 
 /// Parses rows of `alpha_deg, theta_deg`. '#' comments, blank lines, CRLF and a byte order mark are skipped. `problems`
-/// receives all errors with file and line: columns, numbers, fewer than 4 rows, columns that do not increase, a range
-/// smaller than the joint's, a missing home (θ(0) = 0 within 0.01°).
+/// receives errors with file and line, about 20 at most: columns, numbers, fewer than 4 rows, columns that do not
+/// increase, a range smaller than the joint's, a missing home (θ(0) = 0 within 0.01°).
 std::vector<LawRow> parse_law_table(std::string_view csv, const std::string& file, const Joint& joint,
                                     std::vector<Diagnostic>& problems);
 

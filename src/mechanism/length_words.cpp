@@ -45,7 +45,8 @@ bool ends_unit(std::string_view rest) {
   return !other && !rest.starts_with(" per ") && (rest.empty() || !is_word_part(rest.front()));
 }
 
-/// The blank before "mm", of any width and perhaps after "]", if mm is the whole unit; "" otherwise.
+/// The text between a number and its "mm", if mm is the whole unit: a blank, perhaps after "]", or a no-break blank. ""
+/// otherwise.
 std::string_view gap_before_mm(std::string_view rest) {
   for (const std::string_view gap : {" ", "] ", "\xC2\xA0"}) {
     if (rest.starts_with(gap) && rest.substr(gap.size()).starts_with("mm") && ends_unit(rest.substr(gap.size() + 2)))

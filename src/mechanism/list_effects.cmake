@@ -1,4 +1,4 @@
-# cmake -DOUTPUT=… -DEFFECTS=a.cpp|b.cpp -P list_effects.cmake
+# cmake -DOUTPUT=… "-DEFFECTS=a.cpp|b.cpp" -P list_effects.cmake
 # Writes a C++ source with effect_list(), which calls the function of every effect's file.
 string(REPLACE "|" ";" files "${EFFECTS}")
 set(declarations "")

@@ -4,7 +4,7 @@ namespace fusee {
 namespace {
 
 constexpr int k_max_brackets = 16;
-constexpr int k_max_dots = 16;
+constexpr int k_max_dots = 16;  ///< of one dotted key
 
 /// Index after the string that starts at `begin`, or the end of the text. TOML has four kinds: "…" and '…' on one line,
 /// """…""" and '''…''' over several. A backslash escapes in the " kinds only.
@@ -34,7 +34,9 @@ std::optional<Place> too_deep_place(std::string_view toml, const std::string& fi
     if (c == '"' || c == '\'') {
       const std::size_t end = end_of_string(toml, i);
       for (; i < end; ++i) {
-        if (toml[i] == '\n') ++line, line_begin = i + 1;
+        if (toml[i] != '\n') continue;
+        ++line;
+        line_begin = i + 1;
       }
       continue;
     }
@@ -49,7 +51,10 @@ std::optional<Place> too_deep_place(std::string_view toml, const std::string& fi
     if (brackets > k_max_brackets || dots > k_max_dots) {
       return Place{file, line, static_cast<int>(i - line_begin) + 1};
     }
-    if (c == '\n') ++line, line_begin = i + 1;
+    if (c == '\n') {
+      ++line;
+      line_begin = i + 1;
+    }
     ++i;
   }
   return std::nullopt;

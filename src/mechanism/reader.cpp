@@ -86,11 +86,11 @@ std::string syntax_hint(std::string_view text, std::size_t line) {
   const std::size_t equals = text.find('=');
   std::string_view value = equals == std::string_view::npos ? std::string_view() : text.substr(equals + 1);
   value.remove_prefix(std::min(value.find_first_not_of(" \t"), value.size()));
-  const std::size_t digits = value.find_first_not_of("+-0123456789");
-  const bool comma = digits != std::string_view::npos && digits > 0 && value[digits] == ',';
+  const std::size_t after_digits = value.find_first_not_of("+-0123456789");
+  const bool comma = after_digits != std::string_view::npos && after_digits > 0 && value[after_digits] == ',';
   if (comma) {
     std::string number(value.substr(0, value.find_first_of(" \t\r#")));
-    number[digits] = '.';
+    number[after_digits] = '.';
     return "a number has a decimal point: " + as_shown(number);
   }
   const bool word = !value.empty() && std::isalpha(static_cast<unsigned char>(value.front())) != 0;
@@ -289,7 +289,8 @@ void MechanismReader::flatten() {
   }
 }
 
-/// The value of --set as TOML. A bare word is a string; anything else is an error.
+/// The value of --set as TOML. A bare word or a length with its unit (3 1/2") is taken as a string; anything else is an
+/// error.
 toml::table MechanismReader::setting_value(const Setting& setting, const std::string& file) {
   const bool one_line = setting.value.find_first_of("\r\n") == std::string::npos;
   if (one_line && setting.value.size() <= 4 * k_max_text_length && !too_deep_place(setting.value, file)) {
@@ -540,7 +541,8 @@ void MechanismReader::take(const Field& field, const Entry& entry) {
   }
 }
 
-/// True for a used key without a default. If the choice that decides about it is invalid, the key is not required.
+/// True if this mechanism uses the key. If the choice that decides about that is invalid, the key counts as unused, so
+/// that it is not reported as missing.
 bool MechanismReader::is_needed(const Field& field) const {
   const std::string decider(field.only_when.substr(0, field.only_when.find('=')));
   const auto decided = good_.find(decider);
@@ -722,7 +724,8 @@ void MechanismReader::take_shaft() {
   mechanism_.body = with_shaft.body;
 }
 
-/// Places of list items in [optimize]; a single text or a --set value has one place.
+/// Checks [optimize]. An error about an item of a list has the item's place; a single text or a --set value has one
+/// place.
 void MechanismReader::check_optimize() {
   if (!has_table("optimize")) return;
   const auto item_place = [this](const std::string& key, std::size_t item) {

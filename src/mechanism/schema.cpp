@@ -9,7 +9,7 @@
 namespace fusee {
 namespace {
 
-/// An object without unknown keys; add() adds keys.
+/// An object that admits no unknown keys. Its keys are added to "properties" later.
 Json closed_object(std::string_view description) {
   return {{"type", "object"},
           {"description", description},
@@ -107,15 +107,15 @@ Json condition_schema(const Field& field) {
   return {{"if", condition}, {"then", {{"required", {field.key}}}}};
 }
 
-/// Requires joint, guides, pulley and tendon, or [transmission] instead.
+/// Requires joint, guides, pulley and tendon, or [transmission] in place of joint, guides, sheath and pulley.
 Json either_joint() {
-  Json other;
-  other["if"] = {{"required", {"transmission"}}};
+  Json condition;
+  condition["if"] = {{"required", {"transmission"}}};
   for (const char* table : {"joint", "guides", "sheath", "pulley"})
-    other["then"]["not"]["anyOf"].push_back({{"required", {table}}});
-  other["else"] = {{"required", {"joint", "guides", "pulley", "tendon"}}};
-  other["else"]["properties"]["tendon"]["required"] = {"diameter_mm"};
-  return other;
+    condition["then"]["not"]["anyOf"].push_back({{"required", {table}}});
+  condition["else"] = {{"required", {"joint", "guides", "pulley", "tendon"}}};
+  condition["else"]["properties"]["tendon"]["required"] = {"diameter_mm"};
+  return condition;
 }
 
 }  // namespace

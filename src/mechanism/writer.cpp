@@ -89,7 +89,7 @@ std::string value_text(const Field& field, const DeclaredMechanism& mechanism) {
   return {};
 }
 
-/// True for an unused key that is empty or has its default; it is written as a comment.
+/// True for an unused key whose number is 0, or whose text is empty or the default. It is written as a comment.
 bool is_blank(const Field& field, const DeclaredMechanism& mechanism) {
   if (field.only_when.empty() || is_used(field, mechanism)) return false;
   if (field.get != nullptr) return field.get(mechanism, 0) == 0;
@@ -111,9 +111,9 @@ std::string write_mechanism(const DeclaredMechanism& mechanism) {
   std::string text = "# A mechanism file of fusee. `fusee explain KEY` describes a key.\n";
   std::string_view table;
   for (const Field& field : fields()) {
-    const bool of_mechanism =
+    const bool is_of_tendons =
         field.table == "joint" || field.table == "guides" || field.table == "sheath" || field.table == "pulley";
-    if (mechanism.transmission ? of_mechanism : field.table == "transmission") continue;
+    if (mechanism.transmission ? is_of_tendons : field.table == "transmission") continue;
     if (field.is_set != nullptr && !field.is_set(mechanism)) continue;
     // A joint declared by a ratio may omit the tendon.
     if (mechanism.transmission && field.name() == "tendon.diameter_mm" && mechanism.tendon.diameter == 0) continue;

@@ -52,6 +52,7 @@ class CompensationReader {
   }
 
  private:
+  /// Adds a problem. `line`: 0 for the whole file.
   void fail(int line, std::string message) {
     problems_.push_back({Severity::error, {file_, line, line > 0 ? 1 : 0}, std::move(message), k_hint});
   }

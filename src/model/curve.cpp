@@ -9,7 +9,7 @@
 namespace fusee::model {
 namespace {
 
-constexpr int k_samples = 2000;  ///< number of angles at which a law is checked
+constexpr int k_law_intervals = 2000;  ///< number of intervals of the range at whose ends a law is checked
 
 /// Column `y` where column `x` has the value `at`: linear interpolation in rows that increase in both columns, constant
 /// beyond the ends.
@@ -57,14 +57,16 @@ std::vector<LawRow> increasing_rows(const joint::BenchRun& run, const std::vecto
   }
   if (!is_rising) std::reverse(rows.begin(), rows.end());
   // Rows at rest, while play is taken up, are removed.
+  constexpr double k_least_step = 1e-9;  // rad
   std::vector<LawRow> growing;
   for (const LawRow& row : rows) {
-    if (growing.empty() || row.theta > growing.back().theta + 1e-9) growing.push_back(row);
+    if (growing.empty() || row.theta > growing.back().theta + k_least_step) growing.push_back(row);
   }
   return growing;
 }
 
-/// Motor angles of both directions, over the part of the joint's range that both reach. Empty if there is none.
+/// Motor angles of both directions, over the part of the joint's range that the joint reaches in both. Empty if there
+/// is no such part.
 std::vector<TwoWayRow> two_way_rows(const joint::BenchRun& run, const std::vector<joint::JointState>& states,
                                     const Joint& joint, ThetaOfState angle) {
   const std::vector<LawRow> up = increasing_rows(run, states, /*is_rising=*/true, angle),
@@ -120,6 +122,7 @@ AngleMap angle_map(std::vector<LawRow> rows) {
 
 std::vector<TwoWayRow> refined(const std::vector<TwoWayRow>& rows, const transmission::Transmission& law) {
   const AngleMap map = angle_map(law);
+  // Beyond its range the law is constant, which distorts the rows there: 2 % of the range are tolerated.
   const double beyond = 0.02 * (map.theta_max - map.theta_min);
   if (rows.front().theta < map.theta_min - beyond || rows.back().theta > map.theta_max + beyond) return rows;
   std::vector<LawRow> up, down;  // with the motor's offset from the law in place of α
@@ -133,6 +136,7 @@ std::vector<TwoWayRow> refined(const std::vector<TwoWayRow>& rows, const transmi
     const double theta = std::lerp(rows.front().theta, rows.back().theta, double(i) / places), alpha = law.alpha(theta);
     const TwoWayRow row{theta, alpha + between_rows(up, theta, &LawRow::theta, &LawRow::alpha),
                         alpha + between_rows(down, theta, &LawRow::theta, &LawRow::alpha)};
+    // The maps require that the motor angles increase.
     if (!result.empty() && !(row.up > result.back().up && row.down > result.back().down)) return rows;
     result.push_back(row);
   }
@@ -160,8 +164,8 @@ JointCurve two_way_curve(const std::vector<TwoWayRow>& rows, CurveSource source)
 }
 
 bool grows(const transmission::Transmission& law) {
-  for (int i = 0; i <= k_samples; ++i) {
-    if (!(law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), double(i) / k_samples)).g > 0)) return false;
+  for (int i = 0; i <= k_law_intervals; ++i) {
+    if (!(law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), double(i) / k_law_intervals)).g > 0)) return false;
   }
   return law.alpha_max() > law.alpha_min();
 }
@@ -174,7 +178,8 @@ std::optional<JointCurves> joint_curves(const DeclaredMechanism& declared) {
   }
   const DeclaredMechanism joint = joint::expected_joint(declared);
   if (transmission::Transmission(joint).dead_centre()) return std::nullopt;
-  // The reversals lie beyond the range, so that play is taken up within it.
+  // The reversals lie outside the range, so that the motor has taken up play and compliance before the range begins:
+  // twice the backlash, and 3 % of the range for the compliance.
   const double beyond = 2 * declared.identified.shaft.backlash + 0.03 * (law.alpha_max() - law.alpha_min());
   const joint::BenchRun run = sweep(law.alpha_min() - beyond, law.alpha_max() + beyond);
   const std::vector<joint::JointState> states =

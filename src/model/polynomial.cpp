@@ -9,7 +9,7 @@
 namespace fusee::model {
 namespace {
 
-constexpr int k_points = 1000;  ///< number of samples of a fit
+constexpr int k_fit_intervals = 1000;  ///< number of intervals of the range between the samples of a fit
 
 /// The Chebyshev polynomials T_0(t) … T_degree(t).
 Eigen::VectorXd chebyshev(double t, int degree) {
@@ -50,8 +50,9 @@ Polynomial in_x(const Eigen::VectorXd& c, double middle, double half) {
   return {sum};
 }
 
-/// Replaces a point of the reference by `entering` so that the signs of the errors keep alternating. At either end, a
-/// point of the other sign enters outside, and the point at the opposite end leaves.
+/// Replaces a point of the reference by `entering` so that the signs of the errors keep alternating: the neighbour with
+/// the same sign of error leaves. If `entering` lies beyond an end and its sign differs from that end's, the point at
+/// the opposite end leaves instead.
 void exchange(std::vector<std::size_t>& reference, const std::vector<double>& errors, std::size_t entering) {
   const auto above = std::upper_bound(reference.begin(), reference.end(), entering);
   const bool positive = errors[entering] > 0;
@@ -91,7 +92,8 @@ double solved(const Polynomial& p, double alpha, double start) {
 /// Motor angles, evenly over the range.
 std::vector<double> sampled_alphas(const AngleMap& map) {
   std::vector<double> alphas;
-  for (int i = 0; i <= k_points; ++i) alphas.push_back(std::lerp(map.alpha_min, map.alpha_max, double(i) / k_points));
+  for (int i = 0; i <= k_fit_intervals; ++i)
+    alphas.push_back(std::lerp(map.alpha_min, map.alpha_max, double(i) / k_fit_intervals));
   return alphas;
 }
 
@@ -104,8 +106,8 @@ EqualityFit fit_of_alpha(const AngleMap& map, int degree) {
 /// α = p(θ). An error of α counts by the error of θ that it causes, dθ/dα times as large.
 EqualityFit fit_of_theta(const AngleMap& map) {
   std::vector<FitPoint> points;
-  for (int i = 0; i <= k_points; ++i) {
-    const double theta = std::lerp(map.theta_min, map.theta_max, double(i) / k_points), alpha = map.alpha(theta);
+  for (int i = 0; i <= k_fit_intervals; ++i) {
+    const double theta = std::lerp(map.theta_min, map.theta_max, double(i) / k_fit_intervals), alpha = map.alpha(theta);
     points.push_back({theta, alpha, map.slope(alpha)});
   }
   return measured({.of_alpha = false, .p = least_largest_error(points, k_equality_degree).p}, map);
@@ -125,9 +127,10 @@ double Polynomial::slope(double x) const {
   return value;
 }
 
-// On degree + 2 of the points, the best polynomial has equal errors with alternating signs, which gives a linear
-// system. The point with the largest error enters this reference, unless it is in it: then the polynomial is the best.
-// The error of the reference increases with each exchange.
+// On degree + 2 of the points, the reference, the best polynomial p has errors of equal magnitude |h| and alternating
+// signs: p(x_i) + (−1)^i h / w_i = y_i, a linear system in the coefficients of p and h. If the largest error over all
+// points is at a point of the reference, p is the best polynomial. Otherwise that point enters the reference, and |h|
+// increases.
 PolynomialFit least_largest_error(const std::vector<FitPoint>& points, int degree) {
   const std::size_t n = static_cast<std::size_t>(degree) + 2;
   demand(points.size() > n && points.back().x > points.front().x,
@@ -179,6 +182,7 @@ EqualityFit measured(EqualityFit fit, const AngleMap& map) {
     const double fitted = fit.of_alpha ? fit.p(alpha) : solved(fit.p, alpha, theta);
     const double fitted_slope = fit.of_alpha ? fit.p.slope(alpha) : 1 / fit.p.slope(fitted);
     const double error = std::abs(fitted - theta), slope_error = std::abs(fitted_slope / slope - 1);
+    // An equality that has no solution counts as wrong by half a turn, and its slope by 100 %.
     fit.error = std::isfinite(error) ? std::max(fit.error, error) : k_pi;
     fit.slope_error = std::isfinite(slope_error) ? std::max(fit.slope_error, slope_error) : 1;
   }

@@ -32,7 +32,7 @@ OneWayTable one_way_table(const AngleMap& map, const MotorUnit& unit, const Join
   return result;
 }
 
-/// A table of a given number of pieces.
+/// The tables of a given number of pieces.
 JointTable table_of(const JointCurve& curve, const Mechanism& mechanism, const MotorUnit& unit, int pieces) {
   JointTable table;
   table.unit = unit;
@@ -41,10 +41,11 @@ JointTable table_of(const JointCurve& curve, const Mechanism& mechanism, const M
   table.theta_last_deg = static_cast<float>(degrees(curve.middle.theta_max));
   for (std::size_t way = 0; way < (curve.ways ? 2u : 1u); ++way)
     table.ways.push_back(one_way_table(way_of(curve, way), unit, table));
-  const OneWayTable& first = table.ways.front();
+  const OneWayTable& first_way = table.ways.front();
   bool is_loaded = false;
   for (int i = 0; i <= pieces; ++i) {
-    const double alpha = unit.alpha(entry_argument(double(first.first), double(first.last), i, pieces) + unit.zero);
+    const double motor = entry_argument(double(first_way.first), double(first_way.last), i, pieces);
+    const double alpha = unit.alpha(motor + unit.zero);
     const double slope = curve.middle.slope(alpha),
                  load = transmission::load_torque(mechanism, curve.middle.theta(alpha));
     // By virtual work, the motor torque is dθ/dα times the torque at the joint.
@@ -59,8 +60,9 @@ JointTable table_of(const JointCurve& curve, const Mechanism& mechanism, const M
 
 /// Interpolates at `argument` as the generated header does, in 32-bit arithmetic throughout.
 float read_at(const std::vector<float>& entries, float argument, float first, float last) {
-  const float per_step = static_cast<float>((static_cast<double>(entries.size()) - 1) / (double(last) - double(first)));
-  return interpolated(entries, (argument - first) * per_step);
+  const float pieces_per_unit =
+      static_cast<float>((static_cast<double>(entries.size()) - 1) / (double(last) - double(first)));
+  return interpolated(entries, (argument - first) * pieces_per_unit);
 }
 
 }  // namespace
@@ -82,18 +84,18 @@ TableErrors measured(const JointTable& table, const JointCurve& curve) {
   TableErrors errors;
   for (std::size_t way = 0; way < table.ways.size(); ++way) {
     const AngleMap& map = way_of(curve, way);
-    const OneWayTable& one = table.ways[way];
+    const OneWayTable& one_way = table.ways[way];
     for (int i = 0; i <= samples * table.pieces; ++i) {
       const auto motor =
-          static_cast<float>(entry_argument(double(one.first), double(one.last), i, samples * table.pieces));
+          static_cast<float>(entry_argument(double(one_way.first), double(one_way.last), i, samples * table.pieces));
       const double alpha = table.unit.alpha(double(motor) + table.unit.zero);
-      const float theta = read_at(one.theta_deg, motor, one.first, one.last);
+      const float theta = read_at(one_way.theta_deg, motor, one_way.first, one_way.last);
       errors.theta = std::max(errors.theta, std::abs(radians(double(theta)) - map.theta(alpha)));
       const auto wanted_deg = static_cast<float>(
           entry_argument(double(table.theta_first_deg), double(table.theta_last_deg), i, samples * table.pieces));
       const double wanted = std::clamp(radians(double(wanted_deg)), map.theta_min, map.theta_max);
       const double alpha_read = table.unit.alpha(
-          double(read_at(one.motor, wanted_deg, table.theta_first_deg, table.theta_last_deg)) + table.unit.zero);
+          double(read_at(one_way.motor, wanted_deg, table.theta_first_deg, table.theta_last_deg)) + table.unit.zero);
       errors.motor = std::max(errors.motor, std::abs(alpha_read - map.alpha(wanted)));
       errors.returned = std::max(errors.returned, std::abs(map.theta(alpha_read) - wanted));
     }

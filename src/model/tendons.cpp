@@ -12,8 +12,8 @@
 namespace fusee::model {
 namespace {
 
-// Lengths and angles are computed for a right-hand tendon. A left-hand one is mirrored: then θ is positive towards the
-// pin's side.
+// Lengths and angles are computed for a tendon on the right. One on the left is mirrored about the y axis. In both
+// cases θ is then positive towards the pin's side.
 
 /// Number of intervals of the range in which a tendon is evaluated.
 constexpr int k_intervals = 1000;
@@ -58,21 +58,23 @@ double arm_at(const WrappedTendon& tendon, double theta) {
   return end.dot(normal);
 }
 
-/// Least angle of wrap at the cylinder, kept at every joint angle.
+/// Angle of wrap that remains at the cylinder at every joint angle, rad: simulators require some wrap.
 constexpr double k_always_wrapped = radians(10);
 
-/// Sets the fixed point below the pin, on its outer side, and the sheath. `least`, `most`: range of the angle of the
-/// normal at which the tendon reaches the pin, rad; `R`: of the link, mm.
+/// Sets the anchor below the pin, the point beyond the pin on its outer side, and the sheath. `least`, `most`: range of
+/// the angle of the normal at which the tendon reaches the pin, rad; `R`: length of the link, mm.
 void set_anchor(WrappedTendon& tendon, const transmission::PinPlace& place, double least, double most, double R) {
-  // A tendon enters its sheath straight down, if it is still wrapped then.
+  // A tendon enters its sheath straight down if it is wrapped by at least 1° then.
   const bool goes_down = place.sheath_exit && least > radians(1);
   const double leaving = goes_down ? 0.0 : least - k_always_wrapped;  // angle of the normal below the pin
+  // The tendon runs on in the direction of the normal turned clockwise by a right angle.
   const Vec2 normal = unit(leaving), onwards(normal.y(), -normal.x());
   const double reach = goes_down ? tendon.rho + 0.1 * R : 0.5 * R;  // from the pin to the anchor
   tendon.most_wrap = most - leaving;
   const Vec2 anchor = place.pin() + tendon.rho * normal + reach * onwards;
   tendon.anchor = mirrored(anchor, tendon.side);
   tendon.outer = mirrored(place.pin() + 3 * tendon.rho * unit(0.5 * (most + leaving)), tendon.side);
+  // The length so far counts the arc down to a normal angle of 0.
   tendon.home_length += reach - tendon.rho * leaving;
   if (!place.sheath_exit) return;
   const Vec2 exit = place.pulley_axis() + Vec2(place.sheath_exit->across, place.sheath_exit->above);
@@ -94,16 +96,16 @@ void set_free_tendon(WrappedTendon& tendon, const transmission::PinPlace& place,
   set_anchor(tendon, place, least, most, R);
 }
 
-/// Sets up a tendon that is always on a drum.
-// It touches the drum from a point of the link up to the point from which it leaves for the fixed pin. The part that is
-// covered at every angle has constant length: it is represented by points of the link, close together. A wrapped tendon
-// would not do there: between two points on the drum's surface, MuJoCo 3.14.0 alternates between the two ways round.
+/// Sets up a tendon that is always on a drum. It touches the drum from a point of the link up to the point from which
+/// it leaves for the fixed pin. The part that is covered at every angle has constant length: points of the link, close
+/// together, represent it. Wrapping is no alternative there: between two points on the drum's surface, MuJoCo 3.14.0
+/// alternates between the two ways round.
 void set_tendon_on_drum(WrappedTendon& tendon, const transmission::PinPlace& place, const AngleMap& map, double R) {
   const double sign = transmission::mirror_sign(tendon.side);
   const transmission::UpperSpan home = transmission::upper_span(place, 0),
                                 low = transmission::upper_span(place, sign * map.theta_min),
                                 high = transmission::upper_span(place, sign * map.theta_max);
-  const double least = std::min(low.on_drum, high.on_drum);               // rad
+  const double least = std::min(low.on_drum, high.on_drum);               // angle of wrap, rad
   const double always_covered = std::max(0.0, least - k_always_wrapped);  // rad
   // Simulators require points near a wrapping cylinder to be slightly outside of it.
   constexpr double k_outside = 1e-6;
@@ -115,6 +117,7 @@ void set_tendon_on_drum(WrappedTendon& tendon, const transmission::PinPlace& pla
   const int chords = static_cast<int>(std::ceil(always_covered / k_longest_chord));
   for (int i = ends_on_drum ? 1 : 0; i <= chords && chords > 0; ++i)
     tendon.on_drum.push_back(mirrored(just_outside * unit(home.end_normal - always_covered * i / chords), tendon.side));
+  // Mean angle of wrap after the points of the link, rad.
   const double wrapped = 0.5 * (low.on_drum + high.on_drum) - always_covered;
   tendon.drum_outer = mirrored(1.5 * rho * unit(home.normal + 0.5 * wrapped), tendon.side);
   tendon.off_drum =
@@ -148,6 +151,7 @@ std::string set_tendon(WrappedTendon& tendon, const Mechanism& mechanism, transm
   constexpr double k_most_wrap = radians(170);
   if (leaves && high <= *leaves) {
     set_tendon_on_drum(tendon, place, map, mechanism.joint.R);
+    // The least wrap after the points of the link, plus the wrap that is added over the range.
     if (std::min(*leaves - high, k_always_wrapped) + high - low > k_most_wrap)
       return "it is wound on the drum by nearly half a turn, and simulators wrap it the shorter way";
   } else {
@@ -175,14 +179,15 @@ struct LengthFit {
   double error = 0;   ///< largest error of θ, rad
 };
 
-/// The length of a tendon minus that at home: a straight line in α if it is exact, otherwise a
-/// polynomial of degree k_equality_degree.
+/// The length of a tendon minus that at home: a straight line in α if a line is exact, otherwise a polynomial of degree
+/// k_equality_degree.
 LengthFit fit_length(const WrappedTendon& tendon, const AngleMap& map) {
   const double home = length_at(tendon, 0), sign = transmission::mirror_sign(tendon.side);
   std::vector<FitPoint> points;
   for (int i = 0; i <= k_intervals; ++i) {
     const double alpha = std::lerp(map.alpha_min, map.alpha_max, double(i) / k_intervals),
                  theta = sign * map.theta(alpha);
+    // The weight converts an error of the length to the error of θ that it causes.
     points.push_back({alpha, length_at(tendon, theta) - home, 1 / std::abs(arm_at(tendon, theta))});
   }
   constexpr double k_exact = 1e-9;  // rad, near the rounding of a fit

@@ -8,19 +8,20 @@
 #include "base/golden_section.h"
 #include "optimize/conditions_at.h"
 
-// A lower bound of  min over designs x of max over places s of f(x, s)  is  min over x of f(x, s)  at any s, so that a few
-// well-chosen places suffice. Each place gives
+// A lower bound of  min over designs x of max over places s of f(x, s)  is  min over x of f(x, s)  at any s, so that a
+// few well-chosen places suffice. Each place gives
 //   1. the interval value of f over the box;
 //   2. linear functions below f: from a corner v, f(x) >= f(v) + Σ g_i (x_i − v_i), where g_i is the end of the slope's
-//      interval on the safe side of that corner. The conditions on a design give linear functions too, at their tightest
-//      places. Together they form a linear program, whose multipliers prove its minimum (relaxation.cpp): the error of
-//      the bound is of second order in the size of the box. Parts of the box that they exclude are cut off;
-//   3. for point pins T_b is e^{μφ}/sin γ2, and the torque with a round P1 is r1 e^{μφ}/sin γ1. There b/a, the cotangent
-//      of γ, is a quotient of two linear functions, which weights bound exactly, while 1 and 2 only approximate it.
+//      interval on the safe side of that corner. The conditions on a design give linear functions too, at their
+//      tightest places. Together they form a linear program, whose multipliers prove its minimum (relaxation.cpp): the
+//      error of the bound is of second order in the size of the box. Parts of the box that they exclude are cut off;
+//   3. for point pins T_b is e^{μφ}/sin γ2, and the torque with a round P1 is r1 e^{μφ}/sin γ1. There b/a, the
+//      cotangent of γ, is a quotient of two linear functions, which weights bound exactly, while 1 and 2 only
+//      approximate it.
 //      Without friction whole surfaces of designs tie, and no weaker bound could prove the optimum.
 //
-// Conditions are evaluated only where the evaluation of designs tests them (k_places of the stroke): designs excluded
-// by a proof are then never accepted.
+// Conditions are evaluated only where the evaluation of designs tests them (at equal steps of the stroke): designs
+// excluded by a proof are then never accepted.
 //
 // While a RoundingUp exists, rounding is directed. Functions that construct one are noinline, so that the compiler does
 // not merge them with others.
@@ -28,9 +29,10 @@
 namespace fusee::optimize {
 namespace {
 
-/// Number of places that the evaluation of a design tests: evaluate() of objectives.cpp, and feasibility.cpp.
-constexpr int k_places = 60;
-constexpr int k_places_of_drawing = 192;
+/// Steps of the stroke at whose ends the evaluation of a design tests conditions: evaluate() of objectives.cpp for the
+/// basic ones, feasibility.cpp for those of the drawing.
+constexpr int k_evaluation_steps = 60;
+constexpr int k_drawing_steps = 192;
 /// Slack relative to a constraint's largest term: rounding must not cut off designs that constraint_violation()
 /// accepts.
 constexpr double k_slack = 2e-12;
@@ -297,13 +299,15 @@ BoundCalculator::Lines BoundCalculator::lines_of_constraints(const Box& box, dou
   return lines;
 }
 
-/// The linear function of 2. from a corner: the one with the lowest value, or with the highest. `over`: value and slopes
-/// over the box. `exists` is set to false if there is no such function.
+/// The linear function of 2. from a corner: the one with the lowest value, or with the highest. `over`: value and
+/// slopes over the box. `exists` is set to false if there is no such function.
 LineBelow BoundCalculator::line_from(const Box& box, const Query& query, const transmission::Jet& over,
                                      bool from_highest, bool& exists) const {
   std::array<bool, k_max_variables> at_upper{};
-  for (std::size_t i = 0; i < problem_.variables.size(); ++i)
-    at_upper[i] = (over.slope[i].lower() + over.slope[i].upper() < 0) != from_highest;
+  for (std::size_t i = 0; i < problem_.variables.size(); ++i) {
+    const bool falls = over.slope[i].lower() + over.slope[i].upper() < 0;
+    at_upper[i] = from_highest ? !falls : falls;
+  }
   const Box corner = corner_of(box, at_upper);
   transmission::Domain domain;
   const transmission::Jet at_corner = value_at(query, corner, domain);
@@ -371,7 +375,7 @@ void BoundCalculator::add_worst_places(Objective objective, bool of_cap, const D
   const auto value_at_place = [&](double place) {
     transmission::Domain domain;
     const double value = objective_of(objective, middle, stroke_numbers(middle, place, domain));
-    return domain.possible && value == value ? value : k_infinite;
+    return domain.possible && !std::isnan(value) ? value : k_infinite;
   };
   for (int i = 0; i < k_samples; ++i) values[index(i)] = value_at_place(i / (k_samples - 1.0));
   std::vector<std::pair<double, double>> maxima;  // −value, place
@@ -403,31 +407,32 @@ std::size_t BoundCalculator::condition_query_count() const {
 void BoundCalculator::add_tightest_places(const DesignNumbers<double>& middle, std::vector<Query>& queries) const {
   constexpr int k_coarse_steps = 12;
   const std::size_t count = condition_query_count();
-  const auto value = [&](std::size_t condition, int place, int places) {
+  const auto value = [&](std::size_t condition, int place, int steps) {
     ConditionValues<double> values;
-    if (!conditions_at(middle, static_cast<double>(place) / places, condition + 1, values)) return -k_infinite;
+    if (!conditions_at(middle, static_cast<double>(place) / steps, condition + 1, values)) return -k_infinite;
     const double number = values[condition].value;
-    return number == number ? number : -k_infinite;
+    return std::isnan(number) ? -k_infinite : number;
   };
   for (std::size_t condition = 0; condition < count; ++condition) {
-    const int places = condition < k_basic_conditions ? k_places : k_places_of_drawing, step = places / k_coarse_steps;
+    const int steps = condition < k_basic_conditions ? k_evaluation_steps : k_drawing_steps;
+    const int stride = steps / k_coarse_steps;
     int tightest = 0;
     double least = k_infinite;
     const auto test_place = [&](int place) {
-      if (place < 0 || place > places) return;
-      const double tested = value(condition, place, places);
+      if (place < 0 || place > steps) return;
+      const double tested = value(condition, place, steps);
       if (!(tested < least)) return;
       least = tested;
       tightest = place;
     };
-    for (int place = 0; place <= places; place += step) test_place(place);
-    for (int distance = step / 2; distance > 0; distance /= 2) {
+    for (int place = 0; place <= steps; place += stride) test_place(place);
+    for (int distance = stride / 2; distance > 0; distance /= 2) {
       const int around = tightest;
       test_place(around - distance);
       test_place(around + distance);
     }
     queries.push_back(
-        {Query::Kind::condition, static_cast<double>(tightest) / places, static_cast<DesignCondition>(condition)});
+        {Query::Kind::condition, static_cast<double>(tightest) / steps, static_cast<DesignCondition>(condition)});
   }
 }
 
@@ -443,7 +448,7 @@ std::vector<BoundCalculator::Query> BoundCalculator::queries_around(const std::v
 
 // ---- bounds ---------------------------------------------------------------------------------------------------------
 
-/// Bound 3. −infinity if it does not apply.
+/// Bound 3 of the comment at the beginning. −infinity if it does not apply.
 [[gnu::noinline]] double BoundCalculator::quotient_bound(const Box& box, double place, const Lines& constraints) const {
   constexpr int k_most_steps = 4;
   const bool torque = objective_ == Objective::motor_torque;

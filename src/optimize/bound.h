@@ -29,8 +29,8 @@ class BoundCalculator {
   /// Bounds the designs of the box with an objective of at most `limit`, and cuts off parts of the box without such
   /// designs.
   BoxBound bound(Box& box, double limit) const;
-  /// Estimated minimizer within `size` of every variable's range around a design, by linearization. Empty if there is
-  /// none.
+  /// Estimated minimizer near a design, by linearization: every variable moves by at most the share `size` of its
+  /// range. Empty if there is none.
   Design lowest_around(const Design& design, double size) const;
   /// The objective of one design over the whole range, rounded up; infinite if it cannot be bounded.
   double rounded_up_value(const Design& design) const;

@@ -153,7 +153,8 @@ class BranchAndBound {
     for (const Outcome& outcome : outcomes) {
       for (const EvaluatedDesign& candidate : outcome.evaluated) accept_if_better(candidate);
     }
-    // Among ties, every batch finds a design better by a rounding error.
+    // An improvement within a tenth of the gap is not polished: among ties, every batch finds a design that is better
+    // by a rounding error.
     if (!best_.empty() && best_value_ < polished_ - 0.1 * options_.gap * std::abs(best_value_)) polish();
     keep(outcomes);
   }
@@ -363,7 +364,7 @@ class BranchAndBound {
   /// Halves per batch: enough for eight threads, and few compared with a search. The search does not depend on the
   /// number of threads.
   static constexpr std::size_t k_batch = 32;
-  static constexpr std::size_t k_repaired = 4;  ///< number of boxes of a batch with the lowest bounds
+  static constexpr std::size_t k_repaired = 4;  ///< boxes of a batch with the lowest bounds, whose designs are repaired
 
   const Problem& problem_;
   std::size_t count_;

@@ -68,9 +68,10 @@ RadiusSlope<S> arm_slope(const DesignNumbers<S>& d, const UpperNumbers<S>& upper
   return {q, cotangent * bend - squared(omega) - squared(q), S(0.0)};
 }
 
-/// Sets two conditions of a pitch curve: the take-off advances (ψ' > 0), and the groove floor is convex. With dp/dα = p g
-/// q, d²p/dα² = p g² (q² + q of_law + q') and ψ' = 1 + p'/w of profile/take_off.cpp, the radius of curvature times ψ'³ is
-/// p ψ'³ + p'' − (p − ρ)(p'/w)³. Division by ψ' is avoided; the first condition keeps it positive.
+/// Sets two conditions of a pitch curve: the take-off advances (ψ' > 0), and the groove floor is convex. With
+/// dp/dα = p g q, d²p/dα² = p g² (q² + q of_law + q') and ψ' = 1 + p'/w of profile/take_off.cpp, the radius of
+/// curvature times ψ'³ is p ψ'³ + p'' − (p − ρ)(p'/w)³. Division by ψ' is avoided; the first condition keeps it
+/// positive.
 template <typename S>
 void set_curve_conditions(const DesignNumbers<S>& d, const S& p, const S& to_pin, const S& g,
                           const RadiusSlope<S>& slope, const transmission::Domain& before, ConditionValue<S>& advance,

@@ -215,12 +215,13 @@ S below_guide(const DesignNumbers<S>& d, const S& above, const S& wrap) {
   return transmission::tension_below_pin(above, d.mu, wrap);
 }
 
-/// [9] including the tendon in a sheath, which is compliant to the mean of its end tensions.
+/// [9] including the sheath: the tendon in it and the sheath itself yield to the mean of its end tensions.
 template <typename S>
 S elongation_at(const DesignNumbers<S>& d, const StrokeNumbers<S>& n, const S& above, const S& off_pin) {
   const S on_pin = d.rho * n.phi;
   if (const auto* sheath = sheath_of(d)) {
     const S below = transmission::tension_below_pin(off_pin, sheath->mu, sheath->bend);
+    // Length of tendon that yields as much as the sheath and the tendon in it. mm
     const S sheathed = sheath->length + d.stiffness * sheath->compliance;
     return transmission::elongation_of_tendon(above, off_pin, n.upper2.free, on_pin, S(0.0), d.stiffness) +
            transmission::elongation_of_tendon(off_pin, below, S(0.0), sheathed, n.reach, d.stiffness);

@@ -61,7 +61,7 @@ bool peaks_near(const std::array<double, k_sampled_places>& values, int i, Value
 /// further from the samples than another one, so all candidates near the maximum are refined.
 template <typename Value>
 Evaluation largest_over_range(const Mechanism& mechanism, Value value) {
-  constexpr double k_near = 1e-2;  // a step of a sixtieth misses less of a peak
+  constexpr double k_near = 1e-2;  // relative; samples a sixtieth of the range apart miss less of a peak
   constexpr int k_sections = 24;
   std::array<double, k_sampled_places> values{};
   PlaceValue worst;
@@ -145,6 +145,7 @@ Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechan
 /// Minimum radius of curvature of both pitch curves; the envelope exists if it is positive.
 Evaluation smallest_bend(const Mechanism& mechanism) {
   const transmission::Transmission transmission(mechanism);
+  // This evaluation fails at the dead centre, too, and reports why.
   if (transmission.dead_centre()) return evaluate_by_transmission(Objective::max_tension, mechanism);
   const double range = mechanism.joint.theta_max - mechanism.joint.theta_min;
   const profile::TakeOffs left(transmission, transmission::Side::left), right(transmission, transmission::Side::right);

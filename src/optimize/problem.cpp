@@ -197,7 +197,7 @@ Design moved_to_bounds(const Problem& problem, Design design) {
 }
 
 double constraint_violation(const Problem& problem, const Design& design) {
-  constexpr double k_rounding = 1e-12;
+  constexpr double k_rounding = 1e-12;  // relative to the largest term of a constraint
   double violation = 0;
   for (const LinearConstraint& constraint : problem.constraints) {
     double excess = -constraint.b, size = std::abs(constraint.b);
@@ -291,9 +291,9 @@ Problem make_problem(const MechanismFile& file, JointConverter identified_joint,
                      "choose another objective");
   if (asks_footprint && problem.base.sheath.is_there())
     throw InputError(file.path, "footprint is not defined for joints with sheaths", "choose another objective");
-  const bool turns_sheath = std::any_of(problem.moving.begin(), problem.moving.end(),
-                                        [](const MovingKey& moving) { return moving.key.starts_with("sheath."); });
-  if (turns_sheath && !problem.base.sheath.is_there())
+  const bool varies_sheath = std::any_of(problem.moving.begin(), problem.moving.end(),
+                                         [](const MovingKey& moving) { return moving.key.starts_with("sheath."); });
+  if (varies_sheath && !problem.base.sheath.is_there())
     throw InputError(file.path, "[optimize] varies a key of [sheath], which the file lacks", "declare the sheath");
   demand_effects(problem, file.path);
   return problem;

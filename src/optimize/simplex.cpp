@@ -11,9 +11,9 @@
 namespace fusee::optimize {
 namespace {
 
-constexpr double k_tolerance = 1e-10;  ///< tolerance of violations: rows have size 1
-constexpr double k_pivot = 1e-9;       ///< smaller pivots only spread rounding errors
-constexpr double k_equal_ratios = 1e-14;
+constexpr double k_tolerance = 1e-10;     ///< tolerance of violations: rows have size 1
+constexpr double k_pivot = 1e-9;          ///< smaller pivots only spread rounding errors
+constexpr double k_equal_ratios = 1e-14;  ///< cost ratios that differ by less are equal
 constexpr int k_max_steps = 100;
 /// Small cost of each y: where t does not determine the best y, equal steps would cycle.
 constexpr double k_cost_of_place = 1e-9;

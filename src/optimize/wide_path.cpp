@@ -111,6 +111,8 @@ WidePath<S> path_of(const TendonEnd<S>& end, const std::optional<S>& drum, const
   const DrumLine<S> line = drum_line(*drum, e, oe, rho, domain);
   const S opening =
       end.is_on_drum ? S(0.0) : S(transmission::acos(transmission::unit_part(S(*drum / end.away), domain)));
+  // The tendon lies on the drum between the normal of its line from the end, which is `opening` before the end's
+  // direction, and the normal of its line to the pin. Negative: the tendon is clear of the drum.
   const S wound = quarter_turn(theta) - (theta + end.twist) - opening - line.normal;
   const DrumState state = drum_state(wound);
   if (state == DrumState::free) return free_path(end, e, oe, rho, theta, domain);

@@ -12,11 +12,11 @@ namespace {
 
 using Holds = std::function<bool(const PaperAssumptions&)>;
 
-/// Relative difference up to which two values are equal.
+/// Relative difference up to which two values of an objective count as equal.
 constexpr double k_same_value = 1e-6;
-/// Difference up to which two positions in a range are equal, as a fraction of the range.
+/// Difference up to which two positions in a range count as equal, as a fraction of the range.
 constexpr double k_same_place = 1e-3;
-/// Deviation from a straight line up to which a joint counts as linear. deg
+/// Deviation of θ(α) from a straight line up to which a joint counts as linear, deg.
 constexpr double k_linear = 0.1;
 
 // ---- predicates -----------------------------------------------------------------------------------------------------
@@ -42,7 +42,8 @@ double tension(const StrokePlace& place) { return place.forces.Tb; }
 double elongation(const StrokePlace& place) { return place.forces.elongation; }
 double joint_error(const StrokePlace& place) { return degrees(place.forces.theta_error); }
 
-/// The certified optimum of the paper's problem with this objective. The search ends at a value below `sufficient`.
+/// The certified optimum of the paper's problem with this objective. `gap`: relative distance of the proven bound from
+/// the optimum. The search ends early when it finds a value below `sufficient`.
 optimize::CertifiedResult optimum_of(const PaperAssumptions& assumptions, optimize::Objective objective, double gap,
                                      std::optional<double> sufficient = std::nullopt) {
   MechanismFile file = paper_problem_file(assumptions);
@@ -67,13 +68,15 @@ Lengths table_4_lengths(const PaperAssumptions& assumptions) {
   return {mechanism.joint.R, mechanism.guides.ED, mechanism.guides.OE};
 }
 
-/// True if no design of the box is better in this objective than these lengths by more than a millionth.
+/// True if it is proven that no design within the bounds is better in this objective than these lengths by more than
+/// two millionths: a millionth for equal values, another for the gap of the proof.
 bool is_optimal(const PaperAssumptions& assumptions, optimize::Objective objective, const Lengths& lengths) {
   const optimize::Evaluation evaluation =
       optimize::evaluate(objective, paper_mechanism(assumptions, lengths.R, lengths.ED, lengths.OE));
   if (!evaluation.possible) return false;
-  const double better = evaluation.value * (1.0 - k_same_value);
-  // A better neighbour avoids the search, and any better design ends it.
+  const double better_below = evaluation.value * (1.0 - k_same_value);
+  // A better neighbour makes the search unnecessary, and any better design ends it. Table 4 is at the upper bound of ED
+  // and at the lower bound of OE, so its neighbours inside have a smaller ED or a larger OE.
   const Optimization box = paper_problem_file(assumptions).mechanism.optimize;
   const double step = 1e-3 * assumptions.unit;
   for (const auto& [ED_step, OE_step] : {std::pair{-step, 0.0}, {0.0, step}, {-step, step}}) {
@@ -81,9 +84,9 @@ bool is_optimal(const PaperAssumptions& assumptions, optimize::Objective objecti
                             std::min(lengths.OE + OE_step, box.upper[2])};
     const optimize::Evaluation other =
         optimize::evaluate(objective, paper_mechanism(assumptions, neighbour.R, neighbour.ED, neighbour.OE));
-    if (other.possible && other.value < better) return false;
+    if (other.possible && other.value < better_below) return false;
   }
-  return optimum_of(assumptions, objective, k_same_value, better).lower_bound >=
+  return optimum_of(assumptions, objective, k_same_value, better_below).lower_bound >=
          evaluation.value * (1.0 - 2.0 * k_same_value);
 }
 
@@ -96,8 +99,8 @@ std::vector<ParameterWindows> windows_of(const PaperAssumptions& assumptions, co
     double PaperAssumptions::*member;
     double low, high;
   };
-  // μ = 0 is excluded, because whole surfaces tie there. r1 begins where P2 turns once; EF where the pulley touches the
-  // line of the pins.
+  // μ = 0 is excluded, because whole surfaces of designs are equally good there. EF begins where a pulley of the
+  // assumed r1 touches the line of the pins.
   constexpr int k_steps = 40;
   constexpr SearchedParameter searched[] = {{"mu", "", &PaperAssumptions::mu, 0.01, 0.51},
                                             {"r1", "mm", &PaperAssumptions::r1, 2.0, 42.0},
@@ -209,6 +212,7 @@ Claim same_optimum_claim(const Reproduction& so_far) {
   const optimize::CertifiedResult least = optimum_of(so_far.assumptions, optimize::Objective::max_error, k_same_value);
   const double of_table_4 =
       optimize::evaluate(optimize::Objective::max_error, table_4_mechanism(so_far.assumptions)).value;
+  // The objective is an error per newton of tip force.
   const double force = so_far.assumptions.tip_force;
   claim.equations_give = "largest error " + rounded(of_table_4 * force, 5) + "° at Table 4; the least is " +
                          rounded(least.value * force, 5) + "° at R " + in_mm(least.best[0]) + ", ED " +
@@ -242,7 +246,7 @@ Claim drawing_claim(const Reproduction& so_far) {
   claim.name = "profile_by_drawing_r2_against_alpha";
   claim.paper_says = "P2's profile is r2 drawn against α in polar coordinates";
   Mechanism mechanism = table_4_mechanism(so_far.assumptions);
-  mechanism.tendon.diameter = 0.01;  // the drawing has no thickness
+  mechanism.tendon.diameter = 0.01;  // mm: nearly none, because the paper draws the tendon as a line
   profile::SynthesisOptions options;
   options.advice = false;
   const profile::SynthesisResult drawn = profile::synthesise(mechanism, options);
@@ -251,7 +255,7 @@ Claim drawing_claim(const Reproduction& so_far) {
     claim.equations_give = "with these numbers it cannot be drawn: " + drawn.brief();
     return claim;
   }
-  const double to_floor = -0.5 * mechanism.tendon.diameter;
+  const double to_floor = -0.5 * mechanism.tendon.diameter;  // from the tendon's centre line to the groove floor
   const profile::RewindResult wound =
       profile::rewind(mechanism, profile::parallel(drawn.p1, to_floor), profile::parallel(drawn.p2, to_floor));
   const auto [low, high] = std::minmax_element(wound.points.begin(), wound.points.end(),

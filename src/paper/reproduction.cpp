@@ -18,7 +18,7 @@ constexpr double k_table_4[] = {1.0, 0.5, -0.4};
 constexpr double k_lower[] = {1.0, 0.3, -0.4};
 constexpr double k_upper[] = {3.0, 1.5, 0.5};
 
-/// Ratio of the linear law with the same motor stroke.
+/// Ratio dα/dθ of the linear law with the same motor stroke.
 double same_stroke_ratio(const Mechanism& mechanism) {
   const transmission::Transmission transmission(mechanism);
   return (transmission.alpha_max() - transmission.alpha_min()) /
@@ -54,8 +54,8 @@ std::vector<MuWindow> mu_windows(const PaperAssumptions& assumptions) {
   constexpr double k_lowest = 0.01, k_highest = 0.51;
   constexpr int k_steps = 20;
   std::vector<MuWindow> all;
-  for (const double r1 : {10.0, 15.0, 20.0}) {
-    for (const double EF : {40.0, 60.0, 100.0, 150.0}) {
+  for (const double r1 : {10.0, 15.0, 20.0}) {            // mm
+    for (const double EF : {40.0, 60.0, 100.0, 150.0}) {  // mm
       PaperAssumptions changed = assumptions;
       changed.r1 = r1;
       changed.EF = EF;
@@ -143,11 +143,14 @@ double nonlinearity(const std::vector<StrokePlace>& stroke) {
   };
   const double mean = (stroke.back().point.theta - stroke.front().point.theta) /
                       (stroke.back().point.alpha - stroke.front().point.alpha);
-  constexpr int k_steps = 100;
+  constexpr int k_steps = 100;  // (2/3)^100 of the interval is below the rounding of its ends
   double low = 0.5 * mean, high = 1.5 * mean;
   for (int i = 0; i < k_steps; ++i) {
-    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-    (deviation(a) < deviation(b) ? high : low) = deviation(a) < deviation(b) ? b : a;
+    const double lower_third = low + (high - low) / 3, upper_third = high - (high - low) / 3;
+    if (deviation(lower_third) < deviation(upper_third))
+      high = upper_third;
+    else
+      low = lower_third;
   }
   return degrees(deviation(0.5 * (low + high)));
 }

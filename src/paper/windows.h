@@ -9,8 +9,8 @@
 
 namespace fusee::paper {
 
-/// Evaluates `steps` + 1 evenly spaced values and bisects between values that differ. Intervals narrower than a step
-/// are missed.
+/// Evaluates `holds` at `steps` + 1 evenly spaced values from `low` to `high`, and bisects between two neighbours if it
+/// is true at only one of them. Intervals narrower than a step are missed.
 std::vector<Window> windows_where(const std::function<bool(double)>& holds, double low, double high, int steps);
 
 /// "0.132 to 0.249", "up to 0.21", "nowhere".

@@ -17,14 +17,14 @@ namespace {
 
 /// Radius of the thinnest axle or post, M3, mm.
 constexpr double k_thinnest_radius = 1.5;
-/// Required clearance, mm; as of a pin.
+/// Required clearance, mm; the same as for a pin.
 constexpr double k_clearance = 0.5;
 
 /// A part of the joint and its smallest distance from the flanges.
 struct NearestPart {
-  std::string part;
-  double distance = 0;  ///< from its axis; negative: inside, mm
-  double theta = 0;     ///< rad
+  std::string part;     ///< "the joint's axle"
+  double distance = 0;  ///< from the part's axis to the flanges, mm; negative: inside
+  double theta = 0;     ///< joint angle of the smallest distance, rad
 };
 
 /// Reach of the pulley from its axis by direction, mm, in the frame of the mesh at home.
@@ -111,6 +111,7 @@ std::vector<Diagnostic> axle_clearance_warnings(
   const Field& field = *find_field("pulley.EF_mm");
   const double now = number_of(product.file.mechanism, field);
   double further = k_thinnest_radius + k_clearance - part->distance;
+  // Another distance also changes the pulley. If the first number does not suffice, larger ones are tried.
   for (int trial = 0; trial < 3; ++trial, further *= 1.3) {
     Mechanism changed = product.file.mechanism;
     const double advised = std::ceil(now + further);

@@ -133,8 +133,9 @@ std::vector<Check> checks_of_printed(const BuildContext& context, const solid::P
   return checks;
 }
 
-/// Running checks of the written files; each starts as soon as its file is staged. A check that was already made on
-/// equal bytes or facets is not repeated.
+/// Running checks of the written files; each starts as soon as its file is staged. No check is repeated on equal bytes
+/// or facets: pulley.obj and pulley.3mf are compared with a checked mesh, and pulley.drc is decoded again only if its
+/// bytes are not those that formats::draco_file() has decoded and checked.
 struct PendingChecks {
   using Checks = Task<std::vector<Check>>;
 
@@ -382,6 +383,7 @@ class FeasibilityCheck {
 
   /// Number of full builds that keep within k_points_for_advice, estimated from the largest variant.
   int max_builds() const {
+    // A chord over the angle φ of a circle of radius r has the error r φ² / 8. Facets turn by 2° at most.
     const double turn = std::min(radians(2.0), std::sqrt(8.0 * options_.chord_error_mm / largest_reach_));
     const double points = std::max(k_two_pi / turn, refused_points_);
     return std::max(1, static_cast<int>(k_points_for_advice / points));

@@ -13,7 +13,7 @@ constexpr int k_most_next_runs = 9;
 /// Run files that an earlier calibration may have written.
 constexpr int k_most_earlier_runs = 99;
 
-/// Files to read, each once; held-out runs last.
+/// Files to read, each once: the fitted runs, then the held-out ones.
 struct RunFiles {
   std::vector<std::filesystem::path> all;
   std::size_t fitted = 0;  ///< number of fitted runs
@@ -103,8 +103,7 @@ std::vector<std::string> output_names(const MechanismFile& file) {
   return names;
 }
 
-/// Adds the files of the next measurements: those that may be written now, or are withdrawn from an earlier
-/// calibration.
+/// Adds the names of files for `runs` next measurements, the first of which is number `first_run`.
 std::vector<std::string> with_next(std::vector<std::string> names, int first_run, int runs) {
   for (const std::string& name : formats::next_file_names(first_run, runs)) names.push_back(name);
   return names;
@@ -137,7 +136,7 @@ CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::file
   result.rewritten = declared.rewritten;
   read_and_calibrate(context, files);
   result.outputs = outputs_of(result.product, declared.text, *run.files);
-  // A correction or run file of an earlier calibration that this one does not write.
+  // An earlier calibration may have left a correction or run files that this one does not write.
   target.withdraw(with_next(output_names(file), 1, k_most_earlier_runs));
   if (!options.dry_run) publish(context, target);
   return result;

@@ -14,7 +14,7 @@ std::vector<OutputFile> outputs_of(const formats::ComparisonProduct& product) {
   return outputs;
 }
 
-/// Reads the runs of both states, and compares them with the mounted joint of the file.
+/// Reads the runs of both states, and compares the states with expected_joint() of the file.
 void read_and_compare(const MechanismFile& file, const Paths& before, const Paths& after, const CompareOptions& options,
                       const RunContext& context, formats::ComparisonProduct& product) {
   context.begin_step("reading the runs");

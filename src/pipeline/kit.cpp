@@ -42,7 +42,7 @@ CheckedPart make_part(const kit::KitPart& part, const formats::KitProduct& produ
       {formats::kit_file_name(part, "3mf"), formats::threemf_bytes(mesh, name, product.pulley.mechanism_files)}};
   const solid::TriangleMesh written = read_back(result.files[0]);
   result.checks = solid::check_mesh(written);
-  // Rounding moves a corner by half of a float's last digit, which changes the volume by that times the area.
+  // Rounding moves a corner by up to half of a float's last digit. The volume changes by that distance times the area.
   const double volume = kit::printed_volume(part, mechanism, layout);
   result.checks.push_back(at_most("volume_error", std::abs(solid::enclosed_volume(written) / volume - 1), 1e-4, "1"));
   if (!mechanism.print.supports) {
@@ -140,9 +140,9 @@ profile::Advice advice_for_kit(const MechanismFile& file, const formats::KitProd
   return advice;
 }
 
-constexpr int k_most_kit_runs = 99;
+constexpr int k_most_kit_runs = 99;  ///< run files that an earlier kit may have written
 
-/// All files that a rig may have; those of an earlier rig that this one lacks are withdrawn.
+/// Files of this rig, and files that an earlier rig may have had, which are withdrawn: sleeves of pins and run files.
 std::vector<std::string> kit_names(const kit::KitPlan& plan) {
   std::vector<std::string> names{"kit.dxf", "bom.csv", "kit.html", "manifest.json"};
   for (const kit::KitPart& part : plan.parts) {

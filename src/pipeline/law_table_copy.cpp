@@ -40,7 +40,7 @@ std::filesystem::path table_path(const MechanismFile& file) {
   return std::filesystem::path(file.path).parent_path() / std::filesystem::path(declared_table(file.mechanism));
 }
 
-/// True if `text`, placed in `folder`, is a mechanism that finds its table there.
+/// True if `text`, as a file of `folder`, is a mechanism whose table is the file `table` of that folder.
 bool finds_table(const std::string& text, const std::filesystem::path& folder, const std::string& table,
                  FileAccess& files) {
   try {

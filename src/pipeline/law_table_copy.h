@@ -11,10 +11,11 @@
 
 namespace fusee::pipeline {
 
-/// File name of the table without folder, not that of an output; empty if the law has no table.
+/// File name for a copy of the law's table, without folder. It differs from the names of all outputs. Empty if the law
+/// has no table.
 std::optional<std::string> law_table_name(const Mechanism& mechanism);
 
-/// Content of the table under that name.
+/// A copy of the law's table, named law_table_name().
 OutputFile law_table_copy(const MechanismFile& file, FileAccess& files);
 
 /// A text that describes `file.mechanism` and finds its law's table in its own folder: the user's text with comments
@@ -25,7 +26,7 @@ struct DeclaredText {
 };
 DeclaredText declared_text(const MechanismFile& file, FileAccess& files);
 
-/// That text as mechanism.toml, and the table if there is one.
+/// declared_text() as mechanism.toml, and law_table_copy() if the law has a table.
 std::vector<OutputFile> mechanism_files(const MechanismFile& file, FileAccess& files);
 
 /// `text` with the value of pulley.table or pulley.torque_table replaced by the table's file name. `text` must describe

@@ -61,7 +61,7 @@ std::string limit_deg(double angle) {
   return rounded(std::ceil(value * scale) / scale, 3);
 }
 
-/// The law over `share` of its range, rounded to thousandths of a degree.
+/// The law over `share` of its range. Limits are truncated to thousandths of a degree.
 DeclaredMechanism narrowed(DeclaredMechanism mechanism, double share) {
   const auto truncated = [share](double angle) { return radians(std::trunc(1000 * share * degrees(angle)) / 1000); };
   mechanism.joint.theta_min = truncated(mechanism.joint.theta_min);
@@ -83,7 +83,7 @@ std::vector<ModelChange> changes_for_polynomial(const formats::ModelProduct& pro
   if (product.equality.error < radians(k_largest_limit_deg))
     changes.push_back({"--max-error-deg " + limit_deg(product.equality.error)});
   if (product.tendons) changes.push_back({"--no-polynomial"});
-  double possible = 0, impossible = 1;  // shares of the range, by bisection
+  double possible = 0, impossible = 1;  // shares of the range, found by bisection to 1/256
   for (int i = 0; i < 8; ++i) {
     const double share = 0.5 * (possible + impossible);
     if (has_polynomial(narrowed(product.file.mechanism, share), options.most_error))

@@ -20,7 +20,7 @@ constexpr std::array k_factors{1.05, 1.1, 1.2, 1.35, 1.5, 1.8, 2.2, 3.0};
 // Limits of the search: plans take some milliseconds, builds some tenths of a second.
 constexpr int k_most_plans = 60;
 constexpr int k_most_builds = 6;
-// With more outline points every build takes seconds: there is no search.
+// Largest number of outline points with which the search is made: with more, every build takes seconds.
 constexpr std::size_t k_most_points = 1600;
 
 /// A number of the mechanism to change, and the direction of the change.
@@ -84,7 +84,7 @@ class OmissionSearch {
   OmissionSearch(const formats::Product& product, const BuildOmissions& build, const RunContext& context)
       : product_(product), build_(build), context_(context), omitted_(features_of(product.pulley.layout)) {}
 
-  /// The advice about each feature that has one.
+  /// Advice by feature, for each omitted feature that a change of one number brings back.
   std::map<std::string, std::string> all() {
     std::map<std::string, std::string> advice;
     for (const NumberChange& change : changes()) {
@@ -118,6 +118,7 @@ class OmissionSearch {
     const Mechanism& mechanism = product_.file.mechanism;
     const Body& body = mechanism.body;
     std::vector<NumberChange> all;
+    // Another hub may bring back features of the hub and of P2, which is beside it, but none of P1 and none of these.
     const bool at_hub = std::any_of(omitted_.begin(), omitted_.end(), [](const std::string& feature) {
       return !feature.ends_with("_P1") && feature != "clocking_mark" && feature != "bore" && feature != "marks";
     });
@@ -154,8 +155,8 @@ class OmissionSearch {
     return trial;
   }
 
-  /// Features that a plan of the trial omits; empty if it has no body. Multi-turn pulleys are not planned: none is
-  /// assumed to be omitted.
+  /// Features that a plan of the trial omits; empty if the trial has no body. There are no plans for multi-turn
+  /// pulleys: the plan is assumed to omit nothing, and the build decides.
   std::optional<std::vector<std::string>> planned_omissions(const Trial& trial) {
     ++plans_;
     if (product_.helix) return std::vector<std::string>{};

@@ -10,7 +10,7 @@
 namespace fusee::pipeline {
 namespace {
 
-/// Size of a binary STL with ten million triangles, more than anyone prints.
+/// Size of a binary STL with ten million triangles, more than anyone prints. Bytes.
 constexpr std::size_t k_largest_part = std::size_t{512} << 20;
 
 bool has_ending(std::string name, std::string_view ending) {

@@ -16,7 +16,7 @@ std::vector<OutputFile> outputs_of(const formats::PlanProduct& product) {
   return outputs;
 }
 
-/// Run files of any earlier plan.
+/// Names of the run files that an earlier plan may have written.
 std::vector<std::string> run_names() {
   constexpr int k_most_runs = 99;
   std::vector<std::string> names;

@@ -61,7 +61,7 @@ profile::RewindResult rewind_drawing(const joint::IdentifiedJoint& joint, const 
   return rewind_drawn(centre_line, counter_clockwise(pitch1->points), counter_clockwise(pitch2->points));
 }
 
-/// The outline of the part after the material has shrunk: the mesh is larger by `scale`.
+/// The outline of the part after the material has shrunk: the mesh is `scale` times as large.
 Polygon shrunk(Polygon outline, double scale) {
   for (Vec2& point : outline) point /= scale;
   return outline;
@@ -107,7 +107,7 @@ profile::RewindResult rewind_mesh(const joint::IdentifiedJoint& joint, const sol
 
 // ---- moved parts ----------------------------------------------------------------------------------------------------
 
-/// Half of the facets' deviation, mm: a part that fits better than this was not moved.
+/// A part whose floors deviate by at most this, mm, was not moved. Half of the default chord error of facets.
 constexpr double k_as_made = 0.005;
 /// A move is accepted if it reduces the deviation to this share. Parts with other faults fit badly at every position.
 constexpr double k_clearly_better = 0.5;
@@ -226,7 +226,7 @@ profile::RewindResult rewind_helical_part(const joint::IdentifiedJoint& joint, c
 
 /// Winds on the part in its present position, axis along z: the search for a move needs grooves of constant height.
 RewoundPart rewind_helical_in_place(const joint::IdentifiedJoint& joint, const Part& part) {
-  constexpr double k_most_error = radians(0.5);
+  constexpr double k_most_error = radians(0.5);  // of θ, for a part that is recognised
   RewoundPart result{rewind_helical_part(joint, part), PartPlace::as_made, {}};
   if (!(result.as_built.max_theta_error < k_most_error)) result.place = PartPlace::not_recognised;
   return result;
@@ -249,7 +249,8 @@ RewoundPart rewind_unrecognised(const joint::IdentifiedJoint& joint, const solid
   }
 }
 
-/// Size of the floors at which they fit the declared ones best, if it explains most of their deviation; else 1.
+/// Scale of the part at which its floors fit the declared ones best, within 5 %, if that at least halves their
+/// deviation. Otherwise 1, also for a part with one groove only.
 double scale_of(const std::vector<solid::Placement>& placements, const solid::GrooveFloors& expected) {
   solid::GrooveFloors found, declared;
   for (const auto side : {transmission::Side::left, transmission::Side::right}) {

@@ -10,7 +10,7 @@
 namespace fusee::pipeline {
 
 std::optional<Diagnostic> wide_part_warning(const formats::Product& product) {
-  constexpr double k_wide = 2.0;
+  constexpr double k_wide = 2.0;  // ratio of radii from which a part is wide
   if (product.helix) return std::nullopt;
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const transmission::TransmissionPoint& point : product.synthesis.stroke) {
@@ -18,7 +18,8 @@ std::optional<Diagnostic> wide_part_warning(const formats::Product& product) {
     most = std::max({most, point.t1.p, point.t2.p});
   }
   const double diameter = solid::outer_size(product.pulley).diameter;
-  if (diameter < 2.0 * k_wide * std::max(most, product.pulley.layout.hub_radius)) return std::nullopt;
+  const double required_radius = std::max(most, product.pulley.layout.hub_radius);
+  if (diameter < 2.0 * k_wide * required_radius) return std::nullopt;
   return Diagnostic{
       Severity::warning, product.file.place_of("pulley.law"),
       fmt::format("the part is {} mm wide, and the tendons leave it at radii of {} to {} mm: its outline closes far "

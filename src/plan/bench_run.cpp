@@ -10,15 +10,22 @@ namespace fusee::plan {
 namespace {
 
 constexpr double k_quarter_turn = 0.25 * k_two_pi;
-/// Time between two rows of a dwell, s.
+/// Least time between two rows of a dwell, s.
 constexpr double k_dwell_step = 2.0;
 
 double seconds_of_stroke(const PlannedRun& run) { return std::abs(run.to - run.from) / run.speed; }
 
+/// "slow", or the speed. `slow`: the speed that is called slow, rad/s.
 std::string pace_words(const PlannedRun& run, double slow) {
   const double pace = run.speed / slow;
   if (std::abs(pace - 1) < 0.01) return "slow";
   return rounded(degrees(run.speed), 3) + " deg/s";
+}
+
+std::string load_words(const PlannedRun& run, const std::string& load_unit) {
+  if (run.load == 0) return "without load";
+  const std::string amount = rounded(run.load, 3);
+  return load_unit.empty() ? "at load " + amount : "at " + amount + " " + load_unit;
 }
 
 }  // namespace
@@ -48,12 +55,8 @@ double setup_minutes_of(const PlannedRun& run) {
 double minutes_of(const PlannedRun& run) { return run.cycles * 2 * (seconds_of_stroke(run) + run.dwell) / 60.0; }
 
 std::string words(const PlannedRun& run, double slow, const std::string& load_unit) {
-  const std::string amount = rounded(run.load, 3);
-  const std::string load = run.load == 0       ? "without load"
-                           : load_unit.empty() ? "at load " + amount
-                                               : "at " + amount + " " + load_unit;
-  const std::string pace = pace_words(run, slow);
-  std::string text = std::to_string(run.cycles) + (run.cycles == 1 ? " cycle, " : " cycles, ") + pace + ", " + load;
+  std::string text = std::to_string(run.cycles) + (run.cycles == 1 ? " cycle, " : " cycles, ") + pace_words(run, slow) +
+                     ", " + load_words(run, load_unit);
   if (run.dwell > 0) text += ", held for " + rounded(run.dwell, 3) + " s at both ends";
   if (run.change != BenchChange::none) text = std::string(words(run.change)) + ", set home again: " + text;
   return text;

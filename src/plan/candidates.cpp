@@ -69,7 +69,8 @@ bool is_borne(const std::vector<joint::JointState>& states, double most) {
   });
 }
 
-/// The smallest weight whose deflection is clear; if there is none, the largest that the tendons bear.
+/// The smallest weight whose deflection is clear. If none is, the largest that the tendons bear, but at least the
+/// smallest weight of the list. N
 double smallest_clear_load(const DeclaredMechanism& declared, const PlannedRun& slow, double noise) {
   const auto without = angles(under_load(declared, slow, 0));
   const double most = bearable_tension(declared);
@@ -83,14 +84,15 @@ double smallest_clear_load(const DeclaredMechanism& declared, const PlannedRun& 
   return chosen;
 }
 
-/// The loads of a plan whose options state none.
+/// The loads of a plan whose options state none: N, or the unit of the log for a joint that is declared by a ratio.
 std::vector<double> usual_loads(const DeclaredMechanism& declared, const PlannedRun& slow, double noise) {
   const double load = declared.transmission ? 1.0 : smallest_clear_load(declared, slow, noise);
   return {0.0, load, 0.5 * load, -load};
 }
 
 /// Throws InputError for a load under which the joint has no equilibrium.
-void refuse_unheld_loads(const DeclaredMechanism& declared, const PlannedRun& slow, const std::vector<double>& loads) {
+void refuse_loads_without_equilibrium(const DeclaredMechanism& declared, const PlannedRun& slow,
+                                      const std::vector<double>& loads) {
   if (declared.transmission) return;  // it bears any load
   for (const double load : loads) {
     if (load == 0) continue;
@@ -116,7 +118,7 @@ Bench bench_of(const DeclaredMechanism& declared, const PlanOptions& options) {
       options.speeds.empty() ? std::vector<double>{travel / k_slow_cycle, travel / k_fast_cycle} : options.speeds;
   std::sort(bench.speeds.begin(), bench.speeds.end());
   const PlannedRun slow{.from = bench.from, .to = bench.to, .speed = bench.speeds.front()};
-  refuse_unheld_loads(declared, slow, options.loads);
+  refuse_loads_without_equilibrium(declared, slow, options.loads);
   bench.loads = options.loads.empty() ? usual_loads(declared, slow, options.noise) : options.loads;
   std::stable_partition(bench.loads.begin(), bench.loads.end(), [](double load) { return load == 0; });
   return bench;
@@ -132,7 +134,8 @@ std::vector<PlannedRun> candidate_runs(const Bench& bench) {
                       .speed = speed,
                       .load = load};
   };
-  // In a fast run a load also acts by its inertia: only slow runs are loaded.
+  // In a fast run a load would also act by its inertia. Fast runs therefore have the first load, which is 0 if the
+  // bench includes runs without load.
   const double slow = bench.speeds.front();
   for (const double load : bench.loads) runs.push_back(run(slow, load));
   for (const double speed : bench.speeds) {

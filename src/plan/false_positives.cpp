@@ -77,8 +77,9 @@ class CauseSelector {
     for (const double size : k_unmodelled_sizes)
       unmodelled_.push_back(
           with_model_error(signatures.unmodelled_first(), signatures.columns() - signatures.unmodelled_first(), size));
-    const SymmetricEigen parts = eigendecomposition(known.runs + known.readings);
-    noise_ = parts.vectors * parts.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+    // With G = V Λ Vᵀ, V √Λ is a square root of G. Rounding makes some eigenvalues slightly negative.
+    const SymmetricEigen eigen = eigendecomposition(known.runs + known.readings);
+    noise_ = eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
     model_first_ = signatures.model_first();
     model_count_ = static_cast<Eigen::Index>(model.size());
   }

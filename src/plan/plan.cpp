@@ -154,8 +154,8 @@ class Planner {
     return causes_.empty() ? 1.0 : sum / static_cast<double>(causes_.size());
   }
 
-  /// Adds the step of largest gain per minute to `chosen`, as long as one exceeds the least gain and fits into the
-  /// minutes.
+  /// Adds the step of largest gain per minute to `chosen`, and repeats this until no step that fits into the minutes
+  /// reaches the least gain.
   std::vector<std::size_t> choose(double minutes, std::vector<std::size_t> chosen) const {
     Information known = start_;
     double used = 0;
@@ -172,7 +172,7 @@ class Planner {
     }
     double before = separation(known);
     while (true) {
-      double best = 0;
+      double best = 0;  // largest gain per minute
       std::size_t next = candidates_.size();
       double after = before;
       for (std::size_t i = 0; i < candidates_.size(); ++i) {
@@ -193,7 +193,8 @@ class Planner {
     }
   }
 
-  /// Removes steps, the last one first, whose separation the other steps reach as well.
+  /// Removes steps, the last one first, without which the others reach the same separation up to the least gain. The
+  /// first step, the slow run, stays.
   std::vector<std::size_t> without_redundant(std::vector<std::size_t> chosen) const {
     const auto separation_by = [&](const std::vector<std::size_t>& set) {
       Information known = start_;
@@ -314,7 +315,7 @@ class Planner {
   Signatures signatures_;
   std::string load_unit_;
   std::vector<Candidate> candidates_;
-  Information start_;          ///< before the first step: the values in [prior]
+  Information start_;          ///< information before the first step: that of the values in [prior]
   std::vector<Cause> causes_;  ///< those that the plan considers
   std::vector<std::pair<std::string, std::string>> left_out_;
 };

@@ -19,6 +19,8 @@ constexpr int k_rows_a_stroke = 24;
 /// Numbers of Legendre polynomials over the range: shapes of the model error and of unmodelled causes.
 constexpr int k_model_shapes = 3;
 constexpr int k_unmodelled_shapes = 9;
+/// Factors of the model error: 1, direction.
+constexpr int k_model_factors = 2;
 /// Factors of an unmodelled cause: 1, direction, load, load · direction, speed · direction.
 constexpr int k_unmodelled_factors = 5;
 
@@ -65,7 +67,7 @@ Signatures::Signatures(const DeclaredMechanism& declared, const Bench& bench, do
     }
   }
   model_first_ = columns_;
-  unmodelled_first_ = model_first_ + 2 * k_model_shapes;
+  unmodelled_first_ = model_first_ + k_model_factors * k_model_shapes;
   columns_ = unmodelled_first_ + k_unmodelled_shapes * k_unmodelled_factors;
 }
 
@@ -117,7 +119,7 @@ std::optional<Signatures::RunEquations> Signatures::of(const PlannedRun& run) co
     for (Eigen::Index i = 0; i < cause.count(); ++i) {
       const Eigen::Index column = cause.first + i;
       A.col(column) = response_to(forward, {}, *cause.numbers[static_cast<std::size_t>(i)]);
-      // A number without an effect of its own is varied from the first number's usual size.
+      // A number that has no effect while the first number is 0 is varied from the first number's usual size.
       if (i > 0 && A.col(column).isZero(0)) {
         Imperfections first;
         set_value(first, *cause.numbers.front(), usual_size(*cause.numbers.front(), bench_.largest_load()));
@@ -127,6 +129,7 @@ std::optional<Signatures::RunEquations> Signatures::of(const PlannedRun& run) co
   }
   const transmission::TargetMotion law(expected_);
   const std::vector<RowPosition> positions = positions_of(log.front(), bench_);
+  // As shares of the largest ones.
   const double load = bench_.largest_load() > 0 ? run.load / bench_.largest_load() : 0.0;
   const double speed = run.speed / bench_.speeds.back();
   for (Eigen::Index k = 0; k < rows; ++k) {
@@ -134,11 +137,12 @@ std::optional<Signatures::RunEquations> Signatures::of(const PlannedRun& run) co
     const double deflection = expected_.transmission ? 0.0 : undisturbed[row] - law.theta(log.front().rows[row].alpha);
     for (int n = 0; n < k_model_shapes; ++n) {
       const double error = k_plan.deflection_share * deflection * legendre(n, positions[row].in_range);
-      A(k, model_first_ + 2 * n) = error;
-      A(k, model_first_ + 2 * n + 1) = error * positions[row].direction;
+      A(k, model_first_ + k_model_factors * n) = error;
+      A(k, model_first_ + k_model_factors * n + 1) = error * positions[row].direction;
     }
     const double factors[k_unmodelled_factors] = {1, positions[row].direction, load, load * positions[row].direction,
                                                   speed * positions[row].direction};
+    // Columns of unmodelled causes are for 1° at the joint; false_positives.cpp multiplies them by the sizes.
     for (int n = 0; n < k_unmodelled_shapes; ++n) {
       for (int f = 0; f < k_unmodelled_factors; ++f)
         A(k, unmodelled_first_ + n * k_unmodelled_factors + f) =

@@ -31,7 +31,7 @@ class Signatures {
   Signatures(const DeclaredMechanism& declared, const Bench& bench, double noise);
 
   const std::vector<Cause>& causes() const { return causes_; }
-  /// Effects without a plan, and the reason.
+  /// Effects that the plan omits, each with the reason.
   const std::vector<std::pair<std::string, std::string>>& left_out() const { return left_out_; }
   Eigen::Index model_first() const { return model_first_; }            ///< first column of the model error
   Eigen::Index unmodelled_first() const { return unmodelled_first_; }  ///< first column of the unmodelled causes

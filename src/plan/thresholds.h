@@ -12,7 +12,8 @@ struct PlanThresholds {
   double model_share = 0.05;
   /// Error of the tendon model, smooth over the range, as a share of the elastic deflection.
   double deflection_share = 0.03;
-  /// Smallest share of a cause's usual size that is worth identifying. Half of all causes are below 2/3 of it.
+  /// Smallest share of a cause's usual size that is worth identifying. Half of all causes are smaller than 2/3 of their
+  /// usual size, the median of a normal distribution.
   double least_share = 1.0 / 3.0;
   /// Log evidence by which one explanation must exceed another: log 50, for odds of 50 : 1, or 2 %.
   double odds = 3.9;
@@ -23,7 +24,7 @@ struct PlanThresholds {
 };
 inline constexpr PlanThresholds k_plan;
 
-/// Minutes that changes on the bench take, as a rule of thumb.
+/// Minutes that changes and measurements at the bench take, as a rule of thumb.
 struct BenchMinutes {
   double load = 1;        ///< another weight on the cord
   double mounting = 5;    ///< an encoder turned and home set again, twice: there and back

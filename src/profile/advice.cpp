@@ -147,7 +147,8 @@ std::vector<DesignVariable> design_variables(const Mechanism& mechanism, const s
 /// "12.3 mm" in the file's unit.
 std::string value_text(const DesignVariable& variable, double value) {
   const std::string word = variable.units == LengthUnit::mm ? variable.unit : std::string(unit_word(variable.units));
-  const std::string unit = word == "deg" ? "°" : word.empty() ? "" : " " + word;
+  const std::string word_after_number = word.empty() ? "" : " " + word;
+  const std::string unit = word == "deg" ? "°" : word_after_number;
   return rounded(from_mm(value, variable.units), 3) + unit;
 }
 
@@ -188,20 +189,20 @@ struct SearchDirection {
   bool ends_before(double step, double before) const { return at(step) == at(before); }
 };
 
-// Steps are multiples of DesignVariable::scale. The first search begins at 2 % and ends below 400 %: five times its
-// magnitude would be another joint.
+// Steps are multiples of DesignVariable::scale. The first search begins at 2 % and ends below 400 %: a number of five
+// times its magnitude would describe another joint.
 constexpr double k_first_step = 0.02;
 constexpr double k_step_ratio = 2.4;
 constexpr double k_last_step = 4.0;
 // A search over the whole range of a number has smaller steps, up to its bounds. It follows if no near value suffices,
 // and precedes for a number that was just typed.
 constexpr double k_sweep_ratio = 1.3;
-// Bisection ends at this width of the step: three digits of the number.
+// Bisection ends when the border is known to this step: three digits of the number.
 constexpr double k_border_width = 5e-4;
 // The end of the values that suffice is searched in these steps of the value, up to a quarter of it.
 constexpr double k_limit_step = 0.05;
 constexpr int k_limit_steps = 5;
-// Sufficient number of changes, with the fast test only and with full builds.
+// Number of changes that suffices: with the fast test only, and with full builds.
 constexpr std::size_t k_sufficient = 3;
 constexpr std::size_t k_sufficient_builds = 2;
 // Upper bounds on full builds and fast tests.
@@ -428,7 +429,7 @@ class AdviceSearch {
     pairs.resize(std::min(pairs.size(), static_cast<std::size_t>(std::max(0, max_evaluations_ - evaluations_))));
     return pairs;
   }
-  /// Evaluations are independent. If full builds are required, two run at a time.
+  /// Evaluations are independent. Two of them run at a time if the oracle has full builds, otherwise one.
   std::vector<std::vector<Condition>> evaluate(const std::vector<Mechanism>& changed) {
     std::vector<std::vector<Condition>> obstacles(changed.size());
     evaluations_ += static_cast<int>(changed.size());
@@ -633,7 +634,8 @@ std::string setting_words(const Change& change) {
   const std::string now = " (now " + rounded(change.from, k_digits) + ")";
   const auto [least, most] = std::minmax({change.to, change.until.value_or(change.to)});
   if (least != most) return change.key + " = " + rounded(least, k_digits) + " to " + rounded(most, k_digits) + now;
-  const std::string end = change.until ? "" : change.to > change.from ? " or more" : " or less";
+  const std::string direction = change.to > change.from ? " or more" : " or less";
+  const std::string end = change.until ? "" : direction;
   return change.key + " = " + rounded(change.to, k_digits) + end + now;
 }
 

@@ -7,7 +7,7 @@
 namespace fusee::profile {
 namespace {
 
-constexpr int k_segments = 192;
+constexpr int k_segments = 192;  ///< number of intervals between knots
 
 /// ∫ ρ t dψ over a segment with ρ linear from r0 to r1: the displacement along the curve.
 /// With t = n' and ∫ n = −t:  [ρ n] − slope ∫ n = r1 n1 − r0 n0 + slope (t1 − t0).
@@ -95,15 +95,18 @@ std::optional<ClosingArc> ClosingArc::between(const CurvePoint& begin, const Cur
   const Knots knots = make_knots(begin, end, least_radius);
   const Vec2 target = end.position() - begin.position();
   const double size = target.norm() + begin.radius + end.radius;
+  constexpr int k_most_steps = 100;
+  constexpr double k_closed = 1e-13, k_closed_enough = 1e-10;  // gap relative to the size
+  constexpr double k_least_fraction = 1e-6;                    // of a Newton step
 
   Vec2 multipliers(0, 0);
   Vec2 gap = closure_gap(knots, multipliers, target);
-  for (int i = 0; i < 100 && gap.norm() > 1e-13 * size; ++i) {
+  for (int i = 0; i < k_most_steps && gap.norm() > k_closed * size; ++i) {
     const Vec2 step = -closure_slope(knots, multipliers).fullPivLu().solve(gap);
     if (!step.allFinite()) return std::nullopt;
     double fraction = 1.0;
     Vec2 next_gap = closure_gap(knots, multipliers + step, target);
-    while (next_gap.norm() >= gap.norm() && fraction > 1e-6) {
+    while (next_gap.norm() >= gap.norm() && fraction > k_least_fraction) {
       fraction *= 0.5;
       next_gap = closure_gap(knots, multipliers + fraction * step, target);
     }
@@ -111,7 +114,7 @@ std::optional<ClosingArc> ClosingArc::between(const CurvePoint& begin, const Cur
     multipliers += fraction * step;
     gap = next_gap;
   }
-  if (!(gap.norm() <= 1e-10 * size)) return std::nullopt;
+  if (!(gap.norm() <= k_closed_enough * size)) return std::nullopt;
 
   ClosingArc arc;
   arc.begin_ = begin.psi;

@@ -33,8 +33,8 @@ class ClosingArc {
   KnotFraction knot_fraction(double psi) const;
   double radius(const KnotFraction& here) const;
 
-  double begin_ = 0;
-  double step_ = 0;
+  double begin_ = 0;             ///< ψ at the first knot, rad
+  double step_ = 0;              ///< angle from knot to knot, rad
   std::vector<double> radii_;    ///< at the knots
   std::vector<Vec2> positions_;  ///< at the knots
 };

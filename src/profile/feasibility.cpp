@@ -13,6 +13,7 @@
 namespace fusee::profile {
 namespace {
 
+/// Number of equal intervals of the joint angle between samples.
 constexpr int k_samples = 192;
 /// Arc reserved on the closing arc for the tendon's lap and tie-off at the wound end, in tendon diameters.
 constexpr double k_anchor_lap = 5.0;
@@ -152,7 +153,7 @@ bool add_probe_conditions(std::vector<Condition>& conditions, const std::vector<
   return true;
 }
 
-/// The sampled joint angles of the image, 0 … k_samples.
+/// The sampled joint angles of the image, numbered from 0 to k_samples. rad
 struct StrokeOfImage {
   double begin = 0, end = 0;
 
@@ -167,8 +168,8 @@ std::vector<TakeOff> take_samples(const Mechanism& mechanism, const TakeOffs& ta
   std::vector<TakeOff> samples;
   samples.reserve(k_samples + 1);
   // The curve is sampled on both sides of each lift-off angle.
-  const std::vector<double> kinks = lift_offs(mechanism, take_offs.transmission(), take_offs.side());
-  auto kink = kinks.begin();
+  const std::vector<double> lift_off_angles = lift_offs(mechanism, take_offs.transmission(), take_offs.side());
+  auto lift_off = lift_off_angles.begin();
   double last = stroke.begin;
   const auto add = [&](double theta) {
     samples.push_back(take_offs.at(theta));
@@ -176,8 +177,8 @@ std::vector<TakeOff> take_samples(const Mechanism& mechanism, const TakeOffs& ta
   };
   for (int i = 0; i <= k_samples; ++i) {
     const double theta = stroke.theta(i);
-    for (; kink != kinks.end() && *kink < theta; ++kink) {
-      for (const double beside : {*kink - k_beside_lift_off, *kink + k_beside_lift_off}) {
+    for (; lift_off != lift_off_angles.end() && *lift_off < theta; ++lift_off) {
+      for (const double beside : {*lift_off - k_beside_lift_off, *lift_off + k_beside_lift_off}) {
         if (beside > last && beside < theta) add(beside);
       }
     }
@@ -395,7 +396,7 @@ Attempt attempt(const Mechanism& mechanism, const transmission::Transmission& tr
 
 namespace {
 
-/// A failure at a few of the samples of attempt_side(), with the same probes.
+/// A failure at nine of the samples of attempt_side(), with the same probes.
 std::optional<Condition> failure_at_few_places(const Mechanism& mechanism, const TakeOffs& take_offs) {
   std::vector<Probe> probes = path_probes(mechanism, take_offs);
   if (mechanism.pulley.method == Method::exact) {

@@ -40,9 +40,11 @@ CurvePoint EnvelopeCurve::active_at(double psi) const {
   double high = sign * above->stroke.theta;
   TakeOff found = *(above - 1);
   double theta = low;
-  for (int i = 0; i < 60; ++i) {
+  constexpr int k_most_steps = 60;
+  constexpr double k_solved = 1e-14;  // relative
+  for (int i = 0; i < k_most_steps; ++i) {
     const double miss = found.curve.psi - psi;
-    if (std::abs(miss) < 1e-14 * (1.0 + std::abs(psi))) break;
+    if (std::abs(miss) < k_solved * (1.0 + std::abs(psi))) break;
     (miss > 0 ? high : low) = theta;
     double next = theta - miss * found.stroke.g / found.dpsi;
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);

@@ -93,6 +93,7 @@ std::vector<double> lift_offs(const Mechanism& mechanism, const transmission::Tr
   return angles;
 }
 
+// At one normal n the point X = h n + h' t moves along the tangent t by the jump of h'.
 double straight_length(const TakeOffs& take_offs, double image_theta) {
   return take_offs.at(image_theta + k_beside_lift_off).curve.dh -
          take_offs.at(image_theta - k_beside_lift_off).curve.dh;

@@ -8,6 +8,7 @@
 namespace fusee::profile {
 namespace {
 
+/// Number of chords of the active arc, and of the arc that closes it.
 constexpr int k_points = 1440;
 
 struct PolarPoint {
@@ -20,8 +21,8 @@ struct PolarPoint {
 double normal_of(const PolarPoint& point) { return point.angle - elementary::atan2(point.slope, point.r); }
 Vec2 position_of(const PolarPoint& point) { return point.r * unit(point.angle); }
 
-/// The radius at the fraction u of the closing side: a cubic with the radii and slopes of both ends. It is bounded by
-/// the larger radius and by 0.8 of the smaller one.
+/// The radius at the fraction u of the closing side: a cubic with the radii and slopes of both ends, limited to between
+/// 0.8 of the smaller radius and the larger radius.
 double closing_radius(const PolarPoint& begin, const PolarPoint& end, double u) {
   const double span = end.angle - begin.angle;
   const double v = 1.0 - u;
@@ -30,7 +31,8 @@ double closing_radius(const PolarPoint& begin, const PolarPoint& end, double u) 
   return std::clamp(cubic, 0.8 * std::min(begin.r, end.r), std::max(begin.r, end.r));
 }
 
-/// The active arc of the drawing: the stroke in the image, evenly spaced in the pulley's angle, which is the angle of the drawing.
+/// The active arc of the drawing: the stroke in the image, evenly spaced in the pulley's angle, which is the angle of
+/// the drawing.
 std::vector<PolarPoint> active_points(const TakeOffs& take_offs) {
   const transmission::Transmission& transmission = take_offs.transmission();
   const double sign = transmission::mirror_sign(take_offs.side());

@@ -9,8 +9,8 @@ namespace fusee::profile {
 /// The closed polar drawing as a string and a groove follow it: hollows bridged, corners rounded to the tendon's
 /// radius.
 ///
-/// The polar angle is 0 in the direction of the tendon's normal at home. A cubic in polar coordinates closes the curve between
-/// the ends of the stroke. The paper specifies neither the orientation on the shaft nor the closing.
+/// The polar angle is 0 in the direction of the tendon's normal at home. A cubic in polar coordinates closes the curve
+/// between the ends of the stroke. The paper specifies neither the orientation on the shaft nor the closing.
 class PolarCurve : public PitchCurve {
  public:
   PolarCurve(const Mechanism& mechanism, const TakeOffs& take_offs);

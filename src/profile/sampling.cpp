@@ -23,7 +23,7 @@ CurvePoint mirrored(const PitchCurve& image, double psi) {
   return point;
 }
 
-/// Upper bound on the chords between two ends: half a metre within a nanometre needs that many.
+/// Largest number of chords between two ends. A circle of radius half a metre needs as many within a nanometre.
 constexpr double k_max_chords = 5e4;
 
 /// The largest turn at ψ that satisfies the tolerance on both curves and their parallels. The sagitta of a chord is
@@ -36,8 +36,8 @@ double allowed_turn(const PitchCurve& left, const PitchCurve& right, double psi,
   return std::min(options.largest_turn, std::max(of_an_arc, of_a_straight));
 }
 
-/// Upper bound on the length of all chords of both curves and their parallels, with room for points between the sampled
-/// ones.
+/// Upper bound on the length of any chord of both curves and their parallels, with room for points between the sampled
+/// ones. mm
 double longest_chord(const PitchCurve& left, const PitchCurve& right, const SamplingOptions& options) {
   constexpr int k_directions = 64;
   double furthest = 0;
@@ -49,10 +49,10 @@ double longest_chord(const PitchCurve& left, const PitchCurve& right, const Samp
 }
 
 /// Part of the tolerance that is kept for rounding to a mesh's floats at distance `reach` from the axis. Rounding moves
-/// x and y by up to reach · 2⁻²⁴ each. The first 1e-5 mm of it, all on a pulley of up to a quarter of a metre, need no
+/// x and y by up to reach · 2⁻²⁴ each. The first 1e-5 mm of it, all on a pulley of up to 0.23 m in diameter, need no
 /// reduction.
 double tolerance_lost_to_floats(double reach, double chord_error_mm) {
-  constexpr double k_ignored = 1e-5;
+  constexpr double k_ignored = 1e-5;  // mm
   return std::clamp(reach * 0x1p-24 * std::sqrt(2.0) - k_ignored, 0.0, 0.5 * chord_error_mm);
 }
 

@@ -5,8 +5,10 @@ namespace fusee::profile {
 TakeOffs::TakeOffs(const transmission::Transmission& transmission, transmission::Side side)
     : transmission_(&transmission), side_(side) {}
 
-// The pitch curve is the envelope of the tendon's lines. In the frame of the turning pulley the line's normal is ψ(α) =
-// φ − acos((p − ρ)/c) + α. With w = sqrt(c² − (p − ρ)²), the reach to the pin:
+// The pitch curve is the envelope of the tendon's lines. A line lies at the moment arm p from the pulley's axis. It
+// touches the guide, which has the radius ρ and lies at the distance c from that axis in direction φ. In the frame of
+// the turning pulley the line's normal is ψ(α) = φ − acos((p − ρ)/c) + α. With the reach to the pin,
+// w = sqrt(c² − (p − ρ)²):
 //   ψ' = 1 + p'/w      w' = −(p − ρ) p'/w      ψ'' = p''/w − p'w'/w²
 //   dh/dψ = p'/ψ'      d²h/dψ² = (p'' − dh/dψ ψ'')/ψ'²
 TakeOff TakeOffs::at(double image_theta) const {

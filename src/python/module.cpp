@@ -163,7 +163,7 @@ py::dict with_checks(const CarriedMechanism& carried, const std::shared_ptr<cons
   py::dict dict = to_python(part);
   std::vector<Check> checks =
       pipeline::as_built_checks(joint::identified_joint(carried.file.mechanism).mechanism, part->as_built, limits);
-  // The first check is that of θ. With only one tendon the excess length, of the others, is unknown.
+  // The first check is that of θ; the others are of the excess length, which is unknown with only one tendon.
   constexpr int k_theta_checks = 1;
   if (part->alone) checks.erase(checks.begin() + k_theta_checks, checks.end());
   dict["checks"] = to_python(checks);

@@ -463,6 +463,7 @@ py::dict to_python(std::shared_ptr<const pipeline::RewoundPart> result) {
 }
 
 py::dict to_python(std::shared_ptr<const pipeline::BuildResult> result) {
+  // In the order of BuildStatus.
   constexpr std::array<std::string_view, 3> k_status = {"done", "infeasible", "check_failed"};
   const formats::Product& product = result->product;
   const py::capsule owner = owner_of(result);
@@ -520,6 +521,7 @@ py::dict to_python(std::shared_ptr<const analysis::AnalysisResult> result) {
 }
 
 py::dict to_python(std::shared_ptr<const pipeline::OptimizeResult> result) {
+  // In the order of SearchMethod.
   constexpr std::array<std::string_view, 3> k_methods = {"certified", "genetic", "pareto"};
   py::list objectives;
   for (const optimize::Objective objective : result->problem.objectives)
@@ -612,6 +614,7 @@ py::dict to_python(std::shared_ptr<const pipeline::SimulateResult> result) {
 }
 
 py::dict to_python(std::shared_ptr<const pipeline::KitResult> result) {
+  // In the order of KitEnding.
   constexpr std::array<std::string_view, 4> k_status = {"done", "no_pulley", "no_kit", "check_failed"};
   const formats::Product& pulley = result->product.pulley;
   const std::vector<profile::Condition>& pulley_conditions =

@@ -20,7 +20,7 @@ constexpr double k_near_fillets = 6.0;
 // Least distance between a channel's start and a point of the outline, relative to a chord. The body's edges run along
 // the points' normals. If such an edge lay in the wall of the entry, rounding to floats would open a gap in the cut.
 constexpr double k_from_point = 0.15;
-// Clearance between a channel and the floor that a tendon lies on.
+// Clearance between a channel and the floor that a tendon lies on, mm.
 constexpr double k_floor_gap = 0.05;
 // Relative margin for rounding when straights without enough space are skipped.
 constexpr double k_skip_margin = 1e-6;
@@ -29,6 +29,8 @@ constexpr double k_skip_margin = 1e-6;
 constexpr double k_most_straights = 400;
 // Least radius of a knot's pocket, in channel widths.
 constexpr double k_least_room = 0.55;
+// Shortest straight tried, in channel widths: slightly more than the least room, because the straight limits the room.
+constexpr double k_shortest_straight = 0.6;
 // Approximate number of floor points to which walls are measured. The chords of a circle of 50 mm lie within 4 µm of
 // it.
 constexpr std::size_t k_floor_points = 256;
@@ -38,7 +40,8 @@ class AnchorSearch {
   AnchorSearch(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach, const LapRange& laps)
       : site_(site), ground_(site.ground), arc_(ground_.arc(wound_end)), wanted_(wanted), reach_(reach), laps_(laps) {}
 
-  // Searches from short to long paths and stops at the first one with the requested pocket.
+  // Tries starts near the end of the active arc first, then preferred turns, then short straights. Stops at the first
+  // path with the requested pocket.
   std::optional<AnchorPath> run() {
     if (wanted_ < k_least_room * site_.width) return std::nullopt;
     // In degrees, the preferred turn first.
@@ -63,8 +66,8 @@ class AnchorSearch {
     AnchorPath path{station.position, station.normal, arc_.sense(), site_.fillet, turn, 0, 0,
                     station.lap,      station.wrap};
     const Vec2 outer = path.outer(), heading = path.heading();
-    double shortest = 0;
-    for (double straight = 0.6 * site_.width; straight < longest; straight += step) {
+    double shortest = 0;  // all shorter straights have too little room
+    for (double straight = k_shortest_straight * site_.width; straight < longest; straight += step) {
       if (straight < shortest) continue;
       const Vec2 pocket = path.start - path.fillet * path.normal + path.fillet * outer + straight * heading;
       const double depth = ground_.depth_of(pocket);
@@ -74,8 +77,8 @@ class AnchorSearch {
       path.room = room_at(pocket, depth, straight);
       const double least = best_ ? std::max(best_->room, k_least_room * site_.width) : k_least_room * site_.width;
       if (!(path.room >= k_least_room * site_.width) || (best_ && path.room <= best_->room)) {
-        // The room grows at most as fast as the straight, so all straights shorter than this have too little. No
-        // straight that is skipped would have ended the loop: the floor is convex, so the depth has no dip in between.
+        // The room grows at most as fast as the straight. No straight that is skipped would have ended the loop: the
+        // floor is convex, so the depth has no dip in between.
         shortest = straight + (1.0 - k_skip_margin) * (least - path.room);
         continue;
       }
@@ -86,7 +89,8 @@ class AnchorSearch {
     return false;
   }
 
-  // The pocket's circle must meet the channel's edges on the straight.
+  // Radius of the largest pocket at this place, at most the requested one and at most the straight: the pocket's circle
+  // must meet the channel's edges on the straight.
   double room_at(const Vec2& pocket, double depth, double straight) const {
     double room = std::min({wanted_, depth - site_.wall, straight});
     for (const auto* bars : {&site_.holes, &site_.above_pocket}) {
@@ -109,7 +113,8 @@ class AnchorSearch {
                          [&](const Bar& hole) { return gap(bar, hole) >= wall; });
     };
     for (const Bar& bar : bars) {
-      if (!keeps(bar, site_.wall + (&bar == &bars.back() ? 0.0 : bulge))) return false;
+      const bool is_straight = &bar == &bars.back();
+      if (!keeps(bar, site_.wall + (is_straight ? 0.0 : bulge))) return false;
     }
     for (const Bar& side : path.tab_sides(site_.width, path.room)) {
       if (!keeps(side, site_.wall)) return false;
@@ -261,21 +266,24 @@ std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, do
 }
 
 int pocket_facets(double radius) {
-  return std::clamp(static_cast<int>(std::ceil(k_pi / elementary::acos(1.0 - std::min(0.5, 0.02 / radius)))), 12, 64);
+  constexpr double k_sagitta = 0.02;  // mm
+  constexpr int k_fewest = 12, k_most = 64;
+  const double half_angle = elementary::acos(1.0 - std::min(0.5, k_sagitta / radius));  // of a facet
+  return std::clamp(static_cast<int>(std::ceil(k_pi / half_angle)), k_fewest, k_most);
 }
 
 // Order of the corners: outer edge, pocket from the outer edge round to the inner one, inner edge backwards, and the
-// pocket's opening.
+// point of the pocket's circle in the middle of its opening to the channel.
 Keyhole keyhole(const AnchorPath& path, double width, double radius, int facets) {
   demand(radius > 0.5 * width, "a pocket narrower than its channel");
   const Vec2 centre = path.pocket(), heading = path.heading(), inner = -path.outer();
-  const double entry = elementary::asin(0.5 * width / radius);
+  const double half_opening = elementary::asin(0.5 * width / radius);  // angle seen from the pocket's centre
   const auto on_pocket = [&](double angle) {
     return Vec2(centre + radius * (elementary::cos(angle) * heading + elementary::sin(angle) * inner));
   };
   std::vector<Vec2> points = path.edge(0.5 * width, k_fillet_steps);
   const auto pocket_first = static_cast<std::uint32_t>(points.size());
-  for (int k = 0; k <= facets; ++k) points.push_back(on_pocket((k_pi - entry) * (2.0 * k / facets - 1.0)));
+  for (int k = 0; k <= facets; ++k) points.push_back(on_pocket((k_pi - half_opening) * (2.0 * k / facets - 1.0)));
   const auto inner_first = static_cast<std::uint32_t>(points.size());
   std::vector<Vec2> back = path.edge(-0.5 * width, k_fillet_steps);
   points.insert(points.end(), back.rbegin(), back.rend());

@@ -14,7 +14,7 @@
 
 namespace fusee::solid {
 
-/// Number of chords of a channel's arc.
+/// Number of chords of a channel's arc in plans and outlines. The arc is cut with more chords (channel_entries.cpp).
 inline constexpr int k_fillet_steps = 6;
 /// Excess of a pocket over its channel, mm. The pocket's closed end is deeper than the channel by this. The tab of the
 /// pocket, in which the channel ends, is wider and longer than the channel by this. No two of their faces then
@@ -41,7 +41,8 @@ class ArcWalk {
   double length() const { return laps_.back(); }
   /// True if the active arc is the whole turn, so that there is no closing arc.
   bool is_empty() const { return indices_.size() < 2; }
-  /// The place at or just past `lap`, interpolated between two points. Requires a walk that is not empty.
+  /// The place at `lap` or slightly past it, clear of the outline's points. In the last chord it may lie slightly
+  /// before. It is interpolated between two points. Requires a walk that is not empty.
   Station at(double lap) const;
   /// The length along the arc over which the pitch curve turns by `wrap`. Infinite if the whole arc turns by less.
   double lap_at(double wrap) const;
@@ -69,7 +70,7 @@ struct AnchorPath {
   Vec2 normal;          ///< outward, at the start
   double sense = 1;     ///< +1: the channel runs counter-clockwise from its entry, −1: clockwise
   double fillet = 0;    ///< radius of the arc
-  double turn = 0;      ///< > 0
+  double turn = 0;      ///< angle of the arc, > 0
   double straight = 0;  ///< length of the straight
   double room = 0;      ///< radius of the largest pocket, at most the requested one
   double lap = 0;       ///< length along the pitch curve from the end of the active arc to `start`
@@ -77,9 +78,9 @@ struct AnchorPath {
 
   Vec2 heading() const;  ///< direction of the straight
   Vec2 outer() const;    ///< unit vector across the straight, away from the fillet's centre
-  Vec2 pocket() const;
-  /// The line at distance `aside` from the centre line, on the side away from the fillet's centre, with its arc in
-  /// `steps` chords. Excludes the pocket.
+  Vec2 pocket() const;   ///< centre of the pocket, the end of the straight
+  /// The arc of the line at distance `aside` from the centre line, on the side away from the fillet's centre, as
+  /// `steps` chords. Its last point is the beginning of the straight.
   std::vector<Vec2> edge(double aside, int steps) const;
   /// A channel of this width as bars: the arc's chords, then the straight.
   std::vector<Bar> bars(double width) const;
@@ -128,7 +129,7 @@ struct AnchorSite {
   double wall = 0;                ///< least thickness of walls
   std::vector<Bar> holes;         ///< channel and pocket keep `wall` clear of these
   std::vector<Bar> above_pocket;  ///< obstacles for the pocket only: features of the face that it opens at
-  const Polygon* rim = nullptr;   ///< rim of the outer flange
+  const Polygon* rim = nullptr;   ///< rim of the outer flange; required for a FaceHole only
 };
 
 /// A tie-off for pulleys without space for a channel and its pocket: a slot through the outer flange, round at the
@@ -157,8 +158,8 @@ std::vector<std::size_t> coarse_floor(std::size_t points, const std::vector<std:
 
 /// near: only short channels that do not pass the axis.
 enum class AnchorReach { near, anywhere };
-/// The path with the largest pocket up to radius `wanted`; among those that reach it, the shortest. Empty when no
-/// channel fits.
+/// The path with the largest pocket up to radius `wanted`. Of those that reach it, the first one tried: starts near the
+/// end of the active arc come first, then preferred turns, then short straights. Empty when no channel fits.
 std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach,
                                       const LapRange& laps = {});
 

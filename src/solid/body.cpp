@@ -10,10 +10,11 @@
 namespace fusee::solid {
 namespace {
 
-// Distance of a rim from the outlines it must contain: larger than any facet's sagitta, too small to notice.
+// Distance of a rim from the outlines it must contain: larger than any facet's sagitta, too small to notice. mm
 constexpr double k_rim_margin = 0.2;
+// Largest sagitta of the hub's facets, mm.
 constexpr double k_hub_sagitta = 0.01;
-// Width of the transition of the middle flange from one groove edge to the other.
+// Width τ of the transition of the middle flange from one groove edge to the other, mm.
 constexpr double k_blend = 0.5;
 
 // A circle sampled at the outline's normals.
@@ -45,9 +46,9 @@ bool strictly_outside(const Polygon& outer, const Polygon& inner) {
   return true;
 }
 
-// Outline around both curves: the smooth maximum of their support functions, h = τ log(e^{h1/τ} + e^{h2/τ}). Its radius
-// of curvature h + h'' is the weighted mean of both plus w1 w2 (h1' − h2')²/τ > 0, so it is convex. Its point is h n +
-// h' t with h' = w1 h1' + w2 h2'.
+// Outline around both curves: the smooth maximum of their support functions, h = τ log(e^{h1/τ} + e^{h2/τ}). With the
+// weights wi = e^{hi/τ}/(e^{h1/τ} + e^{h2/τ}), its radius of curvature h + h'' is the weighted mean of both radii plus
+// w1 w2 (h1' − h2')²/τ > 0, so it is convex. Its point is h n + h' t with h' = w1 h1' + w2 h2'.
 Polygon around_both(const profile::Outline& p1, const profile::Outline& p2, double offset, double margin) {
   Polygon points;
   points.reserve(p1.points.size());
@@ -193,7 +194,7 @@ class StackBuilder {
 
   const profile::Outline& p1_;
   const profile::Outline& p2_;
-  double d_;
+  double d_;  ///< diameter of the tendon
   const BodyLayout& layout_;
   Flange kind_;
   FlangeRims rims_;

@@ -17,7 +17,7 @@ struct FlangeRims {
   Polygon groove_edge2;
   Polygon lower;   ///< flange 1
   Polygon middle;  ///< strictly outside both groove edges
-  /// The part of the middle flange that belongs to P2 when it is printed separately, strictly inside `middle`
+  /// The part of the middle flange that belongs to P2 when it is printed separately, strictly inside `middle`.
   Polygon under2;
   Polygon upper;  ///< flange 2
   bool outside = true;

@@ -58,14 +58,16 @@ const std::vector<Alternatives>& printing_alternatives() {
   return all;
 }
 
+/// The value of print.parts in a file; empty for automatic.
+std::string_view parts_word(Parts parts) {
+  if (parts == Parts::one) return "one";
+  return parts == Parts::two ? "two" : "";
+}
+
 class BodyAdviser {
  public:
   BodyAdviser(const Mechanism& mechanism, const profile::FeasibilityOracle& judge, Parts refused)
-      : mechanism_(mechanism),
-        judge_(judge),
-        refused_(refused == Parts::one   ? "one"
-                 : refused == Parts::two ? "two"
-                                         : "") {}
+      : mechanism_(mechanism), judge_(judge), refused_(parts_word(refused)) {}
 
   profile::Advice all() const {
     profile::Advice advice;
@@ -84,6 +86,7 @@ class BodyAdviser {
     profile::FeasibilityOracle judge = judge_;
     judge.is_expensive = !profile::obstacle_to(mechanism_);  // each try plans a body
     std::vector<std::string> keys = judge.is_expensive ? written_keys(mechanism_) : std::vector<std::string>{};
+    // The cones are as steep as the overhang angle, so a smaller angle makes the part lower.
     const auto is_height = [](const profile::Condition& condition) { return condition.name == k_height_condition; };
     if (!mechanism_.print.supports && std::any_of(failed.begin(), failed.end(), is_height))
       keys.emplace_back("print.overhang_deg");

@@ -65,11 +65,11 @@ std::vector<TriangleMesh> pieces_of(const TriangleMesh& mesh) {
     pieces.unite(a, b);
     pieces.unite(a, c);
   }
-  std::map<std::size_t, SubMesh> shares;
+  std::map<std::size_t, SubMesh> by_root;
   for (const auto& triangle : mesh.triangles)
-    shares.try_emplace(pieces.root(triangle[0]), mesh).first->second.add(triangle);
+    by_root.try_emplace(pieces.root(triangle[0]), mesh).first->second.add(triangle);
   std::vector<TriangleMesh> all;
-  for (const auto& [root, share] : shares) all.push_back(share.mesh());
+  for (const auto& [root, piece] : by_root) all.push_back(piece.mesh());
   return all;
 }
 
@@ -141,7 +141,7 @@ std::vector<ContactGroup> contact_groups(const TriangleMesh& near, const Triangl
   return all;
 }
 
-// Cuts all contacts in parallel.
+// Cuts all contact groups in parallel. Empty if one of them cannot be cut.
 std::optional<CorefinedPair> corefined_apart(const TriangleMesh& near, const TriangleMesh& tool) {
   const std::vector<ContactGroup> all = contact_groups(near, tool);
   std::vector<std::optional<CorefinedPair>> parts(all.size());
@@ -196,7 +196,7 @@ double winding_number(const TriangleMesh& solid, const Vec3& point) {
 // Parity of the surface crossings straight up from the point. Empty if the ray passes through or close to a facet's
 // edge.
 std::optional<bool> is_inside_seen_upwards(const TriangleMesh& solid, const Vec3& point) {
-  constexpr double k_rounding = 1e-9;
+  constexpr double k_rounding = 1e-9;  // relative
   const Vec2 at = point.head<2>();
   bool inside = false;
   for (const auto& [ia, ib, ic] : solid.triangles) {
@@ -211,6 +211,7 @@ std::optional<bool> is_inside_seen_upwards(const TriangleMesh& solid, const Vec3
     const auto [least, most] = std::minmax({weight_a, weight_b, weight_c});
     const double tolerance = k_rounding * std::max({to_a.squaredNorm(), to_b.squaredNorm(), to_c.squaredNorm()});
     if (least < -tolerance && most > tolerance) continue;
+    // If they are not clearly of one sign either, the ray is close to an edge.
     if (least < tolerance && most > -tolerance) return std::nullopt;
     const double height =
         (weight_a * a.z() + weight_b * b.z() + weight_c * c.z()) / (weight_a + weight_b + weight_c) - point.z();
@@ -223,9 +224,9 @@ std::optional<bool> is_inside_seen_upwards(const TriangleMesh& solid, const Vec3
 // Empty if the point is too close to the surface to decide.
 std::optional<bool> is_inside_of(const TriangleMesh& solid, const Vec3& point) {
   if (const auto inside = is_inside_seen_upwards(solid, point)) return inside;
-  constexpr double k_largest_fraction = 1e-3;  // of a winding number that counts as an integer
+  constexpr double k_integer_tolerance = 1e-3;  // largest distance of a winding number from the nearest integer
   const double winding = winding_number(solid, point);
-  if (!(std::abs(winding - std::round(winding)) < k_largest_fraction)) return std::nullopt;
+  if (!(std::abs(winding - std::round(winding)) < k_integer_tolerance)) return std::nullopt;
   return std::lround(winding) != 0;
 }
 
@@ -265,6 +266,8 @@ bool sort_patches(const std::vector<TriangleMesh>& patches, const TriangleMesh& 
     if (!around) return false;
     const auto [below, above] = *around;
     bool is_inside = below && above, is_outside = !below && !above;
+    // On coincident surfaces only one is true: `below` if they face the same way, `above` if they face each other. The
+    // former patch bounds the intersection and the union, the latter the difference.
     if (is_first) {
       is_inside = below;
       is_outside = operation == Operation::unite ? !above : !below;
@@ -281,7 +284,8 @@ using OpenSide = std::array<double, 6>;  // coordinates of both ends of a facet'
 
 // The open sides of a mesh, sorted. Empty if one is a side of several facets.
 std::optional<std::vector<OpenSide>> border_of(const TriangleMesh& welded) {
-  // An edge as the lower and the higher number of its vertices, and true if the side runs from the lower number.
+  // An edge as the lower and the higher number of its vertices, 32 bits each, and true if the side runs from the lower
+  // number.
   std::vector<std::pair<std::uint64_t, bool>> sides;
   sides.reserve(3 * welded.triangles.size());
   for (const auto& triangle : welded.triangles) {
@@ -310,8 +314,8 @@ bool has(const std::array<std::uint32_t, 3>& triangle, std::uint32_t vertex) {
   return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
 }
 
-// Moves `from` onto `to`, unless the surface would not stay a manifold (exactly two common neighbours) or a facet would
-// turn over.
+// Moves `from` onto `to`. Does nothing if a facet would turn over, or if both vertices have other than two common
+// neighbours: the surface would not stay a manifold.
 void collapse(TriangleMesh& mesh, std::uint32_t from, std::uint32_t to) {
   std::set<std::uint32_t> beside_from, beside_to;
   for (const auto& triangle : mesh.triangles) {
@@ -326,7 +330,7 @@ void collapse(TriangleMesh& mesh, std::uint32_t from, std::uint32_t to) {
   }
   const auto in_common = std::count_if(beside_from.begin(), beside_from.end(),
                                        [&beside_to](std::uint32_t vertex) { return beside_to.contains(vertex); });
-  if (in_common != 4) return;  // these two, and one on either side of the edge
+  if (in_common != 4) return;  // `from` and `to` themselves, and one neighbour on either side of the edge
   for (auto& triangle : mesh.triangles) std::replace(triangle.begin(), triangle.end(), from, to);
 }
 
@@ -334,10 +338,10 @@ void erase_collapsed(TriangleMesh& mesh) {
   std::erase_if(mesh.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
 }
 
-// Collapses edges whose ends rounding made equal, and edges of a few float steps, whose facets have no computable
-// normal. The facets beside a collapsed edge are removed.
+// Collapses edges whose two ends became equal by rounding, and edges of a few float steps, whose facets have no
+// computable normal. The facets beside a collapsed edge are removed.
 TriangleMesh without_short_edges(const TriangleMesh& rounded) {
-  constexpr double k_short = 5.0 * k_float_grain;
+  constexpr double k_short = 5.0 * k_float_grain;  // mm
   TriangleMesh mesh = without_collapsed_facets(rounded);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const auto& triangle : mesh.triangles) {
@@ -382,9 +386,9 @@ double height(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
 // rounding does.
 constexpr double k_flat = 0.1 * k_float_grain;
 
-// Flips the diagonal between a flat facet and its neighbour across the longest side. It does not flip if one of the two
-// new facets would be hardly higher (a neighbour that is as flat is flipped first), would face elsewhere, or would
-// duplicate a facet.
+// Flips the diagonal between a flat facet and its neighbour across the longest side. Returns false without a change if
+// one of the two new facets would be hardly higher (a neighbour that is as flat is flipped first), would face the other
+// way, or if the new diagonal is already an edge.
 bool flip_diagonal(TriangleMesh& mesh, std::array<std::uint32_t, 3>& flat) {
   constexpr double k_least_gain = 10.0;  // least factor by which the new facets are higher
   const auto [p, q, r] = longest_side(mesh, flat);
@@ -393,7 +397,7 @@ bool flip_diagonal(TriangleMesh& mesh, std::array<std::uint32_t, 3>& flat) {
   };
   const auto beside = std::find_if(mesh.triangles.begin(), mesh.triangles.end(), runs_back);
   if (beside == mesh.triangles.end()) return false;
-  // The corner of the neighbour opposite the common side.
+  // The corner of the neighbour opposite the common side p q.
   const std::uint32_t s = (*beside)[0] + (*beside)[1] + (*beside)[2] - p - q;
   const auto spans = [r = r, s](const auto& t) { return has(t, r) && has(t, s); };
   if (std::any_of(mesh.triangles.begin(), mesh.triangles.end(), spans)) return false;

@@ -14,12 +14,12 @@
 namespace fusee::solid {
 namespace {
 
-// Holes are polygons around the shaft, with two sides per millimetre of diameter (nophead's polyholes) and at least this
-// many: the corners of eight sides stand out by 8 % of the radius, those of three by 100 %.
+// Holes are polygons around the shaft, with two sides per millimetre of diameter (nophead's polyholes) and at least
+// this many: the corners of eight sides stand out by 8 % of the radius, those of three by 100 %.
 constexpr int k_least_facets = 8;
-// Sagitta of the arcs of D and keyway bores.
+// Largest sagitta of the arcs of D and keyway bores, mm.
 constexpr double k_arc_sagitta = 0.01;
-// A recess is one printed layer deeper than the part that sinks into it, so that the pulley lies on the horn's face.
+// A recess is one printed layer deeper than the part that sinks into it, so that the pulley lies on the horn's face. mm
 constexpr double k_recess_play = 0.2;
 // Fraction of the pitch over which a tooth's crest and ground are flat: 0.1 mm of 0.74 mm on the shaft of a Futaba 3F
 // servo (hugokernel/OpenSCAD_ServoArms). The printer would round sharper ones.
@@ -51,8 +51,9 @@ constexpr double k_automatic_flat = 0.9;
 // `flat`: distance from the flat to the far side of the shaft. Impossible distances are reported as a condition. Here
 // they are only limited, so that there is an outline.
 Polygon d_outline(double radius, double flat) {
-  const double height = std::clamp(flat - radius, -0.95 * radius, 0.95 * radius);  // of the flat above the axis
-  const double half_angle = elementary::acos(height / radius);                     // that the flat subtends
+  // Height of the flat above the axis, and half the angle that it subtends there.
+  const double height = std::clamp(flat - radius, -0.95 * radius, 0.95 * radius);
+  const double half_angle = elementary::acos(height / radius);
   return arc(radius, 0.5 * k_pi + half_angle, 2.5 * k_pi - half_angle);
 }
 
@@ -78,6 +79,7 @@ Polygon keyway_outline(double diameter, double compensation) {
   const auto keyway = std::find_if(k_keyways.begin(), k_keyways.end() - 1,
                                    [diameter](const Keyway& row) { return diameter <= row.shaft; });
   const double radius = 0.5 * (diameter + compensation);
+  // Limited on the thinnest shafts, so that there is an outline.
   const double half_width = std::min(0.5 * (keyway->width + compensation), 0.9 * radius);
   const double half_angle = elementary::asin(half_width / radius);
   Polygon points = arc(radius, 0.5 * k_pi + half_angle, 2.5 * k_pi - half_angle);
@@ -151,8 +153,8 @@ void fit_shaft(BoreLayout& bore, const Body& body, double diameter, double compe
   make_round(bore, diameter + compensation);
 }
 
-// Largest angle, seen from the axis, between corners of two polygons that count as on one ray: 0.03 mm at 3 mm, a third
-// of a tooth's flat.
+// Largest angle, seen from the axis, between corners of two polygons that count as on one ray, rad: 0.03 mm at 3 mm, a
+// third of a tooth's flat.
 constexpr double k_same_ray = 0.01;
 
 double angle_of(const Vec2& point) { return elementary::atan2(point.y(), point.x()); }
@@ -165,7 +167,8 @@ bool has_corner_on_ray(const Polygon& polygon, const Vec2& ray) {
   return std::any_of(polygon.begin(), polygon.end(), [&ray](const Vec2& corner) { return on_one_ray(corner, ray); });
 }
 
-// The exit of a ray from the axis out of a polygon that is star-shaped about it.
+// The exit of a ray from the axis out of a polygon that is star-shaped about it. The ray t · ray meets the line of side
+// a b at t = cross(a, b)/cross(ray, b − a).
 Vec2 exit_of_ray(const Polygon& polygon, const Vec2& ray) {
   for (const Vec2& corner : polygon) {
     if (on_one_ray(corner, ray)) return corner;

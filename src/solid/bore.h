@@ -10,7 +10,7 @@
 namespace fusee::solid {
 
 /// A printed round hole (polyhole): its facets are tangent to the circle from outside. It has two facets per mm of
-/// diameter, as many as the printer can resolve.
+/// diameter, as many as the printer can resolve, and at least eight.
 Polygon polyhole(double diameter, const Vec2& centre);
 
 /// The bore for a shaft of `diameter` (across flats for hex and square; unused for a horn). Flats, keyways and one
@@ -18,7 +18,7 @@ Polygon polyhole(double diameter, const Vec2& centre);
 /// this function.
 BoreLayout bore_layout(const Mechanism& mechanism, double diameter);
 
-/// The bore for the same shaft after printing, without the compensation for shrinking holes.
+/// The bore for the same shaft as `made`, without the compensation for shrinking holes: its size after printing.
 BoreLayout bore_of_shaft(Mechanism mechanism, const BoreLayout& made);
 
 /// Condition that fails if a written flat lies outside a D shaft of this diameter or not beyond its axis; empty

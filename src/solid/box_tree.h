@@ -30,7 +30,8 @@ class BoxTree {
   bool any_pair(const Visitor& visit) const {
     return any_pair_in_first_half(visit) || any_pair_in_second_half(visit);
   }
-  /// Like any_pair, split in two halves that may run in parallel.
+  /// Like any_pair, split in two halves that may run in parallel: the pairs within the root's left child, and the
+  /// others.
   template <typename Visitor>
   bool any_pair_in_first_half(const Visitor& visit) const {
     return !nodes_.empty() && within(nodes_.front().right == 0 ? 0 : 1, visit);
@@ -45,8 +46,8 @@ class BoxTree {
  private:
   struct Node {
     Box3 box;
-    std::uint32_t first = 0, last = 0;  ///< range of its boxes in items_
-    std::uint32_t right = 0;            ///< the left child is the next node; 0: a leaf
+    std::uint32_t first = 0, last = 0;  ///< range of its boxes in items_, without `last`
+    std::uint32_t right = 0;            ///< index of the right child, 0: a leaf; the left child is the next node
   };
   /// A box during sorting.
   struct SortedBox {

@@ -203,6 +203,7 @@ class Ceiling {
         rim_(free_rim(patch, held_)) {}
 
   SupportGaps best() const {
+    // Without a supported edge, the whole patch is unsupported.
     if (held_edges(patch_).empty()) return {0, Vec3::Zero(), extent_, patch_.flattest_at};
     std::optional<SupportGaps> best;
     for (const double direction : directions_of(patch_)) {
@@ -214,7 +215,8 @@ class Ceiling {
   }
 
  private:
-  // The larger of both gaps relative to its limit.
+  // The larger of both gaps relative to its limit. A limit below the narrowest spacing, such as
+  // 0, counts as that spacing.
   double badness(const SupportGaps& gaps) const {
     return std::max(gaps.bridge / std::max(limits_.bridge, k_narrowest_spacing),
                     gaps.step / std::max(limits_.step, k_narrowest_spacing));
@@ -249,6 +251,7 @@ class Ceiling {
 
   // The point of a chord that is furthest from all supported edges, and its distance from them.
   std::pair<double, Vec3> furthest(const Frame& frame, const Chord& chord) const {
+    // An even number, so that the middle is sampled.
     const int parts = std::clamp(2 * static_cast<int>(chord.length() / k_widest_spacing), 2, k_points_of_chord);
     std::pair<double, Vec3> found{0, point_on(frame, chord, 0)};
     for (int i = 1; i < parts; ++i) {

@@ -11,8 +11,9 @@ namespace {
 
 // Depth inside the floor from which the channel's outer edge is left unchanged. mm
 constexpr double k_crossing_depth = 0.1;
-// Number of chords of a channel's arc, as cut and for finding where it crosses the floor.
+// Number of chords of a channel's arc as it is cut.
 constexpr int k_steps = 12;
+// Number of chords of the arc for finding where it crosses the floor.
 constexpr int k_fine_steps = 48;
 
 // The point where the outer edge reaches k_crossing_depth inside the floor, and the floor's outward normal there.
@@ -33,9 +34,10 @@ FloorCrossing floor_crossing(const AnchorPath& path, double width, const Polygon
     crossing = {path.turn * k / k_fine_steps, 0.0, point, depth.normal};
     if (depth.value >= k_crossing_depth) return crossing;
   }
-  // The point lies on the straight, not on the arc.
-  crossing.straight =
-      std::min((k_crossing_depth - depth.value) / std::max(0.1, -path.heading().dot(crossing.normal)), path.straight);
+  // The point lies on the straight, not on the arc. The depth grows along the straight by the sine of its angle to the
+  // floor, which is limited because a straight along the floor never reaches the depth.
+  const double sine = std::max(0.1, -path.heading().dot(crossing.normal));
+  crossing.straight = std::min((k_crossing_depth - depth.value) / sine, path.straight);
   crossing.point += crossing.straight * path.heading();
   return crossing;
 }
@@ -162,7 +164,7 @@ double entry_rise(const BodyLayout& layout) {
   path.normal = {0, 1};
   path.sense = -1;
   path.fillet = layout.channel_fillet;
-  path.turn = radians(70);
+  path.turn = radians(70);  // the preferred turn of a channel
   path.straight = layout.channel_width;
   const double d = layout.tendon_diameter, far = 100.0 * layout.channel_width;
   const Polygon floor{{-far, -far}, {far, -far}, {far, -0.5 * d}, {-far, -0.5 * d}};

@@ -15,8 +15,8 @@ namespace fusee::solid {
 namespace {
 
 // Reasons for the usual limits. A line of plastic is about 0.45 mm wide and is safe on half of the line below: at
-// layers of 0.2 mm that is 45°, the rule of every slicer. The step is the same half line. Bridges sag above about 5 mm.
-// The first layer is up to 0.3 mm thick and is pressed onto the bed.
+// layers of 0.2 mm that is 45°, the rule of every slicer. The step, 0.3 mm, is two thirds of a line. Bridges sag above
+// about 5 mm. The first layer is up to 0.3 mm thick and is pressed onto the bed.
 //
 // A face drawn exactly at the limit is rounded to floats, and its facets cut the curve's corners. Both effects are much
 // smaller than this tolerance.

@@ -17,7 +17,8 @@ namespace {
 
 // Relative tolerance of the volume: much smaller than any feature, much larger than the rounding of vertices.
 constexpr double k_volume_tolerance = 1e-6;
-// Distance kept from cut features while measuring the groove, mm. A tool's facets lie within it of the plan's outline.
+// Distance kept from cut features while measuring the groove, mm. A tool's facets lie closer than this to the plan's
+// outline.
 constexpr double k_beside = 0.1;
 
 std::string place_in_plan(const Vec2& point) { return "(" + fixed(point.x(), 3) + ", " + fixed(point.y(), 3) + ") mm"; }
@@ -38,20 +39,20 @@ class GrooveGauge {
   }
 
   void add_checks(std::vector<Check>& checks, double chord_error_mm, double min_wall) const {
-    const std::string name = left_ ? "_P1" : "_P2";
+    const std::string suffix = left_ ? "_P1" : "_P2";
     if (outlines_.empty()) {
-      checks.push_back({"floor_deviation" + name, 0, chord_error_mm, "mm", false,
+      checks.push_back({"floor_deviation" + suffix, 0, chord_error_mm, "mm", false,
                         fmt::format("no closed section at z = {} mm", rounded(z()))});
       return;
     }
     const auto [deviation, where] = floor_deviation();
-    checks.push_back(at_most("floor_deviation" + name, deviation, chord_error_mm + k_float_grain, "mm",
+    checks.push_back(at_most("floor_deviation" + suffix, deviation, chord_error_mm + k_float_grain, "mm",
                              "P" + std::string(left_ ? "1" : "2") + " at " + place_in_plan(where)));
-    checks.push_back(at_least("wall" + name, thinnest_wall(), min_wall - k_float_grain, "mm",
+    checks.push_back(at_least("wall" + suffix, thinnest_wall(), min_wall - k_float_grain, "mm",
                               fmt::format("in the section at z = {} mm", rounded(z()))));
-    checks.push_back(at_least("groove_depth" + name, depth(), layout_.groove_depth - chord_error_mm, "mm",
+    checks.push_back(at_least("groove_depth" + suffix, depth(), layout_.groove_depth - chord_error_mm, "mm",
                               "between floor and flange"));
-    checks.push_back(at_least("groove_width" + name, width(), d_ - k_float_grain, "mm",
+    checks.push_back(at_least("groove_width" + suffix, width(), d_ - k_float_grain, "mm",
                               "at the height of the tendon's centre line"));
   }
 
@@ -193,7 +194,7 @@ class GrooveGauge {
   }
 
   const TriangleMesh& mesh_;
-  double d_;
+  double d_;  ///< diameter of the tendon
   const profile::Outline& outline_;
   const Pulley& pulley_;
   const BodyLayout& layout_;
@@ -207,7 +208,7 @@ class GrooveGauge {
 // finite.
 bool is_measurable(const std::vector<Check>& checks) { return checks[0].ok && checks[1].ok && checks[2].ok; }
 
-// True if all facets are at the same places, for any vertex numbering.
+// True if all facets, in the same order, are at the same places, for any vertex numbering.
 bool is_same(const TriangleMesh& a, const TriangleMesh& b) {
   if (a.triangles.size() != b.triangles.size()) return false;
   for (std::size_t f = 0; f < a.triangles.size(); ++f) {

@@ -17,13 +17,13 @@
 namespace fusee::solid {
 namespace {
 
-// Clearance between a flange and a pin: print tolerance and run-out of the pulley.
+// Clearance between a flange and a pin: print tolerance and run-out of the pulley. mm
 constexpr double k_pin_gap = 0.5;
 
-// Least thickness of a flange below a channel: two layers of 0.2 mm.
+// Least thickness of a flange below a channel: two layers of 0.2 mm. mm
 constexpr double k_least_channel_floor = 0.4;
 
-// Least web between the holes of a horn: half a line of a 0.4 mm nozzle. With less, the holes merge.
+// Least web between the holes of a horn: half a line of a 0.4 mm nozzle. With less, the holes merge. mm
 constexpr double k_least_web = 0.2;
 
 class Conditions {
@@ -196,7 +196,7 @@ class Conditions {
         "channel_width", width, d_,
         fmt::format("the tie-off channels are {} mm wide (body.anchor_hole_mm), too narrow for a tendon of {} mm",
                     rounded(width), rounded(d_)));
-    // On the side of the ceiling the flange is made as thick as required.
+    // Checked on the side of the bed only: on the side of the ceiling the flange is made as thick as required.
     const bool apart = layout_.parts == Parts::two;
     const double thickness = (apart ? std::min(layout_.z_mate - layout_.z_p1, layout_.z_p2 - layout_.z_mate)
                                     : std::min(layout_.z_p1, layout_.z_p2 - layout_.z_middle)) -
@@ -276,7 +276,7 @@ class Conditions {
   const profile::SynthesisResult& synthesis_;
   const BodyLayout& layout_;
   const FlangeRims& rims_;
-  double d_;
+  double d_;  ///< diameter of the tendon
   ConditionList list_;
 };
 

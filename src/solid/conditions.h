@@ -8,8 +8,8 @@ namespace fusee::solid {
 
 /// The thinnest wall between a convex floor and a hole inside it.
 struct Wall {
-  double thickness = 0;
-  double angle = 0;  ///< its direction about the axis, rad
+  double thickness = 0;  ///< negative where the hole breaks through the floor, mm
+  double angle = 0;      ///< its direction about the axis, rad
 };
 Wall wall_between(const Polygon& floor, const Polygon& hole);
 

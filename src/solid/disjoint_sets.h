@@ -1,5 +1,5 @@
 /// \file
-/// Internal: union-find. The root of a set is its first member.
+/// Internal: union-find. The root of a set is its member of the lowest number.
 #pragma once
 
 #include <algorithm>

@@ -10,8 +10,9 @@
 
 namespace fusee::solid {
 
-/// Two free places as far apart as possible within `reach` of the axis. Their radii differ by at least half a pin and
-/// they are not in line with the axis. No turn or flip that keeps the bore in place then maps one onto the other.
+/// Two free places as far apart as possible within `reach` of the axis. Their distances from the axis differ by at
+/// least half a hole, and they are not in line with the axis. No turn or flip that keeps the bore in place then maps
+/// one onto the other. `diameter`: of a hole. `wall`: least wall between both holes.
 std::optional<std::pair<Vec2, Vec2>> pin_places(double reach, double diameter, double wall,
                                                 const std::function<bool(const Vec2&)>& is_free);
 

@@ -24,6 +24,7 @@ bool is_flat(const Vec3& normal, double steepness) {
   return normal.head<2>().norm() <= steepness * (1 + k_steepness_margin) * std::abs(normal.z());
 }
 
+// The tangent of a line's slope is |height difference| / horizontal length.
 bool is_flat_line(const Vec3& along, double steepness) {
   return std::abs(along.z()) <= steepness * (1 + k_steepness_margin) * along.head<2>().norm();
 }
@@ -166,6 +167,7 @@ int PlacesInPlan::cell(double at, int axis) const {
   return static_cast<int>(std::clamp((at - low_[axis]) * per_cell_[axis], 0.0, k_cells - 1.0));
 }
 
+// The bits of all columns between two x coordinates.
 std::uint64_t PlacesInPlan::columns(double from, double to) const {
   const std::uint64_t all = ~std::uint64_t{0};
   return (all << cell(from, 0)) & (all >> (k_cells - 1 - cell(to, 0)));

@@ -21,6 +21,7 @@ class FaceHoleSearch {
       : site_(site), layout_(layout), wound_end_(wound_end), wanted_(wanted), radius_(0.5 * layout.channel_width) {}
 
   std::optional<FaceHole> run(const LapRange& laps) const {
+    // The closing arc has the same length from either end.
     const double last = std::min(laps.most, site_.ground.arc(true).length() - radius_ - site_.tendon_diameter);
     double lap = std::max(laps.least, k_lap_ratio * site_.tendon_diameter + radius_);
     if (layout_.flange_thickness < k_least_ground) return std::nullopt;
@@ -78,6 +79,8 @@ std::optional<FaceHole> find_face_hole(const AnchorSite& site, const BodyLayout&
   return FaceHoleSearch(site, layout, wound_end, wanted).run(laps);
 }
 
+// The circles of countersink and slot touch on the outer side. The cone is therefore widest on the inner side, by the
+// difference of both diameters.
 double countersink_depth(const BodyLayout& layout, const FaceHole& hole) {
   return rise_of(layout, 2.0 * (hole.room - hole.hole_radius));
 }

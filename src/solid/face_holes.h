@@ -9,8 +9,8 @@
 
 namespace fusee::solid {
 
-/// The first place after the end of the active arc with the largest countersink up to `wanted`. Empty if the flange is
-/// too narrow or too thin, or if no place is free.
+/// The tie-off at the first free place after the end of the active arc, with the largest countersink there up to radius
+/// `wanted`. Empty if the flange is too thin, or if no place is free.
 std::optional<FaceHole> find_face_hole(const AnchorSite& site, const BodyLayout& layout, bool wound_end, double wanted,
                                        const LapRange& laps);
 

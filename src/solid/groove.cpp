@@ -8,13 +8,13 @@
 namespace fusee::solid {
 namespace {
 
-// Sagitta of a seat's facets. Prints and mills are coarser, so finer facets would be wasted.
+// Sagitta of a seat's facets, mm. Prints and mills are coarser, so finer facets would be wasted.
 constexpr double k_seat_sagitta = 0.01;
 // Floor width of a flat groove, in tendon diameters.
 constexpr double k_flat_floor_ratio = 1.4;
 
-// The seat's arc as the polygon of its tangents at 0, δ, 2δ … up to the wall, which is the last tangent. The floor band
-// is the first, exactly at offset 0. Corners are at the half steps, at radius s / cos(δ/2).
+// The seat's arc, of radius s = `seat`, as the polygon of its tangents at 0, δ, 2δ … up to the wall, which is the last
+// tangent. The floor band is the first, exactly at offset 0. Corners are at the half steps, at radius s / cos(δ/2).
 std::vector<GroovePoint> seat_corners(double seat, double lean) {
   const double turn = 0.5 * k_pi - lean;
   const double finest = 2.0 * elementary::acos(1.0 / (1.0 + k_seat_sagitta / seat));
@@ -33,8 +33,8 @@ std::vector<GroovePoint> seat_corners(double seat, double lean) {
 // Completes the section: the wall from the last corner below the groove edge, cut off at the edge.
 void finish_at_groove_edge(std::vector<GroovePoint>& points, double depth, double lean) {
   while (points.size() > 2 && points.back().offset >= depth) points.pop_back();
-  // A removed corner leaves its own, flatter tangent. The wall's lean is the steepest tangent and holds the tendon
-  // best.
+  // If corners were removed, the tangent at the last one left is flatter than the wall. The wall gets its full lean all
+  // the same: the steepest wall holds the tendon best.
   const GroovePoint& last = points.back();
   points.push_back({depth, last.dz + (depth - last.offset) * elementary::tan(lean)});
 }

@@ -7,7 +7,8 @@
 namespace fusee::solid {
 namespace {
 
-// Largest number of sections for a part of any height.
+// Least and largest number of sections for a part of any height.
+constexpr double k_least_sections = 16;
 constexpr double k_most_sections = 1500;
 // Samples of the two steps about a valley, and bisection steps for the ends of its floor.
 constexpr int k_fine_samples = 33;
@@ -101,7 +102,7 @@ std::vector<GrooveInMesh> find_grooves(const TriangleMesh& mesh, double least_de
   const Bounds box = bounds(mesh);
   const double height = box.high.z() - box.low.z();
   if (!(height > 0) || !std::isfinite(height)) return {};
-  const int count = static_cast<int>(std::clamp(height / step, 16.0, k_most_sections));
+  const int count = static_cast<int>(std::clamp(height / step, k_least_sections, k_most_sections));
   const std::vector<Slice> all = slices(mesh, box.low.z(), box.high.z(), count);
   std::vector<GrooveInMesh> grooves;
   for (const std::size_t at : valleys_of(all, least_depth)) {

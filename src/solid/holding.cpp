@@ -97,15 +97,17 @@ std::vector<std::string> helpful_changes(const Mechanism& mechanism, const profi
   double needed = 0;
   for (const KnotHold& knot : holding.knots)
     needed = std::max(needed, knot.at_knot / (k_safe_knot_share * mechanism.tendon.knot_efficiency));
-  const double rounded_up = std::ceil(0.1 * needed) * 10.0;
+  const double rounded_up = std::ceil(0.1 * needed) * 10.0;  // to tens of N
   changes.push_back(fmt::format("a tendon with a strength of {} N (tendon.strength_N)", rounded_up));
   return changes;
 }
 
 std::string joined_by_or(const std::vector<std::string>& parts) {
   std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    text += (i == 0 ? "" : i + 1 < parts.size() ? ", " : " or ") + parts[i];
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0) text += i + 1 < parts.size() ? ", " : " or ";
+    text += parts[i];
+  }
   return text;
 }
 

@@ -20,7 +20,7 @@ bool wants_set_screw(const Body& body) { return body.set_screw != "none" && body
 // Threads of an automatic set screw, from the preferred one down.
 constexpr std::array k_automatic_screws{"M3", "M2.5", "M2"};
 
-// Wall that carries the torque of a shaft in a hub without a set screw.
+// Wall that carries the torque of a shaft in a hub without a set screw, mm.
 constexpr double k_torque_wall = 2.0;
 
 // All hubs that fit, for a layout whose height includes the hub's.
@@ -46,7 +46,7 @@ class HubSearch {
   // A hub may be omitted if the file requests neither its diameter nor its screw.
   bool may_be_omitted() const { return body_.hub_diameter <= 0 && (is_automatic_screw() || !wants_set_screw(body_)); }
 
-  // A screw wider than the shaft would bear on its edges. The smallest one is always tried.
+  // A screw wider than the shaft would bear on the shaft's edges. The smallest screw is always tried.
   bool suits_shaft(const Screw& screw) const {
     return screw.nominal <= with_height_.bore.shaft || screw.name == std::string_view(k_automatic_screws.back());
   }
@@ -96,8 +96,11 @@ class HubSearch {
   double limit_;  ///< largest radius of a hub on the upper flange
 };
 
-// To tenths, as messages print it.
-double rounded_up(double value) { return 0.1 * std::ceil(value / 0.1 - 1e-9); }
+// Rounds up to tenths, as messages print it. A value that exceeds a tenth only by rounding is not raised to the next.
+double rounded_up(double value) {
+  constexpr double k_rounding = 1e-9;
+  return 0.1 * std::ceil(value / 0.1 - k_rounding);
+}
 
 void check_hub(ConditionList& list, const BodyLayout& layout, double rim_radius) {
   if (layout.hub_radius <= 0) return;

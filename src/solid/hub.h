@@ -9,7 +9,7 @@
 
 namespace fusee::solid {
 
-/// Least distance of the hub from the upper flange's rim.
+/// Least distance of the hub from the upper flange's rim, mm.
 inline constexpr double k_hub_margin = 0.5;
 
 /// A hub that fits on the upper flange, and its set screw if it has one. Radius 0: no hub. mm

@@ -22,7 +22,7 @@ constexpr double k_layer = 0.2;
 // PrusaSlicer 2.5 treats "below 45°" as "below 46°" (measured on cones and wedges). The margin is slightly larger, so
 // that rounding has no effect.
 constexpr double k_threshold_margin = radians(1.3);
-// Sampling step along outlines.
+// Sampling step along outlines, mm.
 constexpr double k_stride = 0.02;
 // Much larger than the rounding of distances, much smaller than any feature.
 constexpr double k_grain = 1e-9;
@@ -64,8 +64,8 @@ class WidenedLayer {
   bool stays_within(const Vec2& from, const Vec2& to) const { return nearest_.is_clear(from, to); }
 
  private:
-  // True if the point lies within the squared corner of a convex corner of the outline. The solid lies on the left of
-  // its outlines.
+  // True if the point lies within the squared corner of a convex corner of the outline: within `reach_` of both sides'
+  // lines and along the bisector. The solid lies on the left of its outlines.
   bool at_squared_corner(const Vec2& point) const {
     for (const Polygon& loop : loops_) {
       for (std::size_t i = 0; i < loop.size(); ++i) {

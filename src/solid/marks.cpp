@@ -14,9 +14,12 @@ constexpr double k_margin = 0.5;
 // Heights of letters. A stroke is a fifth as wide, 0.5 mm to 0.8 mm, which a nozzle prints well.
 constexpr double k_letter_height = 4.0;
 constexpr double k_smallest_letter = 2.5;
-// Size of the home mark.
+// Size of the home mark. Its tip is blunt.
 constexpr double k_home_half_width = 0.8;
 constexpr double k_home_length = 2.0;
+constexpr double k_tip_half_width = 0.03;
+// Half the width of the clocking mark.
+constexpr double k_clocking_half_width = 0.4;
 
 // Letters on a grid 3 wide and 5 high with strokes 1 wide, origin at the lower left.
 std::vector<std::vector<Polygon>> glyph(char letter) {
@@ -114,9 +117,13 @@ std::optional<Mark> home_mark(Face& face) {
   mark.on_top = face.on_top();
   mark.shows_home = true;
   if (face.on_top()) {
-    mark.loops = {{{-k_home_half_width, foot}, {k_home_half_width, foot}, {0.03, tip}, {-0.03, tip}}};
+    mark.loops = {
+        {{-k_home_half_width, foot}, {k_home_half_width, foot}, {k_tip_half_width, tip}, {-k_tip_half_width, tip}}};
   } else {
-    mark.loops = {{{-0.4, foot}, {0.4, foot}, {0.4, tip}, {-0.4, tip}}};
+    mark.loops = {{{-k_clocking_half_width, foot},
+                   {k_clocking_half_width, foot},
+                   {k_clocking_half_width, tip},
+                   {-k_clocking_half_width, tip}}};
   }
   return mark;
 }
@@ -129,8 +136,9 @@ std::vector<Mark> label_on(Face& face, char digit) {
     for (const double angle_degrees : {270.0, 180.0, 0.0, 225.0, 315.0, 135.0, 45.0, 247.0, 293.0}) {
       for (double radius = 0.15 * reach; radius < 1.6 * reach; radius += 0.5) {
         const Vec2 centre = radius * unit(radians(angle_degrees));
-        const double round = 0.5 * height;
-        const Bar bar{centre - Vec2(half_length - round, 0), centre + Vec2(half_length - round, 0), 1.25 * round};
+        const double half_height = 0.5 * height;
+        const Vec2 to_end(half_length - half_height, 0);
+        const Bar bar{centre - to_end, centre + to_end, 1.25 * half_height};
         if (!face.is_free(bar)) continue;
         face.occupy(bar);
         return label(digit, centre, height, face.on_top());

@@ -30,6 +30,7 @@ class Places {
  private:
   static constexpr std::uint32_t k_free = std::numeric_limits<std::uint32_t>::max();
 
+  // Mixes with a multiplier of MurmurHash3. Adding 0 turns −0 into 0.
   static std::size_t hash_of(const Vec3& vertex) {
     std::uint64_t hash = 0x9E3779B97F4A7C15u;
     for (const double coordinate : vertex) {

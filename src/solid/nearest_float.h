@@ -4,7 +4,8 @@
 
 namespace fusee::solid {
 
-/// Largest change of a coordinate by rounding to float, slightly increased for sections of such a mesh. mm.
+/// Largest change of a coordinate of up to 256 mm by rounding to float (2⁻¹⁷ mm = 7.6e-6 mm), slightly increased for
+/// sections of such a mesh. mm.
 inline constexpr double k_float_grain = 1e-5;
 
 /// The float nearest to `value`, as a double, as every mesh format stores it.

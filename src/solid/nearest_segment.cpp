@@ -92,7 +92,7 @@ NearestSegment::Nearest NearestSegment::nearest(const Vec2& point) const {
 
 bool NearestSegment::is_clear(const Vec2& from, const Vec2& to) const {
   if (segments_.empty()) return true;
-  // Cells are computed by rounding, so a touching segment lies at most one cell away.
+  // Cells are computed with rounding. The margin includes the next cell if the line runs along a border.
   const Vec2 margin = Vec2::Constant(1e-6 * side_);
   const Cell low = cell_of(from.cwiseMin(to) - margin), high = cell_of(from.cwiseMax(to) + margin);
   for (long row = low.row; row <= high.row; ++row) {

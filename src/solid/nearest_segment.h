@@ -38,7 +38,7 @@ class NearestSegment {
 
   std::vector<std::pair<Vec2, Vec2>> segments_;
   Vec2 low_ = Vec2::Zero();
-  double side_ = 1;  // of a cell
+  double side_ = 1;  // length of a cell's side
   long columns_ = 1, rows_ = 1;
   // Segments in cell k: cells_[first_[k]] up to, not including, cells_[first_[k + 1]].
   std::vector<std::uint32_t> first_, cells_;

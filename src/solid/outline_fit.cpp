@@ -12,15 +12,18 @@
 namespace fusee::solid {
 namespace {
 
-// Number of directions in which outlines are compared: every half degree. A facet of a pulley's outline turns by one to
-// three degrees.
+// Number of directions in which outlines are compared: every half degree. A facet of a pulley's outline turns by up to
+// two degrees.
 constexpr int k_directions = 720;
+// Number of directions for rating the turns that are tried.
 constexpr int k_coarse_directions = 180;
 // Number of turns tried. A descent from within 2° of the correct turn finds it, because outlines of pulleys have no
 // finer features.
 constexpr int k_coarse_turns = 180;
+// Number of turns from which a descent starts, its largest number of steps, and the step at which it ends (rad and mm).
 constexpr std::size_t k_descents = 6;
 constexpr int k_most_steps = 40;
+constexpr double k_last_step = 1e-10;
 // Outlines are round if every turn fits with a smaller rms distance, mm. Three times the sagitta of a pulley's facets.
 constexpr double k_round_rms = 0.03;
 // Fraction of the directions that count as undisturbed.
@@ -113,19 +116,19 @@ double tukey_weight(double gap, double end) {
   return std::abs(share) < 1 ? (1 - share * share) * (1 - share * share) : 0.0;
 }
 
-/// The Gauss-Newton step.
+/// The Gauss-Newton step (turn, shift): the solution of the weighted normal equations.
 Eigen::Vector3d step_of(const Gaps& gaps, const Eigen::VectorXd& weights) {
-  const Eigen::Matrix3d normal = gaps.slope.transpose() * weights.asDiagonal() * gaps.slope;
-  const Eigen::VectorXd pull = gaps.slope.transpose() * weights.asDiagonal() * gaps.size;
-  return -solved(normal, pull);
+  const Eigen::Matrix3d normal_matrix = gaps.slope.transpose() * weights.asDiagonal() * gaps.slope;
+  const Eigen::VectorXd right_side = gaps.slope.transpose() * weights.asDiagonal() * gaps.size;
+  return -solved(normal_matrix, right_side);
 }
 
 /// The Gauss-Newton step of the shift alone.
 Eigen::Vector3d shift_step_of(const Gaps& gaps, const Eigen::VectorXd& weights) {
   const auto slope = gaps.slope.rightCols<2>();
-  const Eigen::Matrix2d normal = slope.transpose() * weights.asDiagonal() * slope;
-  const Eigen::VectorXd pull = slope.transpose() * weights.asDiagonal() * gaps.size;
-  const Eigen::VectorXd step = -solved(normal, pull);
+  const Eigen::Matrix2d normal_matrix = slope.transpose() * weights.asDiagonal() * slope;
+  const Eigen::VectorXd right_side = slope.transpose() * weights.asDiagonal() * gaps.size;
+  const Eigen::VectorXd step = -solved(normal_matrix, right_side);
   return {0.0, step.x(), step.y()};
 }
 
@@ -139,7 +142,7 @@ PlaneMotion descended(const std::vector<SupportPair>& pairs, PlaneMotion motion,
     const Eigen::Vector3d step = may_turn ? step_of(here, weights) : shift_step_of(here, weights);
     motion.turn += step[0];
     motion.shift += step.tail<2>();
-    if (step.norm() < 1e-10) break;
+    if (step.norm() < k_last_step) break;
   }
   return motion;
 }

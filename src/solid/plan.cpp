@@ -188,7 +188,7 @@ class Planner {
     return layout;
   }
 
-  // The set screw turns away from a pocket that cuts into the hub. On a shaft with a flat it cannot.
+  // Turns the set screw away from pockets that cut into the hub. Only on a round shaft may it have any direction.
   void turn_set_screw(BodyPlan& plan) const {
     SetScrewLayout& screw = plan.layout.set_screw;
     if (!screw.present) return;
@@ -211,7 +211,7 @@ class Planner {
 
   const Mechanism& mechanism_;
   const profile::SynthesisResult& synthesis_;
-  double d_;
+  double d_;  ///< diameter of the tendon
   const BodyLayout& base_;
   const FlangeRims& rims_;
   const TieOffWishes& wishes_;
@@ -234,7 +234,8 @@ std::vector<profile::Condition> too_far_out(const profile::SynthesisResult& synt
   return far;
 }
 
-// True if P1 and P2 are held at one angle: by pins, a horn's screws, or a shaft that does not turn in its bore.
+// True if P1 and P2 fit together at one angle only: by pins, a horn's screws, or a shaft with one flat or key. A hex or
+// square shaft allows several angles.
 bool is_located(const BodyLayout& layout) {
   return !layout.dowels.places.empty() || layout.bore.screw_holes.size() > 1 || layout.bore.kind == Bore::d ||
          layout.bore.kind == Bore::keyway;

@@ -13,7 +13,7 @@ namespace fusee::solid {
 struct BodyPlan {
   BodyLayout layout;
   FlangeRims rims;
-  Polygon floor1, floor2;  ///< of the grooves, with few points, everywhere inside the true floors
+  Polygon floor1, floor2;  ///< floors of the grooves, with few points, everywhere inside the true ones
   std::vector<PlannedAnchor> anchors;
   std::vector<Mark> marks;
   std::vector<profile::Condition> conditions;

@@ -15,7 +15,7 @@ struct Bar {
 
 /// Distance between the outsides, negative when they overlap.
 double gap(const Bar& p, const Bar& q);
-/// By the even-odd rule. Points on the edge may count as either.
+/// True if the point lies inside the loop, by the even-odd rule. Points on the edge may count as either.
 bool is_inside(const Polygon& loop, const Vec2& point);
 /// Depth of a point inside a convex polygon, negative outside, and the polygon's outward normal at the nearest place.
 struct Depth {

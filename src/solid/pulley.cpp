@@ -68,7 +68,7 @@ bool has_needles(const TriangleMesh& mesh) {
 // Soundness: robustness of a mesh against processing by other programs, in increasing order.
 constexpr int k_any = 0;
 constexpr int k_survives_rounding = 1;
-constexpr int k_sound = 2;  // and has no needles
+constexpr int k_sound = 2;  // survives rounding and has no needles
 int soundness_of(const TriangleMesh& mesh) {
   if (!survives_rounding(mesh)) return k_any;
   return has_needles(mesh) ? k_survives_rounding : k_sound;
@@ -135,8 +135,8 @@ class FeatureCutter {
     }
     result.mesh = laid_on_bed(std::move(result.mesh), piece_, layout_.scale * layout_.z_mate);
     auto soundness = run_async([&result] { return soundness_of(result.mesh); }, piece_ == Piece::whole);
-    // For a large part this takes long, and is wasted if its mesh has a fault. It then runs when get() is called, after
-    // the checks.
+    // On a large part the search for unprintable places takes long, and is wasted if the mesh has a fault. There it
+    // runs when get() is called, after the checks.
     const bool is_worth_a_thread = is_printed() && result.mesh.triangles.size() < k_large_body;
     auto unprintable = run_async([&] { return unprintable_places_of(result.mesh); }, is_worth_a_thread);
     result.checks = check_mesh(result.mesh);

@@ -17,7 +17,7 @@ struct Ring {
   Polygon points;
 };
 
-/// A vertical hole of constant outline (counter-clockwise) from `low` to `high`.
+/// A vertical hole, or the hub, of constant outline (counter-clockwise) from `low` to `high`.
 struct Shaft {
   Polygon outline;
   double low = 0;

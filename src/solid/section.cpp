@@ -117,18 +117,19 @@ std::vector<Polygon> section_of_welded(const TriangleMesh& mesh, const Triangles
   for (std::size_t first = 0; first < cuts.size(); ++first) {
     if (cuts[first].used) continue;
     Polygon points;
-    std::size_t at = first, end = first;
+    std::size_t at = first;
+    bool is_closed = false;
     while (at < cuts.size() && !cuts[at].used) {
       cuts[at].used = true;
       points.push_back(cuts[at].start);
       if (cuts[at].to == cuts[first].from) {
-        end = at;
+        is_closed = true;
         break;
       }
       at = starts.next(cuts, cuts[at].to);
     }
     // An open mesh leaves open chains, which are not loops.
-    if (end != at) continue;
+    if (!is_closed) continue;
     points = without_repeats(points);
     if (points.size() >= 3) loops.push_back(std::move(points));
   }

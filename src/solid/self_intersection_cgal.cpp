@@ -69,7 +69,8 @@ class FacetPlanes {
   // +1 or −1: certainly on that side of the plane; 0: undecided.
   int side_of(const Vec3& point) const {
     const double height = normal_.dot(point - corners_[0]);
-    return height > margin_ ? 1 : height < -margin_ ? -1 : 0;
+    if (height > margin_) return 1;
+    return height < -margin_ ? -1 : 0;
   }
 
   // True if all other corners of the other facet are certainly beyond the edge from corner k to the next.
@@ -124,9 +125,10 @@ class CrossingTest {
   std::array<Point, 3> from_corner(const Triangle& facet, std::size_t k) const {
     return {point(mesh_, facet[k]), point(mesh_, facet[after(k)]), point(mesh_, facet[after(after(k))])};
   }
-  // The facet's corners, with the one shared corner first.
+  // The facet's corners, with the one shared corner first if there is one.
   std::array<Point, 3> with_first(const Triangle& facet, const std::array<bool, 3>& shared) const {
-    return from_corner(facet, shared[1] ? 1 : shared[2] ? 2 : 0);
+    if (shared[1]) return from_corner(facet, 1);
+    return from_corner(facet, shared[2] ? 2 : 0);
   }
   // The facet's corners, with the one unshared corner last and the shared ones in the order of their vertices.
   std::array<Point, 3> with_last(const Triangle& facet, const std::array<bool, 3>& shared) const {

@@ -25,8 +25,13 @@ constexpr std::array<Screw, 12> k_screws{{{"M2", 2, 2.4, 1.6, 4.0, 1.6, 4.0},
                                           {"#10-24", 4.83, 5.23, 3.80, 9.53, 3.30, 9.47},
                                           {"1/4-20", 6.35, 7.14, 5.11, 11.11, 4.90, 12.50}}};
 
-// Thickness of the wall between the nut's slot and the axis, which carries the screw's thrust.
-double nut_wall(double wall) { return std::max(wall, 1.5); }
+// Least thickness of the walls inside and outside the nut's slot, mm.
+constexpr double k_least_nut_wall = 1.5;
+// Length of a thread in the hub, in hole diameters.
+constexpr double k_thread_ratio = 1.5;
+
+// Thickness of the wall between the bore and the nut's slot. It carries the screw's thrust.
+double nut_wall(double wall) { return std::max(wall, k_least_nut_wall); }
 
 // Least height of the screw's axis above the hub's lower end.
 double least_axis_height(const SetScrewLayout& screw) {
@@ -67,12 +72,12 @@ SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compen
 }
 
 double hub_radius_for(const SetScrewLayout& screw, double bore_radius, double wall) {
-  if (screw.nut_trap) return screw.nut_distance + 0.5 * screw.nut_thickness + std::max(wall, 1.5);
-  return bore_radius + std::max(wall, 1.5 * screw.hole_diameter);
+  if (screw.nut_trap) return screw.nut_distance + 0.5 * screw.nut_thickness + std::max(wall, k_least_nut_wall);
+  return bore_radius + std::max(wall, k_thread_ratio * screw.hole_diameter);
 }
 
 double height_to_spare(const SetScrewLayout& screw, const BodyLayout& layout, double wall) {
-  // The screw's height uses up all clearance on one side, where rounding must not decide.
+  // set_screw_layout() may leave exactly no clearance on one side. Rounding must not make that negative.
   constexpr double k_rounding = 1e-9;
   const double above = layout.z_hub - screw.z - teardrop_top(screw) - wall;
   const double least = std::min(above, screw.z - layout.z_top - least_axis_height(screw));

@@ -27,8 +27,8 @@ const Screw* find_screw(const std::string& name);
 SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compensation, double wall,
                                 const BodyLayout& layout);
 
-/// The hub radius that leaves `wall` outside the nut. Without a nut, the thread is 1.5 hole diameters long, and at
-/// least `wall`.
+/// The hub radius that leaves `wall`, and at least 1.5 mm, outside the nut. Without a nut, the thread is 1.5 hole
+/// diameters long, and at least `wall`.
 double hub_radius_for(const SetScrewLayout& screw, double bore_radius, double wall);
 
 /// Clearance of the set screw's features within the hub's height, negative when they do not fit, mm.
@@ -36,7 +36,8 @@ double height_to_spare(const SetScrewLayout& screw, const BodyLayout& layout, do
 
 /// Distance from the nut's centre (the screw's axis) to the corner that points down.
 double nut_corner(const SetScrewLayout& screw);
-/// The ceiling of a horizontal hole rises to a ridge at ceiling_slope on both sides, so that it prints without support.
+/// Height of the ceiling's ridge above the axis of the screw's hole. The ceiling rises to the ridge at ceiling_slope on
+/// both sides, so that it prints without support.
 double teardrop_top(const SetScrewLayout& screw);
 
 }  // namespace fusee::solid

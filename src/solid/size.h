@@ -15,7 +15,7 @@ constexpr double k_tallest = 1000.0;
 
 constexpr const char* k_height_condition = "height";
 
-/// The failed height condition of a pulley with this layout, if any. In two parts, of the taller one.
+/// The failed height condition of a pulley with this layout, if any. Of two parts the taller one counts.
 std::optional<profile::Condition> too_tall(const BodyLayout& layout);
 
 /// The failed condition on the reach of a pitch curve, if any. `active_reach`: reach of its working part.

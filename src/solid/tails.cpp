@@ -25,6 +25,7 @@ constexpr double k_longest_ratio = 10.0;
 constexpr double k_shortest_ratio = 3.0;
 // Material below a slot's floor and above a channel's ceiling: two layers.
 constexpr double k_ground_of_slot = 0.4;
+// Number of directions of a slot that are tried.
 constexpr int k_slot_directions = 72;
 // Length of thread for a screw in plastic, in nominal diameters: preferred and least.
 constexpr double k_thread_ratio = 2.5;
@@ -98,11 +99,11 @@ class TailPlacer {
     }
   }
 
-  // Makes the screw as long as the material under the slot permits; false if that is too short.
+  // Makes the thread as long as the material under the slot permits; false if the thread would be too short.
   bool add_screw(TailSlot& slot, transmission::Side side) const {
-    const double material = layout_.parts == Parts::one        ? layout_.z_top
-                            : side == transmission::Side::left ? layout_.z_mate
-                                                               : layout_.z_top - layout_.z_mate;
+    double material = layout_.z_top;
+    if (layout_.parts != Parts::one)
+      material = side == transmission::Side::left ? layout_.z_mate : layout_.z_top - layout_.z_mate;
     const double below = slot.depth + slot.ceiling, room = material - k_ground_of_slot - below;
     slot.pilot_diameter = screw_->tapping + compensation_;
     slot.pilot_depth = below + std::min(k_thread_ratio * screw_->nominal, room);
@@ -164,7 +165,7 @@ class TailPlacer {
 
   const BodyPlan& plan_;
   const BodyLayout& layout_;
-  double d_;
+  double d_;  ///< diameter of the tendon
   double compensation_;
   const Screw* screw_;
   ConvexSides floor1_, floor2_;

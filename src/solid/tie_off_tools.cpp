@@ -22,7 +22,7 @@ struct Heights {
   double up = 1;               ///< −1: printed upside down
   double half = 0;             ///< half the height of the channel
   double channel_ceiling = 0;  ///< rise of its ceiling
-  double open = 0;             ///< end of the pocket in the air; below the plane: on the bed
+  double open = 0;             ///< height of the pocket's open end; negative: the pocket opens on the bed
   double pocket_ceiling = 0;   ///< height of the ceiling of a pocket that opens on the bed
 };
 
@@ -118,7 +118,8 @@ TriangleMesh countersink(const FaceHole& hole, double depth, double outside, int
     for (int k = 0; k < facets; ++k) points.push_back(centre + radius * unit(k_two_pi * (k + 0.31) / facets));
     return points;
   };
-  // The depth at which the cone has narrowed to that smaller circle, on the same slope.
+  // The depth at which the cone has narrowed to that smaller circle, on the same slope: its widest ceiling is
+  // 2 (room − r) + (1 − k_share) r instead of 2 (room − r), with the slot's half width r.
   const double deeper = depth * (1.0 + 0.5 * (1.0 - k_share) * hole.hole_radius / (hole.room - hole.hole_radius));
   const Polygon outer = circle(hole.pocket(), hole.room), inner = circle(hole.hole, k_share * hole.hole_radius);
   return strip({at_height(outer, -0.5 * k_overshoot - outside), at_height(outer, 0.0), at_height(inner, deeper)});

@@ -12,13 +12,19 @@
 namespace fusee::solid {
 namespace {
 
-// A narrower automatic channel would close in printing.
+// Clearance of a tendon in an automatic channel, on the diameter, mm.
+constexpr double k_channel_clearance = 0.3;
+// A narrower automatic channel would close in printing. mm
 constexpr double k_least_channel = 0.6;
+// Radius of a channel's fillet in tendon diameters, and its least value in channel widths.
+constexpr double k_fillet_ratio = 2.0;
+constexpr double k_least_fillet_ratio = 0.75;
 // Least pocket radius in channel widths: the knot would be pulled through a smaller one.
 constexpr double k_least_pocket = 0.55;
-// Radius of an automatic pocket on a thin tendon, in channel widths.
+// Radius of an automatic pocket in tendon diameters, and its least value, on a thin tendon, in channel widths.
+constexpr double k_pocket_ratio = 1.75;
 constexpr double k_thin_pocket = 0.85;
-// Gap between a pocket and the hub, which avoids a sliver.
+// Gap between a pocket and the hub, which avoids a sliver. mm
 constexpr double k_hub_gap = 0.4;
 
 // Step of wrap at which a load-carrying tie-off is tried, from the far end of the closing arc.
@@ -105,13 +111,13 @@ bool clears_set_screw(const BodyLayout& layout, double angle, const TieOff& tie_
 void choose_channel(BodyLayout& layout, const Mechanism& mechanism) {
   const double d = mechanism.tendon.diameter;
   layout.channel_width =
-      mechanism.body.anchor_hole > 0 ? mechanism.body.anchor_hole : std::max(d + 0.3, k_least_channel);
-  layout.channel_fillet = std::max(2.0 * d, 0.75 * layout.channel_width);
+      mechanism.body.anchor_hole > 0 ? mechanism.body.anchor_hole : std::max(d + k_channel_clearance, k_least_channel);
+  layout.channel_fillet = std::max(k_fillet_ratio * d, k_least_fillet_ratio * layout.channel_width);
 }
 
 double TieOffPlanner::wanted_pocket(const BodyLayout& layout) const {
   if (mechanism_.body.knot_pocket > 0) return 0.5 * mechanism_.body.knot_pocket;
-  return std::max(1.75 * mechanism_.tendon.diameter, k_thin_pocket * layout.channel_width);
+  return std::max(k_pocket_ratio * mechanism_.tendon.diameter, k_thin_pocket * layout.channel_width);
 }
 
 double TieOffPlanner::least_pocket(const BodyLayout& layout) const {
@@ -136,6 +142,7 @@ std::optional<AnchorPath> TieOffPlanner::channel(AnchorSite site, const BodyLayo
   // P2's pockets open on the face that the hub stands on. They avoid the hub if possible and otherwise cut into its
   // side.
   if (site.ground.outline().side == transmission::Side::right && layout.hub_radius > 0) {
+    // The search adds the least wall, which is not required towards the hub.
     site.above_pocket.push_back({Vec2::Zero(), Vec2::Zero(), layout.hub_radius + k_hub_gap - layout.min_wall});
     if (auto path = anchor_at(site, wound_end, wanted, laps); path && path->room >= least_pocket(layout)) return path;
     site.above_pocket.clear();

@@ -63,7 +63,8 @@ struct AnchorRoom {
   double least = 0;  ///< least useful radius
 };
 
-/// True if a set screw whose axis points in direction `angle` keeps a wall to this tie-off.
+/// True if a set screw whose axis points in direction `angle` (rad) keeps a wall to this tie-off: the least wall of the
+/// body, at most 1 mm.
 bool clears_set_screw(const BodyLayout& layout, double angle, const TieOff& tie_off);
 
 /// Sets width and fillet of the channels.
@@ -119,7 +120,9 @@ class TieOffPlanner {
   void add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const AnchorGround& ground,
            const TieOffPair& pair) const;
   bool is_rejected(transmission::Side side, bool wound_end, double wrap) const;
+  /// `first`: the load-carrying tie-off found nearest to the active arc.
   TieOffPair wrapped_furthest(const BodyLayout& layout, const AnchorGround& ground, const TieOff& first) const;
+  /// `first`: the load-carrying tie-off of the same pulley.
   std::optional<TieOff> spare_beside(const BodyLayout& layout, const AnchorGround& ground, const TieOff& first) const;
 
   const Mechanism& mechanism_;

@@ -11,7 +11,7 @@
 namespace fusee::solid {
 namespace {
 
-// Facets of a set screw's hole, in its first variant.
+// Number of facets of a set screw's hole in its first variant.
 constexpr int k_hole_facets = 20;
 
 using Indices = std::vector<std::uint32_t>;
@@ -99,9 +99,10 @@ TriangleMesh screw_hole(const SetScrewLayout& screw, double reach, int facets) {
 TriangleMesh nut_slot(const SetScrewLayout& screw, double hub_top) {
   const Vec2 out = unit(screw.angle), across = turned_left(out);
   const Vec2 middle = screw.nut_distance * out;
-  const Vec2 a = 0.5 * screw.nut_thickness * out, b = 0.5 * screw.nut_width * across;
-  return prism({{middle - a - b, middle + a - b, middle + a + b, middle - a + b}}, screw.z - nut_corner(screw),
-               hub_top + k_overshoot);
+  const Vec2 to_outer = 0.5 * screw.nut_thickness * out, to_side = 0.5 * screw.nut_width * across;
+  return prism({{middle - to_outer - to_side, middle + to_outer - to_side, middle + to_outer + to_side,
+                 middle - to_outer + to_side}},
+               screw.z - nut_corner(screw), hub_top + k_overshoot);
 }
 
 }  // namespace

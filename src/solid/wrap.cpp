@@ -8,7 +8,7 @@
 namespace fusee::solid {
 namespace {
 
-// In (−π, π].
+// In [−π, π].
 double turn_between(double from, double to) { return std::remainder(to - from, k_two_pi); }
 
 }  // namespace

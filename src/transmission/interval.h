@@ -173,6 +173,8 @@ inline Jet hypot(const Jet& a, const Jet& b) { return sqrt(squared(a) + squared(
 inline Jet cathetus(const Jet& hypotenuse, const Jet& other, Domain& domain) {
   return sqrt(positive_part(squared(hypotenuse) - squared(other), domain));
 }
+/// As for numbers (scalar.h), within −90° … 270°. A box that reaches the origin or straight down has all these
+/// directions.
 inline Jet direction(const Jet& x, const Jet& y, Domain& domain) {
   const Interval pi = pi_interval();
   if (y.value.lower() > 0) return Jet(0.5 * pi) - atan(x / y);

@@ -20,11 +20,12 @@ using elementary::acos, elementary::atan, elementary::cos, elementary::exp, elem
     std::sqrt;
 inline double squared(double x) { return x * x; }
 inline double larger(double a, double b) { return std::max(a, b); }
+/// x, unchanged; the formula has no value unless x > 0.
 inline double positive_part(double x, Domain& domain) {
   if (!(x > 0)) domain.possible = false;
   return x;
 }
-/// The part of x within ±1.
+/// x, unchanged; the formula has no value unless x lies within ±1.
 inline double unit_part(double x, Domain& domain) {
   if (!(x >= -1 && x <= 1)) domain.possible = false;
   return x;

@@ -19,7 +19,7 @@ struct LawValue {
 };
 
 /// An interpolating B-spline of degree five (less for fewer than six rows). The pulley's curvature contains the third
-/// derivative, which is still smooth. Beyond the ends it is extrapolated by the Taylor polynomial there.
+/// derivative, which is still smooth. Beyond the ends the law continues as the Taylor polynomial of degree three there.
 struct Transmission::TableLaw {
  public:
   explicit TableLaw(const std::vector<LawRow>& rows);

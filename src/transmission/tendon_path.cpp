@@ -44,7 +44,7 @@ struct DrumOffset {
 DrumOffset end_offset_from_drum(const PinPlace& place) {
   if (place.drum_offset == 0) return {place.R, place.twist};
   const double ahead = place.drum_twist - place.twist;
-  // In the frame at O whose y axis points to the end.
+  // From the drum's centre to the end, in the frame at O whose y axis points to the end.
   const Vec2 offset(-place.drum_offset * elementary::sin(ahead), place.R - place.drum_offset * elementary::cos(ahead));
   return {std::max(place.drum, offset.norm()), place.twist + elementary::atan2(offset.x(), offset.y())};
 }
@@ -58,10 +58,10 @@ double wrap_on_drum(const PinPlace& place, const DrumOffset& end, const DrumLine
   return 0.5 * k_pi - turned - opening(place, end) - line.normal;
 }
 
-// Tendon on a drum whose centre E moves round O at the distance e = OE; ε is drum_twist, ψ the direction of n and f the
-// length of the line from drum to pin. (P − E)·n = ρ0 − ρ is the free tendon's (C − P)·n = ρ (free_span) with E for C
-// and ρ − ρ0 for ρ. The derivatives of normal and line are therefore those of free_span(), with k = e sin(θ + ε + ψ)
-// for the arm:
+// Tendon on a drum whose centre E moves round O at the distance e, which is PinPlace::drum_offset (not the guide offset
+// OE); ε is drum_twist, ψ the direction of n and f the length of the line from drum to pin. (P − E)·n = ρ0 − ρ is the
+// free tendon's (C − P)·n = ρ (free_span) with E for C and ρ − ρ0 for ρ. The derivatives of normal and line are
+// therefore those of free_span(), with k = e sin(θ + ε + ψ) for the arm:
 //
 //   m = ρ0 + k      a = e cos(θ + ε + ψ)      ψ' = −a/f      ω = 1 + ψ'      f' = −k − (ρ − ρ0)ψ'
 //   m' = aω         ψ'' = (kω − ψ'f')/f       m'' = −kω² + aψ''
@@ -114,12 +114,12 @@ PinPlace pin_place(const Mechanism& mechanism, Side side, double rho) {
   }
   if (joint.is_plain()) return place;
   place.drum = mechanism.drum_pitch_radius();
-  if (const auto& own = side == Side::left ? joint.attachment1 : joint.attachment2) {
-    const double x = mirror_sign(side) * own->across;
+  if (const auto& attachment = side == Side::left ? joint.attachment1 : joint.attachment2) {
+    const double x = mirror_sign(side) * attachment->across;
     place.at_C = false;
-    place.R = elementary::hypot(x, own->along);
+    place.R = elementary::hypot(x, attachment->along);
     // An end straight below O is reached over the drum's outer side, from the right.
-    place.twist = x == 0 && own->along < 0 ? k_pi : elementary::atan2(x, own->along);
+    place.twist = x == 0 && attachment->along < 0 ? k_pi : elementary::atan2(x, attachment->along);
   }
   if (joint.drum_centre == Attachment{}) place.R = std::max(place.R, place.drum);
   if (const Attachment& centre = joint.drum_centre; place.drum > 0 && centre != Attachment{}) {
@@ -170,8 +170,8 @@ UpperSpan upper_span(const PinPlace& place, double theta) {
 
 namespace {
 
-// Differentiating (C − P)·n = ρ (upper_line) with C = R (sin θ, cos θ), C' = R (cos θ, −sin θ), with ψ the direction of
-// n and f the free length:
+// Differentiating (C − P)·n = ρ (upper_line) with C = R (sin θ, cos θ), C' = R (cos θ, −sin θ). ψ is the direction of
+// n, t is n turned by +90°, D is |C − P| and f the free length:
 //
 //   m   = R sin(θ + ψ)        f = (C − P)·t = sqrt(D² − ρ²)          a = R cos(θ + ψ)
 //   ψ'  = −a/f                f' = −m − ρψ'                          ω = 1 + ψ'

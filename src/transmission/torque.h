@@ -8,7 +8,7 @@
 
 namespace fusee::transmission {
 
-/// One joint angle. Without friction the motor turns by load/motor per joint angle.
+/// Load and wanted motor torque at one joint angle. Without friction the motor turns by load/motor per joint angle.
 struct TorqueMatch {
   double theta = 0;  ///< rad
   double load = 0;   ///< torque of [load] and [spring] against +θ, N·mm
@@ -17,7 +17,7 @@ struct TorqueMatch {
   double slope() const { return load / motor; }  ///< dα/dθ
 };
 
-/// The joint angle of the range where dα/dθ of law = torque is smallest. The law does not exist where it is not
+/// The joint angle of the range where dα/dθ of law = torque is smallest. The law does not exist where dα/dθ is not
 /// positive. An angle at which dα/dθ has no value counts as the smallest.
 TorqueMatch tightest_torque(const Mechanism& mechanism);
 /// The wanted motor torque of law = torque at joint angles (rad), N·mm: between the rows of its table by the law's

@@ -15,8 +15,8 @@ constexpr std::array<std::array<double, 2>, 4> k_gauss_eight{{{0.183434642495649
                                                               {0.5255324099163290, 0.3137066458778873},
                                                               {0.7966664774136267, 0.2223810344533745},
                                                               {0.9602898564975363, 0.1012285362903763}}};
-/// Number of intervals over the range. Within one, the sine of a weight equals a polynomial of degree 15 to the last
-/// digit.
+/// Number of intervals over the range. Within one, the sine in a weight's torque equals a polynomial of degree 15 to
+/// the last digit.
 constexpr int k_intervals = 64;
 /// Extension beyond the range, as a fraction of it, in which the law continues where possible.
 constexpr double k_extension = 0.1;
@@ -30,9 +30,9 @@ constexpr int k_samples = 16;
 template <typename Spline>
 std::shared_ptr<const Spline> spline_of(const std::vector<TorqueRow>& rows) {
   if (rows.empty()) return nullptr;
-  std::vector<LawRow> places;
-  for (const TorqueRow& row : rows) places.push_back({row.theta, row.torque});
-  return std::make_shared<const Spline>(places);
+  std::vector<LawRow> spline_rows;
+  for (const TorqueRow& row : rows) spline_rows.push_back({row.theta, row.torque});
+  return std::make_shared<const Spline>(spline_rows);
 }
 
 }  // namespace
@@ -51,9 +51,9 @@ void Transmission::TorqueLaw::examine(double theta) {
   const TorqueMatch here = match(theta);
   // An angle without a value counts as the tightest.
   constexpr double none = -std::numeric_limits<double>::infinity();
-  const auto value = [](const TorqueMatch& at) { return std::isfinite(at.slope()) ? at.slope() : none; };
-  if (value(here) < value(tightest_)) tightest_ = here;
-  if (!(value(here) > 0) && (!fails_at_ || std::abs(theta) < std::abs(*fails_at_))) fails_at_ = theta;
+  const auto slope_of = [](const TorqueMatch& at) { return std::isfinite(at.slope()) ? at.slope() : none; };
+  if (slope_of(here) < slope_of(tightest_)) tightest_ = here;
+  if (!(slope_of(here) > 0) && (!fails_at_ || std::abs(theta) < std::abs(*fails_at_))) fails_at_ = theta;
 }
 
 Transmission::TorqueLaw::TorqueLaw(const Mechanism& mechanism)
@@ -86,12 +86,12 @@ Transmission::TorqueLaw::TorqueLaw(const Mechanism& mechanism)
 void Transmission::TorqueLaw::set_ends() {
   const double low = places_.front(), high = places_.back();
   const auto extended = [this](double from, double beyond) {
-    const double enough = k_least_share * slope(from);
+    const double least_slope = k_least_share * slope(from);
     for (int halvings = 0; halvings < 4; ++halvings, beyond *= 0.5) {
       bool exists = true;
       for (int i = 1; i <= k_samples; ++i) {
         const double value = slope(from + beyond * i / k_samples);
-        exists = exists && value > enough && std::isfinite(value);
+        exists = exists && value > least_slope && std::isfinite(value);
       }
       if (exists) return from + beyond;
     }

@@ -158,7 +158,7 @@ TEST(Tolerances, MethodsAgree) {
     ASSERT_EQ(effects.size(), dimensions(mechanism).size() + 1);
     EXPECT_EQ(effects.back().key, "all");
     for (const ToleranceEffect& effect : effects) {
-      // Twice the standard deviation of 2000 samples: ± 5 %.
+      // A standard deviation from 2000 samples scatters by 1/√4000 = 1.6 %.
       EXPECT_NEAR(effect.theta_by_monte_carlo, effect.theta_by_derivative, 0.06 * effect.theta_by_derivative + 1e-12)
           << effect.key;
       EXPECT_NEAR(effect.excess_by_monte_carlo, effect.excess_by_derivative, 0.06 * effect.excess_by_derivative + 1e-9)

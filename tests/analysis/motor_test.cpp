@@ -129,7 +129,7 @@ TEST(Motor, GearboxMultipliesTorqueAndDividesSpeed) {
   mechanism.motor.gear_ratio = 5;
   MotorCheck motor = *under_load(mechanism).motor;
   EXPECT_EQ(motor.model, "MG996R 5:1");
-  EXPECT_DOUBLE_EQ(motor.torque_limit, 5 * 0.9 * model.stall_torque);
+  EXPECT_DOUBLE_EQ(motor.torque_limit, 5 * 0.9 * model.stall_torque);  // 0.9: efficiency of a gearbox by default
   EXPECT_DOUBLE_EQ(motor.travel_limit, model.travel / 5);
   EXPECT_DOUBLE_EQ(motor.speed_limit, model.speed / 5);
   mechanism.motor.gear_efficiency = 1;

@@ -108,14 +108,15 @@ TEST(Plausibility, RarelyWarnsOfRandomJoints) {
 TEST(Plausibility, DetectsErrorsInRandomJoints) {
   struct Kind {
     const char* name;
-    void (*slip)(Mechanism&);
+    void (*introduce)(Mechanism&);
     double least;  ///< fraction that is detected
     int seen = 0;
   };
   std::vector<Kind> kinds = {
       {"range in radians",
        [](Mechanism& m) {
-         m.joint.theta_min = radians(m.joint.theta_min), m.joint.theta_max = radians(m.joint.theta_max);
+         m.joint.theta_min = radians(m.joint.theta_min);
+         m.joint.theta_max = radians(m.joint.theta_max);
        },
        1.0},
       {"EB in cm", [](Mechanism& m) { m.guides.EB /= 10; }, 1.0},
@@ -132,9 +133,9 @@ TEST(Plausibility, DetectsErrorsInRandomJoints) {
   testing::expect_law(100, [&](const Mechanism& mechanism) {
     ++cases;
     for (Kind& kind : kinds) {
-      Mechanism slipped = mechanism;
-      kind.slip(slipped);
-      kind.seen += likely_input_errors(file_of(slipped)).empty() ? 0 : 1;
+      Mechanism faulty = mechanism;
+      kind.introduce(faulty);
+      kind.seen += likely_input_errors(file_of(faulty)).empty() ? 0 : 1;
     }
     return profile::synthesise(mechanism, {.advice = false}).made();
   });

@@ -135,6 +135,7 @@ TEST(Bundles, RejectTooManyFilesAndFolders) {
   Bundle bundle = example();
   for (std::size_t i = 0; i < k_most_bundled_files; ++i) bundle.in_the_way.push_back("made/" + std::to_string(i) + "/");
   EXPECT_THAT(refusal_of(bundle), HasSubstr("at most 2000 files and folders"));
+  // Five paths of 450 folders each are too many, four are not.
   bundle = example();
   bundle.in_the_way = {};
   for (std::size_t i = 0; i < 5; ++i) {

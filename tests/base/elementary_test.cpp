@@ -66,7 +66,7 @@ TEST(Elementary, ErrorIsBelowFiveQuartersOfUnit) {
   for (const Function& function : k_functions) EXPECT_LT(worst_error(function, FE_TONEAREST), 1.25) << function.name;
 }
 
-// transmission/interval.h relies on it.
+// transmission/interval.h relies on this bound.
 TEST(Elementary, ErrorIsBelowTwoUnitsInDirectedRounding) {
   for (const Function& function : k_functions) {
     for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO})

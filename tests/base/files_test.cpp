@@ -378,7 +378,7 @@ TEST_F(Files, KeepsOtherEntries) {
 TEST_F(Files, KeepsCurrentFolder) {
   publish(root_ / "out", {{"x.stl", "old"}});
   {
-    const CurrentFolder standing(root_ / "out");
+    const CurrentFolder current(root_ / "out");
     publish(".", {{"x.stl", "new"}});
     EXPECT_EQ(bytes_of("x.stl"), "new");  // the current folder keeps its name
     EXPECT_TRUE(fs::equivalent(".", root_ / "out"));
@@ -399,8 +399,8 @@ TEST_F(Files, RemovesWithdrawnFiles) {
     const fs::path folder = root_ / (whole ? "whole" : "current");
     publish(folder, {{"x.stl", "old"}, {"p1.stl", "old"}, {"p2.stl", "old"}});
     put(folder / "p2.stl", "edited");
-    std::optional<CurrentFolder> standing;
-    if (!whole) standing.emplace(folder);
+    std::optional<CurrentFolder> current;
+    if (!whole) current.emplace(folder);
     OutputFolder output(folder, false);
     output.stage(manifest_of({{"x.stl", "new"}}));
     output.stage({"x.stl", "new"});
@@ -419,15 +419,15 @@ TEST_F(Files, SubfolderKeepsEditedFiles) {
     put(folder / "next/run_2.csv", "filled in");
     fs::create_directories(folder / "next/mine");
     put(folder / "next/mine/notes.txt", "mine");
-    std::optional<CurrentFolder> standing;
-    if (!whole) standing.emplace(folder);
-    for (const bool again : {true, false}) {
+    std::optional<CurrentFolder> current;
+    if (!whole) current.emplace(folder);
+    for (const bool has_page : {true, false}) {
       OutputFolder output(folder, false);
-      output.stage(again ? manifest_of({{"next/page.html", "new"}}) : manifest_of({}));
-      if (again) output.stage({"next/page.html", "new"});
+      output.stage(has_page ? manifest_of({{"next/page.html", "new"}}) : manifest_of({}));
+      if (has_page) output.stage({"next/page.html", "new"});
       output.withdraw({"next/page.html", "next/run_1.csv", "next/run_2.csv"});
       output.publish(notes_);
-      EXPECT_EQ(fs::exists(folder / "next/page.html"), again);
+      EXPECT_EQ(fs::exists(folder / "next/page.html"), has_page);
       EXPECT_FALSE(fs::exists(folder / "next/run_1.csv"));
       EXPECT_EQ(bytes_of(folder / "next/run_2.csv"), "filled in");
       EXPECT_EQ(bytes_of(folder / "next/mine/notes.txt"), "mine");
@@ -439,8 +439,8 @@ TEST_F(Files, RemovesEmptiedSubfolder) {
   for (const bool whole : {true, false}) {
     const fs::path folder = root_ / (whole ? "whole" : "current");
     publish(folder, {{"x.stl", "old"}, {"next/run_1.csv", "old"}});
-    std::optional<CurrentFolder> standing;
-    if (!whole) standing.emplace(folder);
+    std::optional<CurrentFolder> current;
+    if (!whole) current.emplace(folder);
     OutputFolder output(folder, false);
     output.stage(manifest_of({{"x.stl", "new"}}));
     output.stage({"x.stl", "new"});
@@ -471,8 +471,8 @@ TEST_F(Files, ConcurrentRunsBothPublish) {
   for (const bool whole : {true, false}) {
     const fs::path folder = root_ / (whole ? "whole" : "current");
     publish(folder, {{"x.stl", "old"}});
-    std::optional<CurrentFolder> standing;
-    if (!whole) standing.emplace(folder);
+    std::optional<CurrentFolder> current;
+    if (!whole) current.emplace(folder);
     OutputFolder first(folder, false), second(folder, false);
     for (OutputFolder* output : {&first, &second}) {
       const std::string bytes = output == &first ? "first" : "second";

@@ -30,6 +30,7 @@ class Leftovers : public ::testing::Test {
   /// A leftover of `out`, with an old/ folder that holds one file.
   std::filesystem::path leftover(const char* file) const {
     const std::string key = staging_key(root_ / "out", StagingSite::beside);
+    // 3999999 is the number of a process that does not run.
     const std::filesystem::path folder = root_ / (".fusee-3999999-" + key + "-aaaaaa");
     std::filesystem::create_directories(folder / "old");
     std::filesystem::permissions(folder, std::filesystem::perms::owner_all);

@@ -94,7 +94,7 @@ TEST(ThreadPool, LoopEndsAfterStop) {
     sleep_briefly();
   };
   EXPECT_THROW(pool.each(1000, job, 0, source.get_token()), Stopped);
-  EXPECT_LE(calls, 4);
+  EXPECT_LE(calls, 4);  // the third call requests the stop; the other thread may have begun a fourth
 }
 
 TEST(ThreadPool, StopInLastJobIsIgnored) {
@@ -106,18 +106,19 @@ TEST(ThreadPool, StopInLastJobIsIgnored) {
   EXPECT_NO_THROW(pool.each(10, job, 0, source.get_token()));
 }
 
-int sum_of_tree(ThreadPool& pool, int depth) {
+/// Number of leaves of a tree whose nodes have four branches: three by a loop, one by a task.
+int leaves_of_tree(ThreadPool& pool, int depth) {
   if (depth == 0) return 1;
   std::vector<int> parts(3);
-  auto other = pool.run_async([&pool, depth] { return sum_of_tree(pool, depth - 1); });
-  pool.each(parts.size(), [&](std::size_t i, std::size_t) { parts[i] = sum_of_tree(pool, depth - 1); });
+  auto other = pool.run_async([&pool, depth] { return leaves_of_tree(pool, depth - 1); });
+  pool.each(parts.size(), [&](std::size_t i, std::size_t) { parts[i] = leaves_of_tree(pool, depth - 1); });
   return parts[0] + parts[1] + parts[2] + other.get();
 }
 
 TEST(ThreadPool, NestedJobsFinish) {
   for (const unsigned threads : {1u, 2u, 4u}) {
     ThreadPool pool(threads);
-    EXPECT_EQ(sum_of_tree(pool, 5), 1024);
+    EXPECT_EQ(leaves_of_tree(pool, 5), 1024);  // 4⁵
   }
 }
 
@@ -132,7 +133,8 @@ TEST(ThreadPool, TaskThatAwaitsAnotherFinishes) {
   EXPECT_EQ(chain.back().value(), 50);
 }
 
-// The caller and one thread wait for each other's work through a third: a waiting thread must not count.
+// The caller waits for `slow`, and `slow` for `other`. The pool of two threads begins `other` only if the thread of
+// `slow` does not count while it waits.
 TEST(ThreadPool, WaitingThreadDoesNotCount) {
   ThreadPool pool(2);
   std::latch begun(1);
@@ -150,8 +152,8 @@ TEST(ThreadPool, WaitingThreadDoesNotCount) {
 
 TEST(ThreadPool, TaskKeepsException) {
   ThreadPool pool(2);
-  for (const bool worth : {false, true}) {
-    auto task = pool.run_async([]() -> int { throw InputError("joint.toml", "bad"); }, worth);
+  for (const bool in_background : {false, true}) {
+    auto task = pool.run_async([]() -> int { throw InputError("joint.toml", "bad"); }, in_background);
     EXPECT_THROW(task.get(), InputError);
   }
 }
@@ -174,11 +176,11 @@ TEST(ThreadPool, TaskEndsWithItsScope) {
   }
 }
 
-TEST(ThreadPool, WorkWithoutWorthStaysUnstarted) {
+TEST(ThreadPool, UnrequestedForegroundWorkIsDropped) {
   ThreadPool pool(2);
   bool has_begun = false;
   {
-    auto task = pool.run_async([&has_begun] { has_begun = true; }, false);
+    auto task = pool.run_async([&has_begun] { has_begun = true; }, /*in_background=*/false);
     sleep_briefly();
   }
   EXPECT_FALSE(has_begun);

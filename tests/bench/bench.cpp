@@ -34,7 +34,7 @@ const solid::Pulley& paper_pulley() {
   return pulley;
 }
 
-/// A valid ring of about `triangles` faces; coordinates are rounded to floats.
+/// A valid ring of about `triangles` faces, n by n quadrilaterals; coordinates are rounded to floats.
 solid::TriangleMesh torus(std::int64_t triangles) {
   const auto n = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(triangles) / 2)));
   solid::TriangleMesh mesh;
@@ -119,21 +119,22 @@ const bool wide_joints = [] {
   return true;
 }();
 
-/// Round pulleys of radius 8 mm, so that only the number of turns varies; the joint's drum grows with it.
+/// Round pulleys of radius 8 mm, so that only the number of turns varies; the joint's drum grows with it. Guides and ends
+/// of the tendons are at the same shares of the drum's radius as in elbow_capstan.
 MechanismFile with_turns(double turns) {
   constexpr double k_range_deg = 110, k_radius = 8;
   const double drum = turns * k_radius * 360.0 / k_range_deg;
-  const std::string beside = std::to_string(1.45 * drum), tied = std::to_string(0.7094 * drum),
-                    ends = "[-" + tied + ", " + tied + "]";
+  const std::string guide_offset = std::to_string(1.45 * drum), end_offset = std::to_string(0.7094 * drum);
+  const std::string attachment = "[-" + end_offset + ", " + end_offset + "]";
   return read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / "elbow_capstan.toml",
                         {{"joint.drum_radius_mm", std::to_string(drum)},
-                         {"joint.length_mm", std::to_string(drum + 0.3)},
+                         {"joint.length_mm", std::to_string(drum + 0.3)},  // to the tendons' centre lines
                          {"joint.range_deg", "[-15, 95]"},
-                         {"joint.attachment1_mm", ends},
-                         {"joint.attachment2_mm", ends},
-                         {"guides.EB_mm", beside},
-                         {"guides.ED_mm", beside},
-                         {"guides.OE_mm", beside},
+                         {"joint.attachment1_mm", attachment},
+                         {"joint.attachment2_mm", attachment},
+                         {"guides.EB_mm", guide_offset},
+                         {"guides.ED_mm", guide_offset},
+                         {"guides.OE_mm", guide_offset},
                          {"pulley.r1_mm", std::to_string(k_radius)}});
 }
 
@@ -146,7 +147,8 @@ double peak_megabytes() {
 }
 void forget_peak() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
-/// Chord error 0.01 mm, all formats and checks: at most 1 s and 300 MB for ten turns.
+/// Chord error 0.01 mm, all formats and checks. The aim for ten turns is at most 1 s and 300 MB; nothing here enforces
+/// it.
 void whole_build_of_turns(benchmark::State& state) {
   const MechanismFile file = with_turns(static_cast<double>(state.range(0)));
   pipeline::BuildOptions options;

@@ -25,14 +25,15 @@ const DeclaredMechanism& forearm() {
   return mechanism;
 }
 
-/// Sum of twelve uniform deviates: approximately normal, and equal on every machine.
+/// Sum of twelve uniform deviates, less its mean of 6: approximately normal with variance 1, and equal on every machine.
+/// The generator is linear congruential with Knuth's constants for MMIX.
 class Noise {
  public:
   double operator()() {
     double sum = -6;
     for (int i = 0; i < 12; ++i) {
       state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-      sum += static_cast<double>(state_ >> 11) / 9007199254740992.0;
+      sum += static_cast<double>(state_ >> 11) / 9007199254740992.0;  // 2⁵³
     }
     return sum;
   }
@@ -46,8 +47,8 @@ struct Plan {
   double seconds = 75;  ///< the whole run
 };
 constexpr Plan k_runs[] = {{0, 75}, {20, 75}, {0, 15}, {10, 75}, {-20, 75}};
-constexpr int k_strokes = 5;  // reversals fall on rows
-constexpr int k_model_rows = 4000;
+constexpr int k_strokes = 5;        // reversals fall on rows
+constexpr int k_model_rows = 4000;  // of the simulated truth, for each run
 
 /// Motor angle at a share of the run, for strokes there and back.
 double alpha_at(double share) {

@@ -1,4 +1,4 @@
-// Duration of a sweep of three cycles, 1000 points, with the full model.
+// Duration of a sweep of three cycles, 1002 points, with the elastic model.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -17,7 +17,8 @@ std::vector<joint::JointStep> three_cycles(const transmission::Transmission& tra
   double from = 0;
   for (int stroke = 0; stroke < 6; ++stroke) {
     const double to = ends[stroke % 2];
-    for (int i = 1; i <= 167; ++i) steps.push_back({from + (to - from) * i / 167, tip_force, 0.0});
+    constexpr int k_points = 167;  // of a stroke
+    for (int i = 1; i <= k_points; ++i) steps.push_back({from + (to - from) * i / k_points, tip_force, 0.0});
     from = to;
   }
   return steps;
@@ -47,6 +48,7 @@ Mechanism changed(Mechanism mechanism, double pretension, double friction, doubl
   return mechanism;
 }
 
+/// The forearm's law as a table of 45 rows, two of them beyond each end of the range.
 Mechanism table_law() {
   Mechanism mechanism = testing::forearm();
   const transmission::Transmission source(mechanism);

@@ -20,8 +20,8 @@ namespace {
 
 using namespace fusee;
 
-constexpr double k_floor = radians(0.02);
-constexpr int k_times = 7;
+constexpr double k_noise_floor = radians(0.02);  // that of calibrate_peers.py
+constexpr int k_repetitions = 7;
 
 const Effect* effect(const char* name) { return find_effect(name, JointKind::tendons); }
 
@@ -29,7 +29,7 @@ const Effect* effect(const char* name) { return find_effect(name, JointKind::ten
 double fit_seconds(const calibration::Evidence& evidence, const calibration::EffectSet& effects,
                    calibration::Fit& fit) {
   double best = 1e300;
-  for (int i = 0; i < k_times; ++i) {
+  for (int i = 0; i < k_repetitions; ++i) {
     const auto start = std::chrono::steady_clock::now();
     joint::Forward forward(*evidence.declared, evidence.log);
     fit = calibration::Fitter(evidence, forward).fit(effects, {});
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
   const DeclaredMechanism declared = joint::expected_joint(read_mechanism(argv[1]).mechanism);
   const std::vector<std::filesystem::path> runs(argv + 2, argv + argc);
   const calibration::Evidence evidence =
-      calibration::gather(declared, measurement::read_measurement(runs, declared), k_floor);
+      calibration::gather(declared, measurement::read_measurement(runs, declared), k_noise_floor);
   calibration::Fit fit;
   const double seconds =
       fit_seconds(evidence, {effect("joint_sensor_gain"), effect("backlash"), effect("zero_offset")}, fit);

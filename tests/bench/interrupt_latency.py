@@ -2,11 +2,12 @@
 used after the signal, which other programs on the machine do not change.
 
 usage: interrupt_latency.py FUSEE [MOMENTS=50] [COMMAND ...]
-(build, giant: of 1 m in fine facets, refused, refused_giant, check, rewind, analyze, certified, ga, pareto, plan,
-simulate, calibrate, reproduce, replay)
+(build, giant: of 1 m in fine facets, refused_giant, kit, model, check, rewind, analyze, certified, ga, pareto, replay,
+refused, plan, simulate, calibrate, reproduce)
 
-Runs of too short a command are over before the signal: they are counted as such. Ends with 1 where one took more than
-0.2 s of processor, or ended otherwise than with 130 or done (or as the system ends a program that is not yet up).
+Some runs of a short command are over before the signal: the table counts them. Ends with 1 if a run took more than
+0.2 s of processor. It also ends with 1 if a run ended otherwise than interrupted (130), done (0) or refused (4), or by
+SIGINT itself before the program handles signals.
 """
 
 import os
@@ -102,7 +103,7 @@ diameter_mm = 4.0
 
 
 def prepare(fusee, folder):
-    """A large design, and run files with its simulated angles for calibration."""
+    """A large design, a part in fine facets with its bundle, a plan, and simulated runs of the forearm for calibration."""
     pathlib.Path(folder, "giant.toml").write_text(GIANT)
     spec = str(ROOT / "profiles/forearm.toml")
     fine = [fusee, "build", str(ROOT / "profiles/paper_optimum.toml"), "-o", f"{folder}/fine", "--tolerance-mm", "0.001"]

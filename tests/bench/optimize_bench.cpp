@@ -47,7 +47,7 @@ Lanes hypot(const Lanes& a, const Lanes& b) { return sqrt(squared(a) + squared(b
 Lanes cathetus(const Lanes& hypotenuse, const Lanes& other, transmission::Domain& domain) {
   return sqrt(positive_part((hypotenuse - other) * (hypotenuse + other), domain));
 }
-/// For guides above the pulley: pins below C, and the pulley below its pins.
+/// atan2(y, x), for y > 0 only: pins are below C, and the pulley is below its pins.
 Lanes direction(const Lanes& x, const Lanes& y, transmission::Domain& domain) {
   domain.whole = domain.whole && (y.v > 0).all();
   return 0.5 * k_pi - Lanes((x.v / y.v).atan());

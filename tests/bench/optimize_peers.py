@@ -3,8 +3,8 @@
 
     optimize_peers.py BENCH_OPTIMIZE
 
-BENCH_OPTIMIZE is the program of optimize_bench.cpp. Needs numpy and scipy; pymoo and cma are used where present. The equations are written
-anew here, from [2]-[8].
+BENCH_OPTIMIZE is the program of optimize_bench.cpp. Needs numpy and scipy; cma is used if it is installed. The equations are written
+anew here, from [2] to [8] of docs/background/physics.md.
 """
 
 import json
@@ -16,12 +16,13 @@ import numpy as np
 
 THETA = np.radians(np.linspace(-30, 30, 61))
 SIN, COS = np.sin(THETA), np.cos(THETA)
-R1, EF, MU = 20.0, 60.0, 0.2
-BOUNDS = [(100.0, 300.0), (30.0, 150.0), (-40.0, 50.0)]
-calls = 0
+R1, EF, MU = 20.0, 60.0, 0.2  # mm, mm, capstan friction
+BOUNDS = [(100.0, 300.0), (30.0, 150.0), (-40.0, 50.0)]  # of R, EB = ED and OE, mm
+calls = 0  # evaluations of max_tension()
 
 
 def max_tension(design):
+    """Largest T_b/F_c over the stroke, with a penalty for EB > R/2; 1e6 for an impossible design."""
     global calls
     calls += 1
     R, e, oe = design

@@ -1,5 +1,5 @@
-"""Compares the times of `fusee build` and OpenSCAD, for the pulley.scad of the same part and for a simple union of two
-drums with floors, flanges, hub and bore, but without groove sections and tie-offs.
+"""Times of `fusee build`, `kit` and `model`, and of OpenSCAD for the same part: for its pulley.scad, and for a simple union
+of two drums with floors, flanges, hub and bore, but without groove sections and tie-offs.
 
 usage: peers.py FUSEE SPEC.toml
 """
@@ -26,6 +26,7 @@ def measured(command):
 
 
 def best(command, runs):
+    """The run with the least wall time: other load on the machine only increases it."""
     return min(measured(command) for _ in range(runs))
 
 

@@ -106,7 +106,7 @@ class Bags(harness.Scratch):
         before = {path.name: path.read_bytes() for path in copied.iterdir()}
         self.assertLess(len(before["run.db3"]), 10_000)  # all messages are in the write-ahead log
         self.expect("simulate arm.toml copied/run.db3 -o simulated.csv", 0)
-        self.assertEqual(len((self.folder / "simulated.csv").read_text().splitlines()), 482)  # a header, and 8 strokes of 60 steps
+        self.assertEqual(len((self.folder / "simulated.csv").read_text().splitlines()), 482)  # a header, the first row, and 8 strokes of 60 steps
         self.assertEqual({path.name: path.read_bytes() for path in copied.iterdir()}, before)
         copied.chmod(0o555)
         self.expect("simulate arm.toml copied/run.db3 -o again.csv", 0)

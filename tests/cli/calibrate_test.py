@@ -186,7 +186,7 @@ class Calibrate(harness.Scratch):
             self.assertEqual(bool(re.search(r"^Tried +odds$", text, re.M)), more == "-v")
         self.assertFalse((self.folder / "out").exists())
 
-    def test_progress_options(self):
+    def test_progress_follows_options(self):
         line = "calibrate joint.toml run_1.csv run_2.csv --dry-run"
         self.assertEqual(self.expect(line, 0).stderr.count(b"#"), 0)
         self.assertEqual(self.expect(line + " -q", 0).stderr, b"")

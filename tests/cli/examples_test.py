@@ -21,7 +21,7 @@ class Examples(harness.Scratch):
         for command in ["", "new", "explain", "analyze", "build", "check", "rewind", "optimize", "reproduce", "plan", "kit", "model", "simulate", "replay", "completion", "manual"]:
             for line in self.examples(command):
                 with self.subTest(line):
-                    # Enter takes each proposal of --ask.
+                    # Enter takes each proposal of --ask, which has seven questions.
                     done = subprocess.run(["bash", "-c", line], cwd=self.folder, env=harness.ENVIRONMENT, input=b"\n" * 7, capture_output=True, timeout=120)
                     self.assertEqual(done.returncode, 0, done.stderr.decode())
                     if command == "reproduce":  # its width is tested here only: it takes long

@@ -144,7 +144,7 @@ class Optimize(harness.Scratch):
         self.assertEqual(running.returncode, 130)
         answer = json.loads(out)
         self.assertTrue(answer["stopped"])
-        self.assertLess(answer["value"], 2.6)  # within 10 % of the optimum
+        self.assertLess(answer["value"], 2.6)  # within 10 % of PAPER_OPTIMUM
         self.assertTrue(re.search(r"^length_mm = [0-9.]+   # R$", (self.folder / "best.toml").read_text(), re.M))
 
 

@@ -466,7 +466,7 @@ class Leftovers(harness.Scratch):
 class Machine(harness.Scratch):
     """Missing resources of the machine are reported, and are not bugs."""
 
-    def test_no_temporary_folder(self):
+    def test_missing_temporary_folder_is_reported(self):
         bundle = self.folder / "bug.zip"
         self.expect(f"explain name --bundle {bundle}", 0)
         (self.folder / "file").write_text("x")
@@ -476,7 +476,7 @@ class Machine(harness.Scratch):
                 self.assertEqual(done.returncode, 6, done.stderr)
                 self.assertIn(b"TMPDIR", done.stderr)
 
-    def test_not_enough_memory(self):
+    def test_lack_of_memory_is_reported(self):
         self.build("made")
         self.expect("plan arm.toml -q", 0)
         refused = set()

@@ -109,7 +109,7 @@ class Simulate(harness.Scratch):
         done = self.expect(f"simulate arm.toml {self.sweep()}", 0, "", "^$")
         rows = rows_of(done.stdout.decode())
         self.assertEqual(list(rows[0]), COLUMNS)
-        self.assertEqual(len(rows), 361)  # 6 strokes of 60 steps
+        self.assertEqual(len(rows), 361)  # the first row, and 6 strokes of 60 steps
         self.assertTrue(all(row["status"] == "held" and float(row["tension2_N"]) > 0 for row in rows))
         columns = self.expect_json("simulate arm.toml log.csv", 0)["columns"]
         self.assertEqual(list(columns), COLUMNS)

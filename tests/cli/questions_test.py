@@ -29,7 +29,7 @@ class Questions(harness.Scratch):
         return done.stdout.decode(), done.stderr.decode(errors="replace")
 
     def understood(self, *lines):
-        """How answers up to one question were understood: the input ends at the next question."""
+        """How the answers `lines` were understood, and stderr. The input ends after them."""
         out, err = self.ask("\n".join(lines) + "\n", 3)
         self.assertEqual(out, "")
         return re.search(r"answered: (.*)", err)[1], err
@@ -40,6 +40,7 @@ class Questions(harness.Scratch):
         document = self.expect_json("build asked.toml --force", 0)
         self.assertTrue(all(check["ok"] for check in document["checks"]))
         if room:
+            # A binary STL: 84 bytes of header and count, then facets of a normal (skipped), three corners and an attribute.
             mesh = (self.folder / "out/asked/pulley.stl").read_bytes()[84:]
             facets = struct.iter_unpack("<12x9fxx", mesh)
             reach = max(math.hypot(*facet[i:i + 2]) for facet in facets for i in (0, 3, 6))
@@ -97,7 +98,7 @@ class Questions(harness.Scratch):
                             ("1 lb ft", "1356 Nmm about O")):
             self.assertIn(f"load: {load}", self.understood("a", "45", "0 80", "30", typed)[0], typed)
 
-    def test_names_of_motors_and_tendons(self):
+    def test_motors_and_tendons_are_found_by_name(self):
         begun = ("a", "45", "0 80", "30", "10 N")
         for typed, motor in (("N20", "N20 gear motor"), ("MG996R horn", "turns 180 deg"), ("dynamixel XL330", "horn of Dynamixel XL330"),
                              ("5 mm D", "a D shaft of 5 mm"), ("1/4 in", "a round shaft of 6.35 mm")):
@@ -242,7 +243,7 @@ class Questions(harness.Scratch):
             analysis = self.expect_json("analyze asked.toml", 0)
             self.assertEqual(analysis["motor"]["travel"]["limit_deg"], 180)
 
-    def test_geared_motor(self):
+    def test_gearbox_multiplies_torque(self):
         begun = ("a", "250", "±60", "80", "2 kg")
         self.assertIn("motor: NEMA17-48mm with a gearbox 5:1, a D shaft of 8 mm", self.understood(*begun, "NEMA17-48mm 5:1, 8 mm D")[0])
         self.assertIn("type the gearbox's shaft behind it", self.understood(*begun, "NEMA17-48mm geared 5:1")[0])
@@ -252,6 +253,7 @@ class Questions(harness.Scratch):
         self.assertEqual(read["motor"], {"model": "NEMA17-48mm", "gear_ratio": 5})
         self.assertEqual((read["body"]["bore"], read["body"]["bore_diameter_mm"]), ("d", 8))
         motor = self.builds(text, 80)["motor"]
+        # Gear ratio, default efficiency of a gearbox, and the motor's holding torque, N mm.
         self.assertEqual((motor["model"], motor["torque"]["limit_Nmm"]), ("NEMA17-48mm 5:1", 5 * 0.9 * 590))
         self.assertRegex((self.folder / "out/asked/report.html").read_text(), "NEMA17-48mm 5:1")
 

@@ -10,7 +10,7 @@ import harness
 
 
 class Reproduce(harness.Scratch):
-    def test_page_figures_and_numbers(self):
+    def test_page_is_current_and_figures_complete(self):
         done = self.fusee("reproduce --json -o paper")
         self.assertEqual(done.returncode, 0, done.stderr.decode())
         answer = json.loads(done.stdout)

@@ -1,5 +1,6 @@
 // Any bytes as the outline of a closed, upright solid, written as Draco within any tolerance. It must read as the same
-// solid, with equal faces and all vertices within the tolerance. fuzz_mesh covers the reader.
+// solid, with equal faces and all vertices within the tolerance. fuzz_mesh covers the reader. The first three bytes
+// select scale, height and tolerance, each further byte is a radius.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -64,7 +65,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const TriangleMesh mesh = prism(radii, height);
   if (!is_solid(mesh)) return 0;
   const TriangleMesh again = fusee::formats::read_mesh(fusee::formats::draco_bytes(mesh, tolerance), "fuzz.drc");
-  const double reach = tolerance + 1e-6 * (height + 17 * scale);  // rounding of floats
+  const double largest_radius = 17 * scale;                           // 1 + 255/16, rounded up
+  const double reach = tolerance + 1e-6 * (height + largest_radius);  // rounding of floats
   if (again.triangles.size() != mesh.triangles.size() || !is_solid(again)) std::abort();
   if (!lies_within(mesh, again, reach) || !lies_within(again, mesh, reach)) std::abort();
   return 0;

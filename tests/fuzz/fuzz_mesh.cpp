@@ -1,4 +1,5 @@
-// Any bytes under any name give an InputError, or a mesh with indices in range.
+// Any bytes under names of three formats give an InputError, or a mesh with indices in range. Corpus:
+// tests/fuzz/corpus/mesh.
 
 #include <cstdint>
 #include <cstdlib>

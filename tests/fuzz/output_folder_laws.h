@@ -106,6 +106,7 @@ class OddGround {
         put(entry, std::string(byte(3) % 4, 'x'));
         break;
     }
+    // A leftover's folder has the permissions that fusee sets (0700), wider ones, or ones that prevent its removal.
     const mode_t modes[] = {0700, 0700, 0700, 0755, 0500, 0000};
     const fs::path top = folder.filename().string().rfind(".fusee-", 0) == 0 ? folder : folder.parent_path();
     if (top.filename().string().rfind(".fusee-", 0) == 0) ::chmod(top.c_str(), modes[byte(3) % 6]);

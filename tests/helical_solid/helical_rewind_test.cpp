@@ -40,7 +40,7 @@ TEST(HelicalFloors, MatchTheSpirals) {
   ASSERT_EQ(floors.size(), 2u);
   for (const auto& [floor, spiral, place] :
        {std::tuple{&floors[0], &p1, &pulley.p1}, std::tuple{&floors[1], &p2, &pulley.p2}}) {
-    EXPECT_NEAR(static_cast<double>(floor->size()), 5 * 720.0 - 16.0, 4.0);  // 4° less at both ends
+    EXPECT_NEAR(static_cast<double>(floor->size()), 5 * 720.0 - 16.0, 4.0);  // 4° (8 places) less at both ends
     double furthest = 0;
     for (const Vec3& point : *floor) furthest = std::max(furthest, away_from(*spiral, *place, point));
     EXPECT_LT(furthest, 0.012);

@@ -44,7 +44,10 @@ class PulleyGenerator {
   }
 
  private:
-  double within(double low, double high) { return low + (high - low) * static_cast<double>(random_()) / 4294967295.0; }
+  double within(double low, double high) {
+    constexpr double k_most = 4294967295.0;  // std::mt19937::max()
+    return low + (high - low) * static_cast<double>(random_()) / k_most;
+  }
 
   helix::Spiral spiral(const HelicalSection& section, std::string& words) {
     const double turns = within(1.2, 8.0), radius = within(9, 28), begin = within(-10, 10);

@@ -50,7 +50,7 @@ inline SupportCurve growing(double radius, double per_turn, double begin) {
   return {[=](double t) { return radius + rate * (t - begin); }, [=](double) { return rate; },
           [](double) { return 0.0; }};
 }
-/// An oval that grows.
+/// An oval that grows by `per_turn`. `wave`: amplitude of its support function.
 inline SupportCurve oval(double radius, double per_turn, double wave, double begin) {
   const double rate = per_turn / k_two_pi;
   return {[=](double t) { return radius + rate * (t - begin) + wave * std::cos(2.0 * t); },

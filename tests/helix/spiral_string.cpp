@@ -53,8 +53,8 @@ StringLength string_length(const Mechanism& mechanism, transmission::Side side, 
     const Vec2 along = (lower - here).normalized();
     // The outward normal points to the right of the line from the pulley to the pin.
     const double normal = angle_of(-turned_left(along));
-    const double row = side == transmission::Side::right ? spiral.rows[i].turn : k_pi - spiral.rows[i].turn;
-    const double miss = std::abs(row - mirror * alpha - normal);
+    const double row_normal = side == transmission::Side::right ? spiral.rows[i].turn : k_pi - spiral.rows[i].turn;
+    const double miss = std::abs(row_normal - mirror * alpha - normal);
     if (miss < least) {
       least = miss;
       best = i;

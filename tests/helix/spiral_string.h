@@ -16,7 +16,8 @@ struct StringLength {
   double fleet = 0;  ///< angle between the last wound chord and the free path, rad
 };
 
-/// A joint without drum, both tendons at C. `attachment_z` in the spiral's frame.
+/// The string of one side at the pulley angle `alpha` and the joint angle `theta`, rad. The joint has no drum, and both
+/// tendons end at C. `attachment_z`: height of that end in the spiral's frame, mm.
 StringLength string_length(const Mechanism& mechanism, transmission::Side side, const Spiral& spiral,
                            double attachment_z, double alpha, double theta);
 

@@ -38,7 +38,7 @@ const HelixSide& side_of(const HelixSynthesis& made, transmission::Side side) {
 }
 
 struct Variation {
-  double length = 0;  ///< of the string's length over the stroke, mm
+  double length = 0;  ///< variation of the string's length over the stroke, mm
   double fleet = 0;   ///< largest difference of the fleet angles of string and synthesis, rad
 };
 

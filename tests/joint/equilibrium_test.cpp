@@ -102,7 +102,7 @@ TEST(Equilibrium, AgreesWithPaperCapstan) {
       EXPECT_NEAR(t2.lower, t2.upper * std::exp(-0.2 * t2.wrap), 1e-9);
     }
   }
-  EXPECT_GT(lifting, 170);
+  EXPECT_GT(lifting, 170);  // of 180 rows in which α rises
   EXPECT_GT(lowering, 170);
 }
 
@@ -298,9 +298,9 @@ Mechanism wound_twice() {
 }
 
 TEST(MultiTurn, AreOneSpringWithoutFriction) {
-  // With a round pulley and a drum, the upper span, the wrap on the pin and the lower span are constant. Only the arcs on
-  // drum and pulley change, each by its radius times an angle. The spring is the whole tendon, from its end on the joint
-  // to the knot.
+  // With a round pulley and a drum, the upper span, the wrap on the pin and the lower span are constant. Only the arcs
+  // on drum and pulley change, each by its radius times an angle. The spring is the whole tendon, from its end on the
+  // joint to the knot.
   Mechanism mechanism = wound_twice();
   mechanism.guides.mu = mechanism.pulley.mu = 0;
   mechanism.body.spare_turns = 1.5;

@@ -142,6 +142,7 @@ TEST(Rubbing, FollowsFrictionLaws) {
       const double theta = states[i].theta, turned = theta - states[i - 1].theta;
       const double pull = t2 * arm(transmission::Side::right, theta) - t1 * arm(transmission::Side::left, theta) -
                           6 * mechanism.joint.R;
+      // k_usual_pull is 10 N: (T/10 N)^(2/3) = ∛T²/∛100.
       const double dry = rubbing.by_area * (std::cbrt(t1 * t1) + std::cbrt(t2 * t2)) / (2 * std::cbrt(100.0)) +
                          rubbing.by_lesser * std::min(t1, t2) / 10;
       if (std::abs(turned) > 1e-9) {

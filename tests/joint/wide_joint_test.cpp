@@ -165,7 +165,7 @@ TEST(WideJoint, SheathFrictionEqualsPinFriction) {
   const double lost = std::exp(0.1 * radians(200.0));
   int up = 0, down = 0;
   for (const EquilibriumPoint& point : points) {
-    if (point.t2.contact == PinContact::slip_down && point.load_torque > 160) {
+    if (point.t2.contact == PinContact::slip_down && point.load_torque > 160) {  // of 166 N·mm: loaded
       EXPECT_NEAR(point.t2.lower, point.t2.upper * lost, 1e-9 * point.t2.lower);
       ++up;
     }

@@ -34,6 +34,7 @@ double sliding(double strain, double fall, double turn) {
   return -k_radius / fall * std::log((std::exp(-fall * turn) + strain) / (1.0 + strain));
 }
 
+// 0.1 rad is 1 mm of arc; the density along a wound arc varies linearly.
 TEST(WoundProfile, PaysOutLastFirstWithoutSliding) {
   WoundProfile profile = wound(1.0, 1e12);
   const double density[] = {1 / 1.004, 1 / 1.006, 1 / 1.001};
@@ -44,6 +45,7 @@ TEST(WoundProfile, PaysOutLastFirstWithoutSliding) {
   EXPECT_NEAR(pulled(profile, 0.4, 2e-3), 6.0 * density[0], 1e-13);
 }
 
+// The arc from the knot to the take-off at the turn t is 5 mm + 10 mm · t.
 TEST(WoundProfile, IsSpringWithoutFriction) {
   WoundProfile profile = wound(1.0, 0.0);
   EXPECT_NEAR(pulled(profile, 1.0, 6e-3), 15.0 / 1.004 - 15.0 / 1.006, 1e-13);

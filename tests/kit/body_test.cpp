@@ -33,6 +33,7 @@ TEST(KitBody, ConeIsAFrustum) {
   loop.grow_high = -2;
   const kit::SlabBody cone{{{0, 4, {loop}}}};
   expect_solid(cone);
+  // Height 4, radii 5 and 3: V = h A₁ (R² + R r + r²)/3, with the area A₁ of the polygon of radius 1.
   const double unit_area = area_of_circle(72, 1);
   EXPECT_NEAR(kit::volume_of(cone), 4 * unit_area * (25 + 15 + 9) / 3, 1e-9);
 }
@@ -43,7 +44,7 @@ TEST(KitBody, ContinuedLoopsHaveNoSeam) {
   expect_solid({{{0, 2, {rim, through}}, {2, 5, {rim, through, blind}}, {5, 6, {{kit::disc({14, 5}, 4)}, blind}}}});
 }
 
-// If beginning faces looked up, the part would have material in mid-air.
+// A slab that is wider than the one below has a downward face over nothing. The same slabs upside down have none.
 TEST(KitBody, PrintCheckFindsOverhangs) {
   const kit::SlabBody mushroom{{{0, 3, {{kit::disc({0, 0}, 2)}}}, {3, 5, {{kit::disc({0, 0}, 6)}}}}};
   expect_solid(mushroom);
@@ -54,10 +55,10 @@ TEST(KitBody, PrintCheckFindsOverhangs) {
 
 TEST(KitBody, TrimmedHolesAdmitTheCircle) {
   const kit::SlabBody plate{{{0, 4, {{kit::box({-10, -10}, {10, 10}, 1)}, {kit::disc({0, 0}, 3), true}}}}};
-  const kit::SlabBody made = kit::trimmed(plate, {1, 0.2, 0.4});
+  const kit::SlabBody made = kit::trimmed(plate, {.scale = 1, .hole = 0.2, .elephant_foot = 0.4});
   expect_solid(made);
   const kit::SlabLoop& hole = made.slabs.back().loops[1];
-  EXPECT_NEAR(distance_to_edges(kit::outline_of(hole.hull, hole.grow_low), {0, 0}), 3.1, 1e-9);
+  EXPECT_NEAR(distance_to_edges(kit::outline_of(hole.hull, hole.grow_low), {0, 0}), 3.0 + 0.5 * 0.2, 1e-9);
   ASSERT_EQ(made.slabs.size(), 2u);
   EXPECT_NEAR(made.slabs[0].high, 0.4, 1e-12);
   EXPECT_NEAR(made.slabs[0].loops[0].grow_low, -0.4, 1e-12);
@@ -70,12 +71,12 @@ TEST(KitBody, EngravedLinesStayApart) {
                               {{kit::box({-10, -10}, {10, 10}, 1)},
                                {kit::slot({-2, 0}, {-0.46, 0}, 0.3), true},
                                {kit::slot({0.46, 0}, {2, 0}, 0.3), true}}}}};
-  expect_solid(kit::trimmed(plate, {1, 0.5, 0}));
+  expect_solid(kit::trimmed(plate, {.scale = 1, .hole = 0.5, .elephant_foot = 0}));
 }
 
 TEST(KitBody, ThinWallGetsSmallChamfer) {
   const kit::SlabBody tube{{{0, 4, {{kit::disc({0, 0}, 2)}, {kit::disc({0, 0}, 1.6), true}}}}};
-  expect_solid(kit::trimmed(tube, {1, 0.2, 0.8}));
+  expect_solid(kit::trimmed(tube, {.scale = 1, .hole = 0.2, .elephant_foot = 0.8}));
 }
 
 }  // namespace

@@ -114,6 +114,7 @@ TEST_P(Kit, MovingPartsDoNotCollide) {
   const auto& stroke = model.synthesis.stroke;
   for (const std::size_t place : {std::size_t{0}, stroke.size() / 3, stroke.size() / 2, stroke.size() - 1}) {
     const std::vector<PlacedPart> all = put_together(model, stroke[place].theta, stroke[place].alpha);
+    // From the base plate to above the bracket, which is 4 mm thick. The odd steps avoid heights of faces.
     const double low = -model.plan.sizes.base, high = model.plan.sizes.bracket_low + 6;
     for (double z = low + 0.23; z < high; z += 1.37) {
       std::vector<std::vector<Polygon>> cuts;
@@ -127,6 +128,7 @@ TEST_P(Kit, MovingPartsDoNotCollide) {
           if (i == k || cuts[k].empty() || may_touch(all[i].name, all[k].name)) continue;
           // The ring lies in the link's bore.
           if (all[k].name == "bearing_ring") continue;
+          // The plan requires 0.5 mm. Polygons and the distance of the dots take less than 0.1 mm of it.
           for (const Polygon& loop : cuts[i])
             EXPECT_GT(distance(cuts[k], dotted(loop, true)), 0.4)
                 << all[i].name << " meets " << all[k].name << " at z = " << z
@@ -149,7 +151,8 @@ TEST_P(Kit, TendonsRunFree) {
                                                stroke[place].alpha, stroke[place].theta);
       ASSERT_TRUE(trace);
       std::vector<Vec2> line = trace->free_path;
-      line.pop_back();  // from there it lies in its groove
+      // Towards the take-off the tendon enters its groove: the last fifth of the span is omitted.
+      line.pop_back();
       const Vec2 last = line.back(), groove = trace->take_off;
       line.push_back(last + 0.8 * (groove - last));
       // Without the end that is tied to the post.
@@ -290,7 +293,7 @@ TEST(KitOfOne, TendonLengthCoversItsPath) {
     const bool left = cut.side == transmission::Side::left;
     const profile::Outline& outline = left ? product.synthesis.p1 : product.synthesis.p2;
     const auto trace = formats::trace_tendon(product.joint.mechanism, outline, 0, 0);
-    // Up the post, and along the link to the slide's screw.
+    // Tendon 1 runs up the post, and along the link to the slide, which begins 2.5 mm beyond the post.
     double path = trace->free_length;
     if (left) {
       const kit::KitSizes& sizes = made.product.plan.sizes;
@@ -299,7 +302,7 @@ TEST(KitOfOne, TendonLengthCoversItsPath) {
     }
     EXPECT_GT(cut.between_knots, path);
     EXPECT_LT(cut.between_knots, path + 1.5 * perimeter(profile::parallel(outline, 0)));
-    EXPECT_GT(cut.cut, cut.between_knots + 100);
+    EXPECT_GT(cut.cut, cut.between_knots + 100);  // two tails of 50 mm
   }
 }
 
@@ -369,7 +372,8 @@ TEST_P(Template, HasAHoleAtEveryAxis) {
     return std::any_of(model.plan.items.begin(), model.plan.items.end(),
                        [&](const kit::KitItem& item) { return item.what.starts_with(motor.name + ":"); });
   });
-  const std::size_t screws = mounted == motor_types().end() ? 0 : mounted->two_holes ? 2 : 4;
+  std::size_t screws = 0;
+  if (mounted != motor_types().end()) screws = mounted->two_holes ? 2 : 4;
   EXPECT_EQ(base.size(), bored.size() + 1 + screws);
   EXPECT_TRUE(is_inside(base, 0.5 * (bored[1] + bored[0])));
   for (const auto& end : {mechanism.joint.attachment1, mechanism.joint.attachment2}) {

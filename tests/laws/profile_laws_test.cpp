@@ -128,12 +128,14 @@ TEST(ProfileLaws, TendonsClearClosingArc) {
   });
 }
 
-/// Largest distance by which the outline lies inside a much finer sample of the same curve, mm.
+/// Largest distance by which the outline lies inside a much finer sample of the same curve, mm, along the normals of the
+/// finer one.
 double largest_chord_error(const profile::Outline& outline, const profile::Outline& fine) {
   double largest = 0;
   std::size_t corner = 0;
   for (const profile::OutlinePoint& point : fine.points) {
-    // Both polygons run in the same direction, so that the supporting corner for this normal is near the previous one.
+    // The supporting corner is the outline's furthest one along the normal. Both polygons run in the same direction, so
+    // that it is near that of the previous normal.
     const auto support = [&](std::size_t i) {
       return outline.points[i % outline.points.size()].position.dot(point.normal);
     };

@@ -11,6 +11,8 @@ namespace {
 
 using testing::expect_law;
 
+constexpr double k_chord_error_mm = 0.01;  // default of synthesise()
+
 // Every accepted mechanism gives a valid mesh, and strings wound on its sections reproduce θ(α). Every rejected one has a
 // reason.
 TEST(PulleyLaws, AcceptedPulleysAreValidAndRewind) {
@@ -29,7 +31,7 @@ TEST(PulleyLaws, AcceptedPulleysAreValidAndRewind) {
       RC_ASSERT(has_reason(pulley.conditions));
       return false;
     }
-    for (const Check& check : solid::check_pulley(pulley.mesh, mechanism, synthesis, pulley, 0.01)) {
+    for (const Check& check : solid::check_pulley(pulley.mesh, mechanism, synthesis, pulley, k_chord_error_mm)) {
       RC_LOG() << check.name << " " << check.value << " " << check.limit << " " << check.where << "\n";
       RC_ASSERT(check.ok);
     }

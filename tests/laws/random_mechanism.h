@@ -1,5 +1,5 @@
 /// \file
-/// Random joints: from finger to arm, of every law, symmetric or not, feasible or not.
+/// Random joints: from finger to arm, symmetric or not, feasible or not, by each law except law = "table".
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,12 +26,13 @@ inline rc::Gen<double> between(double low, double high) {
 
 }  // namespace detail
 
+/// A joint of the paper's class: both tendons end at C and run over pins. Lengths are shares of R.
 inline Mechanism random_mechanism() {
   using detail::between;
   Mechanism mechanism = default_mechanism();
   mechanism.name = "random";
   const double R = std::exp(*between(std::log(20.0), std::log(300.0)));
-  mechanism.joint = {R, radians(-*between(8.0, 38.0)), radians(*between(8.0, 38.0))};
+  mechanism.joint = {R, radians(-*between(8.0, 38.0)), radians(*between(8.0, 38.0))};  // R, range of θ
   mechanism.guides.EB = R * *between(0.3, 0.75);
   mechanism.guides.ED = *rc::gen::element(true, false) ? mechanism.guides.EB : R * *between(0.3, 0.75);
   mechanism.guides.OE = R * *between(-0.5, 0.2);
@@ -81,18 +82,18 @@ inline Mechanism random_wide_mechanism() {
   return mechanism;
 }
 
-/// Plain or wide, with the motor behind sheaths.
+/// A joint of either class above, with the motor behind sheaths.
 inline Mechanism random_sheathed_mechanism() {
   using detail::between;
   Mechanism mechanism = *rc::gen::element(true, false) ? random_mechanism() : random_wide_mechanism();
   const double arm = mechanism.joint.is_plain() ? 0.55 * mechanism.joint.R : mechanism.joint.R;
   const double pulley_radius = mechanism.pulley.law == Law::linear ? arm / mechanism.pulley.ratio : mechanism.pulley.r1;
-  mechanism.sheath = {*between(50.0, 2000.0),
-                      radians(*between(0.0, 540.0)),
-                      *between(0.0, 0.3),
-                      0,
-                      pulley_radius * *between(0.2, 2.5),
-                      pulley_radius * *between(1.2, 7.0)};
+  mechanism.sheath = {*between(50.0, 2000.0),               // length
+                      radians(*between(0.0, 540.0)),        // bend
+                      *between(0.0, 0.3),                   // friction
+                      0,                                    // stiffness: rigid
+                      pulley_radius * *between(0.2, 2.5),   // exits across
+                      pulley_radius * *between(1.2, 7.0)};  // and above
   return mechanism;
 }
 
@@ -119,8 +120,9 @@ inline Mechanism random_torque_mechanism() {
   double mean_torque = 0;  // of the load, over the range
   for (int i = 0; i <= 20; ++i)
     mean_torque += transmission::law_load_torque(mechanism, low + (high - low) * i / 20).value / 21;
-  const double sign = *between(0.0, 1.0) < 0.05 ? -1.0 : 1.0,
-               torque = sign * mean_torque * (high - low) / *between(1.2, 4.0);
+  const double sign = *between(0.0, 1.0) < 0.05 ? -1.0 : 1.0;
+  // Equal work over the range: the motor then turns by 1.2 to 4 rad.
+  const double torque = sign * mean_torque * (high - low) / *between(1.2, 4.0);
   if (*rc::gen::element(true, false)) {
     mechanism.pulley.motor_torque = torque;
     return mechanism;
@@ -133,9 +135,9 @@ inline Mechanism random_torque_mechanism() {
   return mechanism;
 }
 
-/// Checks `property(mechanism)` on reproducible random mechanisms: `usual_cases` of them, or as many as the variable
-/// FUSEE_LAW_CASES says. A property asserts with RC_ASSERT and returns whether it applied, such as to a feasible mechanism. It
-/// must apply to more than an eighth of the mechanisms and not to all.
+/// Checks `property(mechanism)` on reproducible random mechanisms: `usual_cases` of them, or the number in the environment
+/// variable FUSEE_LAW_CASES. A property asserts with RC_ASSERT and returns whether it applied, such as to a feasible
+/// mechanism. It must apply to more than an eighth of the mechanisms and not to all.
 template <typename Property>
 void expect_law(int usual_cases, Property property, Mechanism (*draw)() = random_mechanism) {
   const char* wanted_cases = std::getenv("FUSEE_LAW_CASES");

@@ -49,6 +49,7 @@ void expect_string_agrees(const Mechanism& mechanism, const transmission::Transm
         -(transmission::upper_span(place, theta + step).length - transmission::upper_span(place, theta - step).length) /
         (2 * step);
     RC_ASSERT(std::abs(arm - formula) < 1e-4 * R);
+    // The arm itself changes over the difference's step, so that this limit is wider.
     RC_ASSERT(std::abs(arm - tendon.m) < 0.02 * R);
     string.length(theta);  // back to this angle: the string counts turns by following the joint
     length_before = length;
@@ -69,7 +70,8 @@ TEST(WideLaws, LengthsAgreeWithBruteForceString) {
       testing::random_wide_mechanism);
 }
 
-/// The load is applied at home. Then the motor turns to the upper end, to the lower end and home, twice.
+/// The load is applied at home in 200 steps. Then the motor turns to the upper end, to the lower end and home, twice, in
+/// `steps` steps for each of these strokes.
 std::vector<joint::JointStep> round_trip(const transmission::Transmission& law, double tip_force, int steps) {
   std::vector<joint::JointStep> steps_taken;
   for (int i = 0; i <= 200; ++i) steps_taken.push_back({0.0, tip_force * i / 200, 0.0});
@@ -91,7 +93,7 @@ bool loses_no_energy(Mechanism mechanism) {
   const double R = mechanism.joint.R;
   mechanism.load = {};
   mechanism.spring = {};
-  // The statics does not cover tendons off their pins and hollow pulleys.
+  // The elastic model does not cover tendons off their pins, nor concave pulleys.
   if (!profile::synthesise(mechanism, {.advice = false}).made()) return false;
   const transmission::Transmission law(mechanism);
   mechanism.tendon.pretension = *between(5.0, 40.0);

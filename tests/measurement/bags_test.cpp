@@ -301,7 +301,7 @@ TEST(Joining, InterpolatesSlowerAngleOntoFaster) {
     const std::size_t expected = step == 4 ? 497 : step == 25 ? 197 : 190;
     EXPECT_EQ(rows.samples.size(), expected) << step;
     for (const Sample& sample : rows.samples) {
-      // Time counts from the first row of the faster topic.
+      // Both angles are linear in time, so θ is linear in α.
       EXPECT_NEAR(sample.theta, 0.5 - 0.2 * sample.alpha, 1e-12) << step;
     }
     EXPECT_THAT(rows.notes, Contains(HasSubstr("interpolated in time"))) << step;
@@ -374,7 +374,7 @@ TEST(Joining, HoldsLoadsThatAreSetByHand) {
 
 // ---- clocks and columns ---------------------------------------------------------------------------------------------
 
-/// Stamps are 5 ms before the time of recording; `stamp` 0: absent.
+/// A message every 20 ms, recorded up to 2 ms late. `stamp`: of the first message, ns; 0: no message has a stamp.
 Mcap one_topic(std::int64_t stamp, const std::vector<std::string>& names = {"motor", "joint"}) {
   Mcap mcap;
   const int topic = mcap.topic("/joint_states");

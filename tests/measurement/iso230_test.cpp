@@ -55,7 +55,7 @@ TEST(Iso230, RepeatabilityIsBoundedByFourDeviations) {
 }
 
 // Neither a constant offset nor a reversed sign changes a figure. A factor of two doubles all of them.
-TEST(Iso230, FiguresIgnoreOffsetAndScale) {
+TEST(Iso230, FiguresIgnoreOffsetAndFollowScale) {
   const auto of = [](double factor, double offset) {
     std::vector<std::array<std::vector<double>, 2>> all = {{{{4, 6, 8}, {-1, 0, 1}}}, {{{-9, -6, -3}, {-8, -8, -8}}}};
     for (auto& position : all) {

@@ -31,8 +31,8 @@ TEST(Catalogue, HornsAreValid) {
 }
 
 // A misspelt key of an optional number would silently be 0.
-TEST(Catalogue, KeysOfHornsAndShaftsAreKnown) {
-  const auto lines = [](const char* file) {
+TEST(Catalogue, KeysOfHornsShaftsAndMotorsAreKnown) {
+  const auto keys_in = [](const char* file) {
     std::istringstream text(read_file(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/catalogue" / file, 1 << 20));
     std::vector<std::string> keys;
     for (std::string line; std::getline(text, line);) {
@@ -42,15 +42,15 @@ TEST(Catalogue, KeysOfHornsAndShaftsAreKnown) {
     return keys;
   };
   const std::vector<std::string> words{"name", "description", "source"};
-  for (const std::string& key : lines("horns.toml"))
+  for (const std::string& key : keys_in("horns.toml"))
     EXPECT_TRUE(find_field("horn." + key) != nullptr || testing::Value(words, Contains(key))) << key;
   const std::vector<std::string> of_models{"fits", "travel_deg", "stall_torque_Nmm", "speed_deg_per_s", "holds"};
-  const std::vector<std::string> motors = lines("motors.toml");
+  const std::vector<std::string> motors = keys_in("motors.toml");
   // The models follow the plate patterns, whose last key is head_mm.
   const auto first_of_models = std::find(motors.rbegin(), motors.rend(), "head_mm").base();
   for (auto key = first_of_models; key != motors.end(); ++key)
     EXPECT_TRUE(testing::Value(words, Contains(*key)) || testing::Value(of_models, Contains(*key))) << *key;
-  for (const std::string& key : lines("shafts.toml"))
+  for (const std::string& key : keys_in("shafts.toml"))
     EXPECT_TRUE(key == "diameter_mm" || key == "flat_mm" || testing::Value(words, Contains(key))) << key;
 }
 

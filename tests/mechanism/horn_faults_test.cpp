@@ -89,6 +89,7 @@ TEST(OwnHorn, RejectsIncompleteShaft) {
   EXPECT_THAT(of_horn(k_spline + "centre_hole_mm = 3\n"), HasSubstr("add spline_length_mm"));
   EXPECT_THAT(of_horn("spline_teeth = 5\nspline_diameter_mm = 5.92\nspline_depth_mm = 0.3\n"),
               HasSubstr("is too small"));
+  // π · 5.92 mm / 25 = 0.744 mm
   EXPECT_THAT(of_horn("spline_teeth = 25\nspline_diameter_mm = 5.92\nspline_depth_mm = 0.8\n"),
               HasSubstr("20:19 horn.spline_depth_mm = 0.8 mm exceeds the width of the teeth, 0.744 mm"));
 }

@@ -117,8 +117,8 @@ TEST(Lengths, ReadListsInTheFilesUnit) {
 TEST(Lengths, KeepMeaningOfTies) {
   const DeclaredMechanism m = parse_mechanism(k_inch_file, "f.toml");
   const auto right = [&](const char* text) { return parse_relation(text, LengthUnit::inch).relation.right.value(m); };
-  EXPECT_DOUBLE_EQ(right("guides.EB_mm = 2 * joint.range_deg[1]"), 60 * 25.4);
-  EXPECT_DOUBLE_EQ(right("joint.range_deg[1] = 10 * joint.length_mm + 1"), 36);
+  EXPECT_DOUBLE_EQ(right("guides.EB_mm = 2 * joint.range_deg[1]"), 60 * 25.4);   // range 30 deg: 60 in
+  EXPECT_DOUBLE_EQ(right("joint.range_deg[1] = 10 * joint.length_mm + 1"), 36);  // length 3.5 in: 36 deg
   EXPECT_TRUE(depends_on_units("guides.EB_mm <= 50"));
   EXPECT_FALSE(depends_on_units("guides.EB_mm <= 0.5 * joint.length_mm"));
 }

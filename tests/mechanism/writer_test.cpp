@@ -43,7 +43,7 @@ void set_random(const Field& field, DeclaredMechanism& mechanism) {
       break;
     }
     case FieldKind::point:
-      if (*rc::gen::element(true, false)) break;  // usually omitted
+      if (*rc::gen::element(true, false)) break;  // omitted in half of the files
       field.set(mechanism, 0, random_number(field));
       field.set(mechanism, 1, random_number(field));
       break;

@@ -100,7 +100,7 @@ TEST_P(ModelOfProfile, EqualityErrorsAreTrue) {
 /// Length of a taut string from C over a pin to the anchor: the outer side of the convex hull of C, the anchor and a
 /// polygon about the pin.
 double taut_length(const model::WrappedTendon& tendon, const Vec2& C) {
-  constexpr int links = 400;
+  constexpr int sides = 400;  // of the polygon
   const Vec2 outward = (tendon.outer - tendon.pin).normalized();
   // The polygon's corners lie on rays from the pin between the directions of C and of the anchor, over the outer side.
   // Its sides touch the circle.
@@ -109,9 +109,9 @@ double taut_length(const model::WrappedTendon& tendon, const Vec2& C) {
   const double outer = std::atan2(outward.y(), outward.x());
   const auto turned = [&](double angle) { return std::remainder(angle - outer, k_two_pi); };
   std::vector<Vec2> hull{C, tendon.anchor};
-  for (int i = 0; i <= links; ++i) {
-    const double angle = outer + std::lerp(turned(from), turned(to), double(i) / links);
-    hull.push_back(tendon.pin + tendon.rho / std::cos(0.5 * (turned(to) - turned(from)) / links) *
+  for (int i = 0; i <= sides; ++i) {
+    const double angle = outer + std::lerp(turned(from), turned(to), double(i) / sides);
+    hull.push_back(tendon.pin + tendon.rho / std::cos(0.5 * (turned(to) - turned(from)) / sides) *
                                     Vec2(std::cos(angle), std::sin(angle)));
   }
   std::sort(hull.begin(), hull.end(), [](const Vec2& a, const Vec2& b) { return a.y() < b.y(); });
@@ -339,9 +339,10 @@ double value_of(const std::vector<Check>& checks, const std::string& name, bool 
   return 0;
 }
 
+/// A change of a written file, and the check that must detect it.
 struct Damage {
   std::string file;
-  std::string from, to;
+  std::string from, to;  ///< a text that the file has for profiles/forearm.toml, and its replacement
   std::string check;
 };
 

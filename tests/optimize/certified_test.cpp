@@ -292,7 +292,10 @@ TEST(Bound, IsOfSecondOrder) {
   for (const double half : {2.0, 1.0, 0.5}) {
     Box box;
     const Design centre{104.0, 45.1729, -36.0};
-    for (std::size_t i = 0; i < 3; ++i) box.lower[i] = centre[i] - half, box.upper[i] = centre[i] + half;
+    for (std::size_t i = 0; i < 3; ++i) {
+      box.lower[i] = centre[i] - half;
+      box.upper[i] = centre[i] + half;
+    }
     box.bound = -1e300;
     double least = 1e300;
     for (int i = 0; i <= 200; ++i) {
@@ -466,7 +469,10 @@ TEST(Certified, ProvesSixLengthsQuickly) {
       design[k] = std::clamp(design[k] + step, variable.lower, variable.upper);
     }
     const Evaluation evaluation = evaluate_design(problem, Objective::max_tension, design);
-    if (evaluation.possible && evaluation.value < least) least = evaluation.value, best = design;
+    if (evaluation.possible && evaluation.value < least) {
+      least = evaluation.value;
+      best = design;
+    }
   }
   EXPECT_GE(least, result.lower_bound);
 }

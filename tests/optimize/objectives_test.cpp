@@ -129,7 +129,8 @@ TEST(Objectives, TorqueLawKeepsItsLoad) {
   arm.spring = {400.0, 700.0, radians(-40.0)};
   const Evaluation evaluation = evaluate(Objective::motor_torque, arm);
   ASSERT_TRUE(evaluation.possible) << evaluation.reason;
-  // Largest where the load is smallest, at the lower end: M/τ of a newton at the length R.
+  // Largest where the load is smallest, at the lower end: M/τ of a newton at the length R. There τ is the load of 500
+  // and the spring with 700 + 400 (θ + 40°), N·mm.
   EXPECT_NEAR(evaluation.value, 900.0 / (1200.0 + 400.0 * radians(10.0)) * arm.joint.R, 1e-9);
   arm.pulley.motor_torque = -900.0;
   EXPECT_NE(evaluate(Objective::motor_torque, arm).reason.find("does not hold the load"), std::string::npos);

@@ -30,13 +30,19 @@ TEST(LinesBelow, ProveOnlyValidBounds) {
   int empty = 0, bounded = 0;
   for (int trial = 0; trial < 400; ++trial) {
     Box box;
-    for (std::size_t i = 0; i < 3; ++i) box.lower[i] = -random.fraction(), box.upper[i] = 1 + random.fraction();
+    for (std::size_t i = 0; i < 3; ++i) {
+      box.lower[i] = -random.fraction();
+      box.upper[i] = 1 + random.fraction();
+    }
     std::vector<LineBelow> lines;
     for (int r = 0; r < 6; ++r) {
       LineBelow line;
       line.of_objective = r < 3;
       line.constant = 2 * random.fraction() - (r < 3 ? 0.0 : 0.6);
-      for (std::size_t i = 0; i < 3; ++i) line.slope[i] = 4 * random.fraction() - 2, line.corner[i] = box.lower[i];
+      for (std::size_t i = 0; i < 3; ++i) {
+        line.slope[i] = 4 * random.fraction() - 2;
+        line.corner[i] = box.lower[i];
+      }
       lines.push_back(line);
     }
     Box left = box;
@@ -45,11 +51,12 @@ TEST(LinesBelow, ProveOnlyValidBounds) {
     for (int k = 0; k < 3000; ++k) {
       std::array<double, 3> x{};
       for (std::size_t i = 0; i < 3; ++i) x[i] = box.lower[i] + random.fraction() * (box.upper[i] - box.lower[i]);
-      double objective = -1e300, worst = -1e300;
+      double objective = -1e300, worst = -1e300;  // worst: of the conditions, which must be at most 0
       for (const LineBelow& line : lines) {
         double value = line.constant;
         for (std::size_t i = 0; i < 3; ++i) value += line.slope[i] * (x[i] - line.corner[i]);
-        (line.of_objective ? objective : worst) = std::max(line.of_objective ? objective : worst, value);
+        double& maximum = line.of_objective ? objective : worst;
+        maximum = std::max(maximum, value);
       }
       if (worst <= 0) lowest = std::min(lowest, objective);
       if (worst <= 0) {

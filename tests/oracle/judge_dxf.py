@@ -26,7 +26,9 @@ NEAR = 2e-5  # mm: pulley.scad has five decimals
 
 
 def is_closed(entity):
-    return {"CIRCLE": lambda: True, "LWPOLYLINE": lambda: entity.closed, "POLYLINE": lambda: entity.is_closed}[entity.dxftype()]()
+    if entity.dxftype() == "CIRCLE":
+        return True
+    return entity.closed if entity.dxftype() == "LWPOLYLINE" else entity.is_closed
 
 
 def drawing_faults(document):
@@ -69,8 +71,12 @@ class Expected:
 
         self.shape = value("bore_shape")
         self.bore = value("bore")
-        # The highest straight edge above the axis: the flat, or the ground of the key.
-        self.top = {"d": lambda: value("bore_flat") - self.bore / 2, "keyway": lambda: self.bore / 2 + value("key_depth")}.get(self.shape, float)()
+        # The highest straight edge above the axis, mm: the flat, or the ground of the key.
+        self.top = 0.0
+        if self.shape == "d":
+            self.top = value("bore_flat") - self.bore / 2
+        elif self.shape == "keyway":
+            self.top = self.bore / 2 + value("key_depth")
         self.key_width = value("key_width") if self.shape == "keyway" else 0
         self.screws = [(Vec2(x, y), d) for x, y, d in value("horn_holes")]
         self.tie_offs = [Vec2(*map(float, pair)) for pair in re.findall(r"^\s*\[[12], \[([-0-9.]+), ([-0-9.]+)\]", text, re.M)]
@@ -135,6 +141,7 @@ def distance_to_curve(point, entity):
     nearest = math.inf
     for k, (start, bulge) in enumerate(corners):
         end = corners[(k + 1) % len(corners)][0]
+        # Far from the segment: a point on a flat arc is at most half a chord from the chord's middle.
         if point.distance((start + end) / 2) > 0.51 * start.distance(end) + 1e-3:
             continue
         if bulge == 0:
@@ -169,14 +176,14 @@ def plates_faults(document, expected, pockets):
     kerf = expected.kerf
     space = document.modelspace()
     holes = list(space.query('*[layer=="CUT_INNER"]'))
-    common = None
+    common = None  # dowel holes of the first plate, which every plate must have
     for outer in space.query('*[layer=="CUT_OUTER"]'):
         outline = [place for place, _ in vertices(outer)]
         inside = [e for e in holes if is_point_in_polygon_2d(circle_of(e)[0] if e.dxftype() == "CIRCLE" else vertices(e)[0][0], outline) > 0]
         if not inside:
             yield "has a plate without a bore"
             continue
-        bore = inside[0]
+        bore = inside[0]  # fusee draws it first
         if bore.dxftype() == "CIRCLE":
             axis = circle_of(bore)[0]
         else:

@@ -53,7 +53,7 @@ def facets_of(stl):
         return struct.unpack("<I", file.read(84)[80:])[0]
 
 
-def printed_of(folder):
+def files_to_print(folder):
     """The part files for the printer, from the manifest."""
     manifest = json.loads(pathlib.Path(folder, "manifest.json").read_text(encoding="utf-8"))
     return [pathlib.Path(folder, part["file"]) for part in manifest["print"]]
@@ -229,7 +229,7 @@ def main():
     if (arguments.mesh is None) != arguments.self_test:
         parser.error("either a mesh or --self-test")
     if arguments.like is not None and os.path.isdir(arguments.like):
-        arguments.like = printed_of(arguments.like)
+        arguments.like = files_to_print(arguments.like)
     try:
         faults = self_test(arguments.judge) if arguments.self_test else JUDGES[arguments.judge](arguments.mesh, arguments.like)
     except NotInstalled as program:

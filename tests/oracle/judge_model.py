@@ -60,6 +60,7 @@ def stated_error(text):
 
 
 def follow(library, path):
+    """The motion in MuJoCo. Each of its rows: time, s; commanded α, α and θ, rad; lengths of the tendons, m."""
     script = subprocess.run(["node", HERE / "follow_model.mjs", library, path], capture_output=True, text=True)
     if script.returncode != 0:
         raise SystemExit(f"{path.name}: MuJoCo does not take it: {script.stderr.strip()[-2000:]}")
@@ -67,7 +68,8 @@ def follow(library, path):
 
 
 def taut_length(a, b, cylinder):
-    """Length of the path from a over the outer side of a cylinder (centre, radius and side point) to b: two tangents and an arc."""
+    """Length of the path from a over the outer side of a cylinder to b: two tangents and an arc. `cylinder`: its centre, its radius and a
+    point beside it, on the side where the tendon passes."""
     x, y, rho, beside = cylinder
     side = math.copysign(1, (b[0] - a[0]) * (beside[1] - y) - (b[1] - a[1]) * (beside[0] - x))
 
@@ -78,7 +80,8 @@ def taut_length(a, b, cylinder):
 
     first_angle, first_length = tangent(*a, -side)
     last_angle, last_length = tangent(*b, side)
-    arc = (side * (first_angle - last_angle)) % (2 * math.pi)  # almost a whole turn: the cylinder is not touched
+    arc = (side * (first_angle - last_angle)) % (2 * math.pi)
+    # An arc of almost a whole turn is a slightly negative one: the path does not touch the cylinder.
     return first_length + last_length + rho * (arc if arc < 1.9 * math.pi else 0)
 
 
@@ -114,7 +117,7 @@ def path_faults(path, motion):
             return total
 
         worst = max(abs(row[4 + i] - length(row[3])) for row in motion["rows"])
-        if worst > 1e-8:
+        if worst > 1e-8:  # m
             yield f"{tendon.get('name')} is {worst * 1e3:.2g} mm from a string round what it is wrapped on"
 
 

@@ -116,6 +116,7 @@ AFTER = """
     found.side = look();  // a still picture has one side only
   }
   const effects = [...document.querySelectorAll(".effect-share input")];
+  const angle_of = lever => { const end = path(scene.querySelector(lever))[1]; return Math.atan2(end[0] - x, y - end[1]); };
   // Largest angle between the drawn true lever and the declared one, with each effect at 0, 1 and 2 times its size.
   found.deviations = effects.map(input => [0, 1, 2].map(share => {
     for (const other of effects) other.value = 0;
@@ -124,8 +125,7 @@ AFTER = """
     return Math.max(...[0.3, 0.5, 0.7].flatMap(at => [-1, 1].map(way => {
       const alpha = Number(slider.min) + at * (Number(slider.max) - Number(slider.min));
       move(alpha - way); move(alpha);
-      const c = path(scene.querySelector(".really"))[1];
-      return Math.abs(Math.atan2(c[0] - x, y - c[1]) - Math.atan2(...[0, 1].map(k => (path(scene.querySelector(".link"))[1][k] - [x, y][k]) * [1, -1][k])));
+      return Math.abs(angle_of(".really") - angle_of(".link"));
     })));
   }));
   found.requests = performance.getEntriesByType("resource").length;
@@ -272,7 +272,6 @@ class Helix:
         return None
 
     def faults(self, found, rows):
-        # Drawing coordinates have a resolution of a tenth of a pixel, which is some degrees of a turn.
         for place, row in zip(found["places"], rows):
             alpha = float(row["alpha_deg"])
             yield from faults_of_words(place, row)
@@ -288,7 +287,10 @@ class Helix:
                 beside = (self.pins[k][0] - x) * math.cos(normal) + (self.pins[k][1] - y) * math.sin(normal)
                 if abs(right - y) > 0.02 * self.pins[k][1]:
                     yield f"at alpha = {alpha} the take-off of tendon {k + 1} is drawn {right:.2f} mm to the right, not {y:.2f}"
-                if abs(abs(beside) - self.pin_radius) > self.pins[k][1] * 2.0 * math.pi * 0.1 / place["scale"] / self.lead(k):
+                # Drawn heights have a resolution of 0.1 px. In mm over the lead, that is a share of a turn, some degrees. The tangent
+                # moves by this angle times the pin's distance.
+                tolerance = self.pins[k][1] * 2.0 * math.pi * 0.1 / place["scale"] / self.lead(k)
+                if abs(abs(beside) - self.pin_radius) > tolerance:
                     yield f"at alpha = {alpha} tendon {k + 1} would leave to {beside:.2f} mm beside its pin's centre, not {self.pin_radius}"
                 (u0, z0), (u1, z1) = place["free"][k]
                 rise, slope = math.atan2(z1 - z0, u1 - u0), math.radians(float(row[f"slope{k + 1}_deg"]))

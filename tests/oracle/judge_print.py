@@ -126,7 +126,7 @@ def toml_of(name, values):
 def is_refused(run):
     """Infeasible (exit 4), or a failed check (exit 5) unrelated to printing."""
     prints_wrongly = re.search(r"check '\w*(overhang|unsupported_step|bridge|island)\w*' failed", run.stderr)
-    return run.returncode == 4 or run.returncode == 5 and not prints_wrongly
+    return run.returncode == 4 or (run.returncode == 5 and not prints_wrongly)
 
 
 def needing_supports_of_designs(wanted, seed, fusee):

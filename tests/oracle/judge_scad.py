@@ -117,6 +117,7 @@ def part_faults(folder, scratch):
         yield from changed_bore(scad, scratch, volume)
     depth = number(scad, "groove_depth")
     shallow, shallow_box = render(scad, scratch / "shallow.stl", groove_depth=0.8 * depth)
+    # The radius shrinks by 0.2 of the depth; at least 0.15 is required.
     if not shallow < volume or not shallow_box[3] < box[3] - 0.15 * depth:
         yield "a shallower groove does not make a smaller part"
 
@@ -146,6 +147,7 @@ def changed_bore(scad, scratch, volume):
     bore, clearance, scale = (number(scad, name) for name in ("bore", "hole_compensation", "print_scale"))
 
     def area(diameter):
+        # Holes of pulley.scad are polygons outside the circle, with two sides per millimetre of diameter and at least eight.
         sides = max(8, math.floor(2 * diameter + 0.5))
         return sides * (scale * diameter / 2) ** 2 * math.tan(math.pi / sides)
 

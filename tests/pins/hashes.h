@@ -1,5 +1,5 @@
 /// \file
-/// Hashes of outputs as sha256sum writes them: "<64 digits>  build/forearm/pulley.stl", one file of them a verb.
+/// Hashes of outputs as sha256sum writes them: "<64 digits>  build/forearm/pulley.stl", in one file for each command.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace fusee::pins {
 
-/// Path → hash.
+/// Path of an output, "build/forearm/pulley.stl" → SHA-256, 64 hexadecimal digits.
 using Hashes = std::map<std::string, std::string>;
 
 /// Name of the hash file: "build/forearm" → "build.sha256".

@@ -21,7 +21,7 @@ void leave(const std::vector<OutputFile>& outputs, const fs::path& folder) {
   }
 }
 
-/// Hash files are written only for complete verbs, since those of a few runs must not be accepted.
+/// Hash files are written only if all runs are wanted: a file with the hashes of a few runs must not replace the pins.
 int run(const fs::path& folder, const std::vector<std::string>& wanted) {
   std::map<std::string, Hashes> lists;
   for (const PinnedRun& one : runs()) {

@@ -11,7 +11,7 @@
 
 namespace fusee::pins {
 
-/// One run of a verb, such as "build/forearm"; the part before the slash also names the file of hashes.
+/// One run of a command, such as "build/forearm". The part before the slash also names the file of hashes.
 struct PinnedRun {
   std::string name;
   std::function<std::vector<OutputFile>()> outputs;
@@ -21,9 +21,10 @@ inline constexpr const char* k_step_runs = "step/";
 /// A run's name as the name of a test.
 inline void PrintTo(const PinnedRun& run, std::ostream* stream) { *stream << run.name; }
 
-/// build/NAME and build_r12/NAME for each of profiles/*.toml, step/NAME for some, calibrate/NAME for each folder of
-/// tests/data/rig and for the forearm's measured runs, build_corrected/NAME for the corrected.toml of some of these,
-/// reproduce/paper, optimize/paper_optimum.
+/// build/NAME, build_r12/NAME, plan/NAME, kit/NAME and model/NAME for each of profiles/*.toml; step/NAME and analyze/NAME
+/// for some of them; calibrate/NAME for each folder of tests/data/rig and for the forearm's measured runs;
+/// build_corrected/NAME for the corrected.toml of some of these; model/identified, simulate/forearm, reproduce/paper,
+/// optimize/paper_optimum.
 std::vector<PinnedRun> runs();
 
 }  // namespace fusee::pins

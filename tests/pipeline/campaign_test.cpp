@@ -185,7 +185,9 @@ TEST_P(Campaign, DesignsAreBuiltOrRefused) {
         return file;
       };
       const BuildEnd end = build_end(read, design.tolerance);
-      ++(end == BuildEnd::made ? made : end == BuildEnd::refused ? refused : bad);
+      if (end == BuildEnd::made) ++made;
+      if (end == BuildEnd::refused) ++refused;
+      if (end == BuildEnd::bad_input) ++bad;
     } catch (const std::exception& bug) {
       ADD_FAILURE() << bug.what();
     }

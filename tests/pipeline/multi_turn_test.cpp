@@ -156,8 +156,8 @@ constexpr double k_motor_torque = 66.6667;                         // constant
 constexpr double k_spring_at_home = 400.0, k_spring_rate = 50.93;  // rate per rad
 
 // A string runs from the barrel over a pin onto the curves in the file. The wound length gives the barrel's angle, and
-// that the spring's torque. By the clockmaker's rule the chain's pull times the fusee's radius is constant. (For level
-// strings; the slope adds 0.02 %.)
+// the angle gives the spring's torque. By the clockmaker's rule the chain's pull times the fusee's radius is constant.
+// This holds for level strings; the slope adds 0.02 %.
 TEST(ClockFusee, PullTimesRadiusIsConstant) {
   const double to_pin = std::hypot(k_ED, k_EF);
   const pipeline::BuildResult built = dry_build(read_profile("fusee_proper"));

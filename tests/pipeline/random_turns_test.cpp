@@ -134,7 +134,9 @@ TEST_P(RandomTurns, AreBuiltOrRefusedForDesign) {
     SCOPED_TRACE(fmt::format("joint {} of seed {}: {}", i, seed, joint.words()));
     const Outcome outcome = outcome_of(joint, {});
     worst = std::max(worst, outcome.theta_error);
-    ++(outcome.end == BuildEnd::made ? made : outcome.end == BuildEnd::refused ? refused : bad);
+    if (outcome.end == BuildEnd::made) ++made;
+    if (outcome.end == BuildEnd::refused) ++refused;
+    if (outcome.end == BuildEnd::bad_input) ++bad;
   }
   EXPECT_GT(made, 0);
   EXPECT_LT(degrees(worst), 0.05);

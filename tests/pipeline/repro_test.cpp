@@ -19,7 +19,7 @@ struct Repro {
   const char* name;
   const char* path;  ///< relative to the source folder
   std::vector<Setting> settings;
-  double tolerance = 0.01;
+  double tolerance = 0.01;  ///< chord error, mm
   pipeline::BuildStatus status = pipeline::BuildStatus::done;
 };
 

@@ -205,7 +205,9 @@ TEST_P(WideCampaign, JointsAreBuiltOrRefused) {
     SCOPED_TRACE(fmt::format("FUSEE_LAW_SEED={}, joint {}\n{}", seed, i, text));
     try {
       const BuildEnd end = build_wide_joint(text, i);
-      ++(end == BuildEnd::made ? made : end == BuildEnd::refused ? refused : bad);
+      if (end == BuildEnd::made) ++made;
+      if (end == BuildEnd::refused) ++refused;
+      if (end == BuildEnd::bad_input) ++bad;
     } catch (const std::exception& bug) {
       ADD_FAILURE() << bug.what();
     }

@@ -87,8 +87,14 @@ std::vector<Condition> fails_by(double gap) {
 TEST(Advice, LimitsEffort) {
   std::atomic<int> evaluations = 0;
   std::atomic<int> builds = 0;
-  const FeasibilityOracle hopeless{[&](const Mechanism&) { return ++evaluations, fails_by(1.0); },
-                                   [&](const Mechanism&) { return ++builds, true; }};
+  const FeasibilityOracle hopeless{[&](const Mechanism&) {
+                                     ++evaluations;
+                                     return fails_by(1.0);
+                                   },
+                                   [&](const Mechanism&) {
+                                     ++builds;
+                                     return true;
+                                   }};
   EXPECT_TRUE(find_advice(testing::forearm(), hopeless).empty());
   EXPECT_LT(evaluations, 4000);  // the bounds of all numbers, before k_max_sweep_evaluations
   EXPECT_EQ(builds, 0);
@@ -98,7 +104,10 @@ TEST(Advice, LimitsEffort) {
   EXPECT_FALSE(find_advice(testing::forearm(), expensive).is_exhausted);
   EXPECT_LT(evaluations, 420);  // k_max_evaluations, and the unchanged mechanism
   const FeasibilityOracle unmakeable{[](const Mechanism& m) { return fails_by(m.pulley.r1 - 12 + m.pulley.EF - 80); },
-                                     [&](const Mechanism&) { return ++builds, false; }};
+                                     [&](const Mechanism&) {
+                                       ++builds;
+                                       return false;
+                                     }};
   EXPECT_TRUE(find_advice(testing::forearm(), unmakeable).empty());
   EXPECT_GT(builds, 0);
   EXPECT_LE(builds, 4);  // k_max_builds
@@ -132,10 +141,13 @@ TEST(Advice, TriesFurtherStepAfterFailedBuild) {
 TEST(Advice, SkipsHopelessChangesWhenExpensive) {
   const auto evaluations_of = [](bool is_expensive, double sufficient_r1, std::string& text) {
     std::atomic<int> evaluations = 0;
-    const FeasibilityOracle judge{
-        .obstacles = [&](const Mechanism& m) { return ++evaluations, fails_by(m.pulley.r1 - sufficient_r1); },
-        .made = [](const Mechanism&) { return true; },
-        .is_expensive = is_expensive};
+    const FeasibilityOracle judge{.obstacles =
+                                      [&](const Mechanism& m) {
+                                        ++evaluations;
+                                        return fails_by(m.pulley.r1 - sufficient_r1);
+                                      },
+                                  .made = [](const Mechanism&) { return true; },
+                                  .is_expensive = is_expensive};
     text = advice_sentence(find_advice(testing::forearm(), judge).alone);
     return evaluations.load();
   };
@@ -153,7 +165,11 @@ TEST(Advice, RespectsBuildsLeft) {
   std::atomic<int> made = 0;
   FeasibilityOracle judge{
       .obstacles = [](const Mechanism& m) { return fails_by(std::min(m.pulley.r1 - 12, 93 - m.pulley.EF)); },
-      .made = [&](const Mechanism&) { return ++made, true; }};
+      .made =
+          [&](const Mechanism&) {
+            ++made;
+            return true;
+          }};
   EXPECT_EQ(find_advice(testing::forearm(), judge).alone.size(), 2U);
   EXPECT_EQ(find_advice(testing::forearm(), judge, {}, 1).alone.size(), 1U);
   EXPECT_TRUE(find_advice(testing::forearm(), judge, {}, 2).empty());

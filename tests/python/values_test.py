@@ -251,15 +251,15 @@ class Anywhere(unittest.TestCase):
         self.arms = [arm, arm.with_({"pulley.r1_mm": 15}), arm.with_({"guides.EB_mm": 55}), arm.with_({"pulley.r1_mm": 25})]
         self.alone = [written(arm) for arm in self.arms]
 
-    def test_two_threads_at_once(self):
+    def test_threads_build_same_files(self):
         with ThreadPoolExecutor(3) as pool:
             self.assertTrue(list(pool.map(written, self.arms)) == self.alone)
 
-    def test_two_processes_at_once(self):
+    def test_processes_build_same_files(self):
         with ProcessPoolExecutor(2) as pool:
             self.assertTrue(list(pool.map(written, self.arms)) == self.alone)
 
-    def test_different_verbs_in_parallel(self):
+    def test_different_verbs_in_parallel_give_same_values(self):
         verbs = [fusee.synthesise, lambda arm: fusee.analyze(arm, samples=50), lambda arm: fusee.plan(arm, minutes=2), fusee.build] * 2
         alone = [verb(self.arms[0]) for verb in verbs]
         with ThreadPoolExecutor(4) as pool:

@@ -64,7 +64,7 @@ TEST(Body, RoundPulleyMatchesFrustumVolumes) {
   const BodyLayout layout = layout_of(mechanism, shape, Parts::one, 8);
   const RingStack stack = body_stack(shape.p1, shape.p2, 1.0, Flange::follow, layout);
   // plain_mechanism() has ceilings at 45° and a margin of 2.5°, flanges of 1.2 mm, an elephant foot of 0.4 mm.
-  const double slope = std::tan(radians(47.5)), t = 1.2, foot = 0.4, foot_rise = foot * slope;
+  const double slope = std::tan(radians(47.5)), flange = 1.2, foot = 0.4, foot_rise = foot * slope;
   const double groove_edge = 19.5 + layout.groove_depth;
   // The rim around both circles: the smooth maximum of their support functions plus a margin.
   const double middle = groove_edge + 0.5 * std::log(2.0) + 0.2;
@@ -72,11 +72,11 @@ TEST(Body, RoundPulleyMatchesFrustumVolumes) {
   EXPECT_NEAR(layout.middle_cone, (middle - groove_edge) * std::cos(k_pi / n) * slope, 1e-9);
   const double middle_rim = layout.z_p2 - layout.p2.below_width() - layout.z_middle;
   const double upper_rim = layout.z_top - layout.z_p2 - layout.p2.above_width();
-  EXPECT_GE(middle_rim, t - 1e-9);
-  EXPECT_GE(upper_rim, t - 1e-9);
+  EXPECT_GE(middle_rim, flange - 1e-9);
+  EXPECT_GE(upper_rim, flange - 1e-9);
   const double bore = signed_area(layout.bore.outline) * layout.z_hub;
   const double expected = frustum(n, groove_edge - foot, groove_edge, foot_rise) +
-                          frustum(n, groove_edge, groove_edge, t - foot_rise) + groove(n, 19.5, layout.p1) +
+                          frustum(n, groove_edge, groove_edge, flange - foot_rise) + groove(n, 19.5, layout.p1) +
                           frustum(n, groove_edge, middle, layout.middle_cone) + frustum(n, middle, middle, middle_rim) +
                           groove(n, 19.5, layout.p2) + frustum(n, groove_edge, groove_edge, upper_rim) +
                           signed_area(stack.hub->outline) * 8 - bore;
@@ -189,9 +189,10 @@ TEST(Groove, PlayAtGrooveEdgeMatchesTouchingTendon) {
       const auto section = groove_half(body, radians(0.5 * angle), d, depth);
       const GroovePoint &low = section[section.size() - 2], &groove_edge = section.back();
       const Vec2 along = Vec2(groove_edge.offset - low.offset, groove_edge.dz - low.dz).normalized();
+      // Distance between the wall's line and the tendon's circle, whose centre is moved aside from the middle.
       const auto gap = [&](double aside) {
-        const Vec2 seen = Vec2(depth + 0.5 * d, aside) - Vec2(groove_edge.offset, groove_edge.dz);
-        return along.x() * -seen.y() + along.y() * seen.x() - 0.5 * d;
+        const Vec2 from_edge = Vec2(depth + 0.5 * d, aside) - Vec2(groove_edge.offset, groove_edge.dz);
+        return along.x() * -from_edge.y() + along.y() * from_edge.x() - 0.5 * d;
       };
       double touches = 0;
       while (gap(touches) > 0) touches += 1e-5;
@@ -233,7 +234,7 @@ TEST(Bore, KeywayMatchesDin6885) {
   EXPECT_NEAR(corner.y(), 12.8, 1e-12);
 }
 
-TEST(Bore, HornRecessKeepsScrewHoles) {
+TEST(Bore, HornRecessWithScrewHolesIsSolid) {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.bore = Bore::horn;
   mechanism.body.horn = "disc-25T-M3";

@@ -155,7 +155,7 @@ TEST(Boolean, KeepsDistantFacetsBitwise) {
   std::size_t kept = 0;
   for (const Vec3& vertex : body.vertices)
     kept += std::find(cut->mesh.vertices.begin(), cut->mesh.vertices.end(), vertex) != cut->mesh.vertices.end() ? 1 : 0;
-  // All but those of the pole and of one ring around it.
+  // All but those of the pole and of one ring of 48 vertices around it.
   EXPECT_GE(kept, body.vertices.size() - 60);
 }
 

@@ -253,6 +253,7 @@ TEST(CheckPrint, MeasuresTunnelInAnyDirection) {
   }
 }
 
+// All of the slit's ceiling is within a step (0.3 mm) of an edge.
 TEST(CheckPrint, SlitRequiresNoBridge) { EXPECT_EQ(value(check_print(tunnel(0.5)), "bridge"), 0); }
 
 // A block on the bed with a round pocket from below, whose ceiling is at the height z. `hole`: diameter of a hole from
@@ -577,15 +578,22 @@ TEST(CheckPrint, AgreesWithLayersOnRandomStacks) {
     blocks.planes[2] = {0, 0.6, 1.2, 1.8};
     std::array<std::array<std::array<bool, n>, n>, 3> filled{};
     std::array<std::array<int, 4>, 3> boxes{};
-    for (auto& [x, y, to_x, to_y] : boxes) x = pick(0, 5), y = pick(0, 5), to_x = pick(x + 1, n), to_y = pick(y + 1, n);
+    for (auto& [x, y, to_x, to_y] : boxes) {
+      x = pick(0, 5);
+      y = pick(0, 5);
+      to_x = pick(x + 1, n);
+      to_y = pick(y + 1, n);
+    }
     for (auto& slab : filled) {
       for (auto& [x, y, to_x, to_y] : boxes) {
         for (int i = x; i < to_x; ++i) {
           for (int j = y; j < to_y; ++j) slab[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = true;
         }
         // The next slab's box is similar to this one.
-        x = std::max(x - pick(-1, 1), 0), y = std::max(y - pick(-1, 1), 0);
-        to_x = std::min(to_x + pick(-1, 1), n), to_y = std::min(to_y + pick(-1, 1), n);
+        x = std::max(x - pick(-1, 1), 0);
+        y = std::max(y - pick(-1, 1), 0);
+        to_x = std::min(to_x + pick(-1, 1), n);
+        to_y = std::min(to_y + pick(-1, 1), n);
       }
     }
     blocks.solid = [&filled](int x, int y, int z) {

@@ -285,12 +285,13 @@ TEST(BodyAdvice, ClampScrewGetsThickerFlangeOrIsDropped) {
   };
   EXPECT_TRUE(has("body.flange_thickness_mm"));
   EXPECT_TRUE(has("body.clamp_screw"));
+  // The condition itself advises nothing that was not tried.
   for (const profile::Condition& condition : obstacles(mechanism))
     EXPECT_EQ(condition.message.find("smaller screw"), std::string::npos) << condition.message;
 }
 
-// A change of a word counts as a full build too. A large part permits few of them (240001/115 built seven parts of two
-// metres).
+// A change of a word counts as a full build too. A large part permits few of them (campaign, design 115 of seed 240001:
+// seven parts of two metres were built).
 TEST(BodyAdvice, WordsAndNumbersShareBuildBudget) {
   Mechanism mechanism = forearm();
   mechanism.body.clamp_screw = "M3";
@@ -298,7 +299,11 @@ TEST(BodyAdvice, WordsAndNumbersShareBuildBudget) {
   for (const int most : {0, 1, 2}) {
     int made = 0;
     const profile::FeasibilityOracle judge{.obstacles = obstacles,
-                                           .made = [&made](const Mechanism&) { return ++made, false; },
+                                           .made =
+                                               [&made](const Mechanism&) {
+                                                 ++made;
+                                                 return false;
+                                               },
                                            .builds_left = [&made, most] { return most - made; }};
     EXPECT_TRUE(body_advice(mechanism, judge).empty());
     EXPECT_EQ(made, most);

@@ -61,7 +61,10 @@ double tension_at(const TiedPulley& tied, transmission::Side side, double alpha,
     // The outermost line: its distance from the axis on the outer side.
     const double a = inclination(i) * outward;
     const double distance = outward * cross(Vec2(std::sin(a), std::cos(a)), p) * -1.0;
-    if (distance > best) best = distance, take_off = i;
+    if (distance > best) {
+      best = distance;
+      take_off = i;
+    }
   }
   const std::size_t step = side == transmission::Side::left ? 1 : n - 1;
   for (std::size_t i = take_off; (outline.points[i].position - exit).norm() > 0.6; i = (i + step) % n) {
@@ -129,7 +132,7 @@ TEST(Holding, WarnsAboveHalfStrengthWithAdvice) {
   mechanism.body.wrap = radians(6);
   TiedPulley tied(mechanism);
   const double worst_knot = std::max(tied.holding.knots[0].at_knot, tied.holding.knots[1].at_knot);
-  // A tenth more than half of the strength.
+  // The knot carries a tenth more than half of its strength, which is half of the tendon's.
   mechanism.tendon.strength = worst_knot / 0.55 / 0.5;
   tied = TiedPulley(mechanism);
   ASSERT_EQ(tied.holding.warnings.size(), 1u);
@@ -138,15 +141,16 @@ TEST(Holding, WarnsAboveHalfStrengthWithAdvice) {
   EXPECT_THAT(warning, HasSubstr("55 %"));
   EXPECT_THAT(warning, HasSubstr("tendon.strength_N"));
   // The advice must hold.
-  const std::size_t at = warning.find("body.wrap_deg = ");
+  const std::string wrap_words = "body.wrap_deg = ", strength_words = "a tendon with a strength of ";
+  const std::size_t at = warning.find(wrap_words);
   ASSERT_NE(at, std::string::npos) << warning;
   DeclaredMechanism advised = mechanism;
-  advised.body.wrap = radians(std::stod(warning.substr(at + 16)));
+  advised.body.wrap = radians(std::stod(warning.substr(at + wrap_words.size())));
   EXPECT_TRUE(TiedPulley(advised).holding.warnings.empty());
   advised = mechanism;
-  const std::size_t strength = warning.find("a tendon with a strength of ");
+  const std::size_t strength = warning.find(strength_words);
   ASSERT_NE(strength, std::string::npos) << warning;
-  advised.tendon.strength = std::stod(warning.substr(strength + 28));
+  advised.tendon.strength = std::stod(warning.substr(strength + strength_words.size()));
   EXPECT_TRUE(TiedPulley(advised).holding.warnings.empty());
 }
 

@@ -20,6 +20,9 @@ using testing::circle;
 using testing::plain_mechanism;
 using testing::pulley_of;
 
+// Inradius of flange 2 for hub_choices(), mm.
+constexpr double k_rim_radius = 18;
+
 DeclaredMechanism profile_named(const std::string& name) {
   return read_mechanism(FUSEE_SOURCE_DIR "/profiles/" + name + ".toml").mechanism;
 }
@@ -100,7 +103,7 @@ TEST(Hub, KeepsRequestedDiameter) {
 TEST(HubChoices, FallInSizeAndEndWithoutHub) {
   const Mechanism mechanism = plain_mechanism();
   const BodyLayout layout = resolve_layout(mechanism, pulley_of(circle(20), circle(18)));
-  const std::vector<HubChoice> choices = hub_choices(layout, mechanism, 18);
+  const std::vector<HubChoice> choices = hub_choices(layout, mechanism, k_rim_radius);
   ASSERT_GT(choices.size(), 4U);
   EXPECT_TRUE(std::is_sorted(choices.begin(), choices.end(),
                              [](const HubChoice& a, const HubChoice& b) { return a.radius > b.radius; }));
@@ -113,7 +116,7 @@ TEST(HubChoices, ScrewIsNoWiderThanShaft) {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.bore_diameter = 2.0;
   const BodyLayout layout = resolve_layout(mechanism, pulley_of(circle(20), circle(18)));
-  for (const HubChoice& choice : hub_choices(layout, mechanism, 18)) {
+  for (const HubChoice& choice : hub_choices(layout, mechanism, k_rim_radius)) {
     EXPECT_THAT(choice.set_screw.thread, ::testing::AnyOf("M2", ""));
   }
 }
@@ -122,10 +125,10 @@ TEST(HubChoices, KeepWhatTheFileRequests) {
   Mechanism mechanism = plain_mechanism();
   const BodyLayout layout = resolve_layout(mechanism, pulley_of(circle(20), circle(18)));
   mechanism.body.hub_diameter = 10;
-  for (const HubChoice& choice : hub_choices(layout, mechanism, 18)) EXPECT_EQ(choice.radius, 5);
+  for (const HubChoice& choice : hub_choices(layout, mechanism, k_rim_radius)) EXPECT_EQ(choice.radius, 5);
   mechanism.body.hub_height = 0;
-  ASSERT_EQ(hub_choices(layout, mechanism, 18).size(), 1U);
-  EXPECT_EQ(hub_choices(layout, mechanism, 18).front().radius, 0);
+  ASSERT_EQ(hub_choices(layout, mechanism, k_rim_radius).size(), 1U);
+  EXPECT_EQ(hub_choices(layout, mechanism, k_rim_radius).front().radius, 0);
 }
 
 }  // namespace

@@ -197,7 +197,7 @@ TEST(Bores, DefineTheAxis) {
   EXPECT_NEAR(result.placement.bore_off_axis, 0.2, 1e-4);
   const Vec2 bore = Vec2(40, 50) + turned(Vec2(0.2, 0), radians(30));
   EXPECT_LT((result.placement.axis - bore).norm(), 1e-4);
-  // About the bore the floors are off by 0.2 mm.
+  // About the bore the floors are shifted by 0.2 mm: the rms distance of their tangents is 0.2 mm/√2.
   EXPECT_NEAR(
       solid::outline_deviation({result.placement.grooves[0].floor, result.placement.grooves[1].floor}, part.floors),
       0.2 / std::sqrt(2.0), 0.05);

@@ -177,8 +177,8 @@ TEST(PrintShapes, SupportsAllowFlatCeilingsAndSymmetricGrooves) {
 // ---- seats ----------------------------------------------------------------------------------------------------------
 
 struct Seat {
-  double below = 1e9;  ///< of the tendon's centre line from the wall, for the half below the groove's plane
-  double above = 1e9;
+  double below = 1e9;  ///< distance of the tendon's centre line from the wall below the groove's plane, mm
+  double above = 1e9;  ///< the same above the plane
 };
 
 double from_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
@@ -381,6 +381,7 @@ double cone_over(double r1, double r2, double overhang) {
   return (higher - r1) * std::tan(radians(overhang) + k_margin);
 }
 
+// One print permits a cone of up to 3 mm (plan.cpp).
 TEST(OneOrTwo, DependsOnConeUnderMiddleFlange) {
   int one = 0, two = 0;
   for (const double overhang : {30.0, 45.0, 60.0}) {

@@ -54,7 +54,9 @@ TEST(Pulley, BuildsEveryKindOfBody) {
       Mechanism mechanism = plain_mechanism();
       mechanism.body.bore = bore;
       mechanism.body.flange = flange;
-      mechanism.body.groove = bore == Bore::hex ? Groove::v : bore == Bore::d ? Groove::flat : Groove::u;
+      mechanism.body.groove = Groove::u;
+      if (bore == Bore::hex) mechanism.body.groove = Groove::v;
+      if (bore == Bore::d) mechanism.body.groove = Groove::flat;
       const Pulley pulley = make_pulley(mechanism, shape);
       ASSERT_TRUE(pulley.made()) << pulley.brief();
       EXPECT_EQ(failures(pulley, mechanism, shape), "") << static_cast<int>(bore);
@@ -105,6 +107,7 @@ TEST(Pulley, TieOffsStartPastWoundEnds) {
     if (!anchor.wound_end) continue;
     const profile::Outline& outline = anchor.side == transmission::Side::left ? made.shape.p1 : made.shape.p2;
     const Vec2 end = outline.points[outline.anchor_end()].position;
+    // An entry lies at least 1.6 tendon diameters, 1.6 mm, along the curve from the end.
     EXPECT_GE((anchor.exit - end).norm(), 1.5);
     // P1's tendon continues counter-clockwise, P2's clockwise.
     EXPECT_EQ(cross(end, anchor.exit) > 0, anchor.side == transmission::Side::left);

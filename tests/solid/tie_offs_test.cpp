@@ -26,7 +26,7 @@ const profile::Outline& outline_of(const profile::SynthesisResult& shape, transm
   return side == transmission::Side::left ? shape.p1 : shape.p2;
 }
 
-/// Angle along the winding from the end of the active arc.
+/// Angle along the winding from the end of the active arc, deg.
 double wrap_at(const profile::SynthesisResult& shape, const Anchor& anchor) {
   const profile::Outline& outline = outline_of(shape, anchor.side);
   return degrees(wound_arc(outline, outline.anchor_end(), index_at_place(outline, anchor.exit)).turn);
@@ -67,6 +67,7 @@ TEST(TieOffs, BeginAtRequestedWrap) {
     mechanism.body.wrap = radians(wrap);
     const Pulley pulley = make_pulley(mechanism, shape);
     ASSERT_TRUE(pulley.made()) << pulley.brief();
+    // The wrap is measured at the nearest of points 1.5° apart.
     for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
       EXPECT_GE(wrap_at(shape, find(pulley, side, true)), wrap - 1.6);
       EXPECT_LE(wrap_at(shape, find(pulley, side, true)), wrap + 10);

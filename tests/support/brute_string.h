@@ -27,19 +27,20 @@ inline std::vector<Vec2> circle(const Vec2& centre, double radius) {
 /// Positive if `point` lies to the right of the line from `from` to `to`.
 inline double right_of(const Vec2& from, const Vec2& to, const Vec2& point) { return cross(point - from, to - from); }
 
-/// The tangent point of a circle for a string to (or from) `far`: no other point is on its right.
+/// Index of the tangent point of a circle for a string that runs from it towards `far`, or else from `far` to it: no
+/// other point is on the string's right. The search begins at `start`.
 inline int tangent_point(const std::vector<Vec2>& points, const Vec2& far, bool towards, int start) {
-  // The rightmost point moves round once with the string, so the search continues from the last one.
-  const auto worse = [&](int i, int than) {
-    const Vec2 &a = points[static_cast<std::size_t>(i)], &b = points[static_cast<std::size_t>(than)];
+  // The tangent point moves round with the string, so a search from the last one is short.
+  const auto leaves_outside = [&](int i, int other) {
+    const Vec2 &a = points[static_cast<std::size_t>(i)], &b = points[static_cast<std::size_t>(other)];
     return towards ? right_of(a, far, b) > 0 : right_of(far, a, b) > 0;
   };
   int at = start;
   for (int walked = 0; walked < 2 * k_string_points; ++walked) {
     const int next = (at + 1) % k_string_points, before = (at + k_string_points - 1) % k_string_points;
-    if (worse(at, next)) {
+    if (leaves_outside(at, next)) {
       at = next;
-    } else if (worse(at, before)) {
+    } else if (leaves_outside(at, before)) {
       at = before;
     } else {
       return at;
@@ -53,7 +54,7 @@ class BruteString {
  public:
   explicit BruteString(const transmission::PinPlace& place)
       : place_(place), pin_(circle(place.pin(), place.rho)), drum_(circle({0, 0}, place.drum)) {
-    // The line with all of both circles on its left: its ends move until no point is on its right.
+    // The common tangent with both circles on its left: its ends move in turn until no point is on its right.
     int i = 0, j = 0;
     for (int round = 0; round < 50; ++round) {
       const int i_before = i, j_before = j;
@@ -68,21 +69,19 @@ class BruteString {
     const double meets = k_string_step * drum_meets_;
     turned_ = 0.5 * k_pi - (meets < 1.5 * k_pi ? meets : meets - k_two_pi);
     drum_leaves_ = tangent_point(drum_, end(), true, 0);
-    wound_ = drum_leaves_ - drum_meets_;
-    wound_ -= k_string_points * static_cast<int>(std::lround(wound_ / double(k_string_points)));
+    wound_ = within_half_turn(drum_leaves_ - drum_meets_);
   }
 
-  /// Length from the pin's point at direction (1, 0); `theta` of the image.
+  /// Length from the pin's point at direction (1, 0) to the end, mm; `theta` as tendon 2 sees it, rad.
   double length(double theta) {
     const double wanted = theta + place_.twist;
+    // In steps of at most 0.2 rad, so that turns are counted correctly.
     const int steps = 1 + static_cast<int>(std::ceil(std::abs(wanted - turned_) / 0.2));
     const double from = turned_;
     for (int i = 1; i <= steps; ++i) {
       turned_ = from + (wanted - from) * i / steps;
       const int leaves = tangent_point(drum_, end(), true, drum_leaves_);
-      int by = leaves - drum_leaves_;
-      by -= k_string_points * static_cast<int>(std::lround(by / double(k_string_points)));
-      wound_ += by;
+      wound_ += within_half_turn(leaves - drum_leaves_);
       drum_leaves_ = leaves;
     }
     if (wound_ > 0) {
@@ -95,14 +94,14 @@ class BruteString {
   bool is_wound() const { return wound_ > 0; }
 
  private:
+  /// A number of points modulo a turn: at most half a turn either way.
+  static int within_half_turn(int points) {
+    return points - k_string_points * static_cast<int>(std::lround(points / double(k_string_points)));
+  }
   Vec2 end() const { return place_.R * Vec2(std::sin(turned_), std::cos(turned_)); }
   double distance(int i, const Vec2& to) const { return (to - pin_[static_cast<std::size_t>(i)]).norm(); }
   /// Length along the pin from the tangent point of the line to the drum, less than half a turn either way.
-  double round_pin(int i) const {
-    const int by = i - pin_leaves_;
-    return place_.rho * k_string_step *
-           (by - k_string_points * static_cast<int>(std::lround(by / double(k_string_points))));
-  }
+  double round_pin(int i) const { return place_.rho * k_string_step * within_half_turn(i - pin_leaves_); }
 
   transmission::PinPlace place_;
   std::vector<Vec2> pin_, drum_;

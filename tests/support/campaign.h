@@ -14,6 +14,7 @@ namespace fusee::testing {
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : bits_(seed) {}
+  /// Uniform in [low, high): the upper 53 bits are a share of the interval.
   double between(double low, double high) { return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53; }
   double log_between(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
   bool happens(double probability) { return between(0, 1) < probability; }

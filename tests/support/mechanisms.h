@@ -1,5 +1,5 @@
 /// \file
-/// Mechanisms that many tests use.
+/// Mechanisms that many tests use. Units are those of fusee/mechanism.h: mm, rad, N, MPa.
 #pragma once
 
 #include "fusee/mechanism.h"
@@ -10,12 +10,12 @@ namespace fusee::testing {
 inline DeclaredMechanism reference() {
   DeclaredMechanism mechanism;
   mechanism.name = "reference";
-  mechanism.joint = {100.0, radians(-30.0), radians(30.0)};
-  mechanism.guides = {50.0, 50.0, -40.0, 0.0, 0.12};
+  mechanism.joint = {100.0, radians(-30.0), radians(30.0)};  // R, range of θ
+  mechanism.guides = {50.0, 50.0, -40.0, 0.0, 0.12};         // EB, ED, OE, radius, friction
   mechanism.pulley.EF = 60.0;
   mechanism.pulley.r1 = 20.0;
   mechanism.pulley.mu = 0.2;
-  mechanism.tendon = {1.0, 40000.0, 5.0, 8.0};
+  mechanism.tendon = {1.0, 40000.0, 5.0, 8.0};  // diameter, modulus, pretension, bend ratio
   return mechanism;
 }
 
@@ -50,8 +50,8 @@ inline DeclaredMechanism unsymmetric() {
   return mechanism;
 }
 
-/// A drum on the joint with both tendons tied at its upper left: they stay on it, tendon 2 over its top. A joint with
-/// one lever point has a smaller range.
+/// A drum on the joint with both tendons tied at its upper left, 45° from OC on the circle of the centre lines (radius
+/// 8.3 mm). They stay on the drum, tendon 2 over its top. A joint with one lever point has a smaller range.
 inline DeclaredMechanism finger() {
   DeclaredMechanism mechanism = reference();
   mechanism.name = "finger";
@@ -84,6 +84,7 @@ inline DeclaredMechanism ankle() {
 inline DeclaredMechanism sheathed_wrist() {
   DeclaredMechanism mechanism = linear_wrist();
   mechanism.name = "sheathed wrist";
+  // Length, bend, friction, stiffness, place of the exits across and above.
   mechanism.sheath = {450.0, radians(150.0), 0.08, 200.0, 30.0, 100.0};
   return mechanism;
 }
@@ -101,7 +102,7 @@ inline Mechanism mirrored(Mechanism mechanism) {
   return mechanism;
 }
 
-/// All lengths times `factor`.
+/// Lengths of joint, guides, pulley, tendon and sheath times `factor`; those of a drum, attachments and the body stay.
 inline Mechanism scaled(Mechanism mechanism, double factor) {
   for (double* length :
        {&mechanism.joint.R, &mechanism.guides.EB, &mechanism.guides.ED, &mechanism.guides.OE, &mechanism.guides.radius,

@@ -16,10 +16,11 @@ class RubbedChain {
   /// the whole cable.
   RubbedChain(double share, double unloaded) : share_(share / k_nodes), unloaded_(unloaded / k_nodes) {}
 
-  /// Moves the motor to `driven` under the pull `load`, and returns the joint angle. The nodes keep their friction state.
+  /// Moves the motor to `driven` under the pull `load`, and returns the joint angle in the unit of `driven`. The
+  /// nodes keep their places, which are the memory of the friction.
   double to(double driven, double load) {
-    constexpr double overrelaxed = 1.9,
-                     settled = 1e-10;  // factor of successive over-relaxation; largest step at its end
+    constexpr double overrelaxation = 1.9;  // factor of successive over-relaxation
+    constexpr double settled = 1e-10;       // largest step of a node at which the relaxation ends
     for (double moved = 1; moved > settled;) {
       moved = 0;
       for (int i = 0; i < k_nodes; ++i) {
@@ -28,9 +29,9 @@ class RubbedChain {
         const double pull = to_motor - to_joint;
         const double held = unloaded_ + std::expm1(share_) * std::max(0.0, std::min(to_motor, to_joint));
         if (std::abs(pull) <= held) continue;
-        const double by = overrelaxed * (pull - std::copysign(held, pull)) / (2 * k_stiffness);
-        node_[i] += by;
-        moved = std::max(moved, std::abs(by));
+        const double step = overrelaxation * (pull - std::copysign(held, pull)) / (2 * k_stiffness);
+        node_[i] += step;
+        moved = std::max(moved, std::abs(step));
       }
       const double next = node_.back() - load / k_stiffness;
       moved = std::max(moved, std::abs(next - joint_));
@@ -41,7 +42,7 @@ class RubbedChain {
 
  private:
   static constexpr int k_nodes = 64;
-  static constexpr double k_stiffness = k_nodes + 1;
+  static constexpr double k_stiffness = k_nodes + 1;  // of each of k_nodes + 1 springs
 
   double share_, unloaded_;
   std::vector<double> node_ = std::vector<double>(k_nodes, 0.0);

@@ -40,6 +40,7 @@ inline SupportShape circle(double radius, Vec2 centre = Vec2::Zero()) {
   return {radius, {{1, centre.x(), centre.y()}}};
 }
 
+/// The outline at `count` evenly spaced normals. The active arc runs counter-clockwise between two normals, rad.
 inline profile::Outline sampled(const SupportShape& shape, transmission::Side side, int count, double active_from,
                                 double active_to) {
   profile::Outline outline;
@@ -58,7 +59,7 @@ inline profile::Outline sampled(const SupportShape& shape, transmission::Side si
   return outline;
 }
 
-/// Both outlines at the same `count` normals; both active arcs are 200° long.
+/// Both outlines at the same `count` normals, for a stroke of ±90°. Both active arcs are 200° long.
 inline profile::SynthesisResult pulley_of(const SupportShape& p1, const SupportShape& p2, int count = 240) {
   profile::SynthesisResult result;
   result.status = profile::SynthesisStatus::made;

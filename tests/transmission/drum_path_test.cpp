@@ -124,8 +124,9 @@ TEST(DrumPath, PermanentDrumWrapIsPlainPulley) {
   ASSERT_FALSE(round.dead_centre());
   for (const double theta : {-0.34, -0.1, 0.0, 0.7, 1.57}) {
     const TransmissionPoint at = round.at_theta(theta);
-    EXPECT_EQ(at.t1.p, 9.0);
-    EXPECT_EQ(at.t2.p, at.t1.m == 8.3 ? 9.0 / 8.3 * 8.3 : 0.0);
+    EXPECT_EQ(at.t1.p, 9.0);  // r1
+    EXPECT_EQ(at.t1.m, 8.3);  // radius of the drum to the tendon's centre line
+    EXPECT_EQ(at.t2.p, 9.0 / 8.3 * 8.3);
     EXPECT_NEAR(at.alpha, theta * 8.3 / 9.0, 1e-15);
   }
   mechanism.pulley.law = Law::linear;
@@ -264,8 +265,7 @@ TEST(DrumPath, MirroredJointHasMirroredArms) {
   }
 }
 
-/// A drum whose centre moves round the joint's axis. References: the brute-force string of a drum about O, seen from
-/// the drum's own centre, and finite differences.
+/// A drum whose centre moves round the joint's axis.
 PinPlace random_place_off_axis(std::mt19937& random) {
   PinPlace place = random_place(random);
   place.drum_offset = place.drum * 0.04 * (1 + static_cast<double>(random() % 3));
@@ -274,6 +274,8 @@ PinPlace random_place_off_axis(std::mt19937& random) {
   return place;
 }
 
+// Reference: the path over a drum about O, seen from the drum's own centre. DrumPath.AgreesWithBruteForceString
+// compares that path with a string.
 TEST(DrumOffTheAxis, AgreesWithBruteForceString) {
   std::mt19937 random(11);
   int wound = 0, free = 0;

@@ -6,7 +6,7 @@
 namespace fusee::transmission {
 namespace {
 
-constexpr PinPlace k_place{47.0, -33.0, 70.0, 3.5, 95.0};
+constexpr PinPlace k_place{47.0, -33.0, 70.0, 3.5, 95.0};  // e, oe, ef, rho, R
 
 TEST(UpperSpan, OverPointPinAgreesWithPaper) {
   const PinPlace place = pin_place(testing::reference(), Side::right, 0.0);
@@ -51,7 +51,7 @@ TEST(UpperSpan, IsUndefinedInsidePin) {
 }
 
 TEST(UpperSpan, IsContinuousBelowPin) {
-  const PinPlace place{40.0, -120.0, 150.0, 2.0, 100.0};
+  const PinPlace place{40.0, -120.0, 150.0, 2.0, 100.0};  // the pin is 120 mm above O, C at most 100 mm
   double previous = upper_span(place, -0.5).normal;
   for (double theta = -0.49; theta < 0.3; theta += 0.01) {
     const double normal = upper_span(place, theta).normal;

@@ -22,7 +22,7 @@ TEST(PaperForces, FollowCapstanAndHooke) {
   const Transmission transmission(mechanism);
   const TransmissionPoint at = transmission.at_theta(0.2);
   const PaperForces rough = paper_forces(mechanism, at);
-  EXPECT_NEAR(rough.Tb, rough.T2 * std::exp(0.12 * at.t2.wrap), 1e-12);
+  EXPECT_NEAR(rough.Tb, rough.T2 * std::exp(0.12 * at.t2.wrap), 1e-12);  // 0.12: guides.mu of forearm()
   // Without friction one tension stretches the whole length.
   mechanism.guides.mu = 0.0;
   const PaperForces smooth = paper_forces(mechanism, at);
@@ -57,7 +57,7 @@ TEST(PaperForces, Tendon1CarriesLoadTowardsTheta) {
   const PaperForces along = paper_forces(mechanism, Transmission(mechanism).at_theta(-0.2));
   EXPECT_EQ(along.T2, 0.0);
   EXPECT_NEAR(along.T1, against.T2, 1e-12);
-  EXPECT_NEAR(along.Tb, against.Tb, 0.1);
+  EXPECT_NEAR(along.Tb, against.Tb, 0.1);  // P1 and P2 have different radii, so that the wraps differ a little
   EXPECT_LT(along.theta_error, 0.0);
   EXPECT_LT(along.motor_torque, 0.0);
   EXPECT_NEAR(along.gamma1, against.gamma2, 1e-12);

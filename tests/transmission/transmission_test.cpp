@@ -116,6 +116,7 @@ TEST(Transmission, StopsAtDeadCentre) {
   mechanism.joint.theta_max = radians(60);
   const auto dead = Transmission(mechanism, 0.0).dead_centre();
   ASSERT_TRUE(dead.has_value());
+  // The tendon's line passes through O where C, O and D are collinear.
   EXPECT_NEAR(std::tan(*dead), -mechanism.guides.ED / mechanism.guides.OE, 1e-9);
   EXPECT_FALSE(Transmission(reference()).dead_centre().has_value());
 }

@@ -4,7 +4,7 @@ namespace fusee {
 namespace {
 
 /// The coefficient as reported: declared plus identified, at least 0.
-double whole_friction(double added, const Mechanism& declared) {
+double total_friction(double added, const Mechanism& declared) {
   const Guides& guides = declared.guides;
   const double declared_mu = guides.kind == GuideKind::idler ? guides.bearing_friction : guides.mu;
   return declared_mu + added > 0 ? declared_mu + added : 0.0;
@@ -17,7 +17,8 @@ std::vector<EffectParameter> friction_of_cable() {
            .least = 0,
            .most = 2,
            .step = 5e-3,
-           // mean along the cable: half of e^μφ − 1, 0.08 for one bend of 90° at μ = 0.1, 0.35 for three at 0.15
+           // Mean along the cable, to first order half of μφ: 0.08 for one bend of 90° at μ = 0.1, 0.35 for three at
+           // 0.15.
            .prior = 0.15,
            .shown = shown::as_is,
            .key = key::plain("friction_share", "", 0, 100,
@@ -62,7 +63,7 @@ Effect capstan_friction(JointKind kind) {
        .most = 2,
        .step = 5e-3,
        .prior = 0.15,  // steel or HMPE over metal pins: 0.05 to 0.4, declared 0.1 to 0.2
-       .shown = whole_friction,
+       .shown = total_friction,
        .key = key::plain("friction", "", -2, 2, "added to guides.friction; for idlers, to guides.bearing_friction"),
        .merge_rule = MergeRule::add}};
   effect.starts = {{0.1}, {0.4}};

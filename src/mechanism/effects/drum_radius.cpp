@@ -6,7 +6,7 @@
 namespace fusee {
 namespace {
 
-double drum_total(double added, const Mechanism& declared) {
+double total_drum_radius(double added, const Mechanism& declared) {
   return declared.joint.drum_radius + added > 0 ? declared.joint.drum_radius + added : 0.0;
 }
 
@@ -35,7 +35,7 @@ Effect drum_radius(JointKind) {
        .most = 20,
        .step = 2e-3,
        .prior = 0.3,  // printed, or turned by hand; a tendon that sinks in or rides up
-       .shown = drum_total,
+       .shown = total_drum_radius,
        .key = key::plain("drum_radius_mm", "mm", -500, 500, "added to joint.drum_radius_mm"),
        .merge_rule = MergeRule::add,
        .by_hand = {"measure the drum's diameter with a caliper and enter half of it as prior.drum_radius_mm",

@@ -3,7 +3,7 @@
 namespace fusee {
 namespace {
 
-double whole_groove_friction(double added, const Mechanism& declared) {
+double total_groove_friction(double added, const Mechanism& declared) {
   return declared.pulley.mu + added > 0 ? declared.pulley.mu + added : 0.0;
 }
 
@@ -27,7 +27,7 @@ Effect groove_friction(JointKind) {
                         .most = 2,
                         .step = 0.02,
                         .prior = 0.15,  // around the usual 0.2: HMPE has 0.05 to 0.15, steel up to 0.3, a V groove more
-                        .shown = whole_groove_friction,
+                        .shown = total_groove_friction,
                         .key = key::plain("groove_friction", "", -2, 2, "added to pulley.friction"),
                         .merge_rule = MergeRule::add}};
   effect.starts = {{-0.1}, {0.2}};

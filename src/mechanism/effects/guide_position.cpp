@@ -13,8 +13,8 @@ std::vector<ManualReading> right_by_caliper(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.ED, declared.guides.ED);
 }
 
-/// Readings for the height of one pin, from `own` and from OE and EF. The pulley's axis is fixed, so that lower pins
-/// are closer to it.
+/// Readings for the height of one pin, from its own entry of [prior] (`own`) and from those of OE and EF. The pulley's
+/// axis is fixed, so that lower pins are closer to it.
 std::vector<ManualReading> down_by_caliper(const DeclaredMechanism& declared, const std::vector<double>& own) {
   std::vector<ManualReading> both = hand_reading(declared.prior.OE, declared.guides.OE);
   const std::vector<double>& EF = declared.prior.EF;
@@ -47,8 +47,8 @@ EffectParameter pin_coordinate(std::string name, double& (*number)(Imperfections
 
 }  // namespace
 
-// Four parameters for two pins. A rotation of both pins about the joint is equivalent to zero errors of joint and
-// pulleys. The priors keep such undetermined combinations small.
+// Four parameters for two pins. A rotation of both pins about the joint is equivalent to offsets of the zeros of the
+// joint's angle and of the pulley's. The priors keep such undetermined combinations small.
 Effect guide_position(JointKind) {
   Effect effect;
   effect.name = "guide_position";

@@ -4,7 +4,7 @@
 namespace fusee {
 namespace {
 
-double whole_radius(double added, const Mechanism& declared) {
+double total_radius(double added, const Mechanism& declared) {
   return declared.guides.radius + added > 0 ? declared.guides.radius + added : 0.0;
 }
 
@@ -30,7 +30,7 @@ Effect guide_radius(JointKind) {
        .most = 20,
        .step = 5e-3,
        .prior = 0.5,  // a bushing, a pin of the next size
-       .shown = whole_radius,
+       .shown = total_radius,
        .key = key::plain("guide_radius_mm", "mm", -500, 500, "added to guides.radius_mm"),
        .merge_rule = MergeRule::add,
        .by_hand = {"measure the guide pins' diameter with a caliper and enter half of it as prior.guide_radius_mm",

@@ -3,7 +3,7 @@
 namespace fusee {
 namespace {
 
-double idler_total(double added, const Mechanism& declared) {
+double total_bearing_friction(double added, const Mechanism& declared) {
   const double total = declared.guides.bearing_friction + added;
   return total > 0 ? total : 0.0;
 }
@@ -28,7 +28,7 @@ Effect idler_friction(JointKind) {
                         .most = 2,
                         .step = 2e-3,
                         .prior = 0.05,
-                        .shown = idler_total,
+                        .shown = total_bearing_friction,
                         .key = key::plain("bearing_friction", "", -2, 2, "added to guides.bearing_friction of idlers"),
                         .merge_rule = MergeRule::add}};
   effect.starts = {{0.05}, {0.3}};

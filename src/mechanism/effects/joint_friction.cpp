@@ -21,7 +21,7 @@ Effect joint_friction(JointKind) {
        .least = 0,
        .most = 1e5,
        .step = 0.5,
-       .prior = 30,  // 50 N on a plain bearing of 3 mm at 0.2; a seal, a cable over the joint
+       .prior = 30,  // 50 N on a plain bearing of 3 mm radius at 0.2; a seal, a cable over the joint
        .shown = shown::as_is,
        .key = key::plain("joint_friction_Nmm", "Nmm", 0, 1e+07, "dry friction of the joint's bearing")}};
   effect.starts = {{10}, {100}, {1000}};

@@ -4,7 +4,7 @@
 namespace fusee {
 namespace {
 
-double whole_length(double added, const Mechanism& declared) { return declared.joint.R + added; }
+double total_length(double added, const Mechanism& declared) { return declared.joint.R + added; }
 
 std::vector<ManualReading> length_by_caliper(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.length, declared.joint.R);
@@ -28,7 +28,7 @@ Effect joint_length(JointKind) {
        .most = 50,
        .step = 1e-2,
        .prior = 1,  // uncertainty of a tied and bent tendon
-       .shown = whole_length,
+       .shown = total_length,
        .key = key::plain("length_mm", "mm", -10000, 10000, "added to joint.length_mm"),
        .merge_rule = MergeRule::add,
        .by_hand = {"measure from the joint's axis to the tendons' attachment and enter it as prior.length_mm",

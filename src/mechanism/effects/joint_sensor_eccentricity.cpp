@@ -16,7 +16,7 @@ Effect joint_sensor_eccentricity(JointKind) {
                         .least = -0.3,
                         .most = 0.3,
                         .step = 2e-3,
-                        .prior = radians(1.0),  // 0.1 mm on a ring of 10 mm: 0.6 degrees
+                        .prior = radians(1.0),  // 0.1 mm on a ring of 10 mm radius: 0.6 degrees
                         .shown = shown::in_degrees,
                         .key = key::in_degrees("joint_eccentricity_sin_deg", -360, 360,
                                                "once a turn of the joint sensor: coefficient of sin theta")},
@@ -25,7 +25,7 @@ Effect joint_sensor_eccentricity(JointKind) {
                         .least = -0.5,
                         .most = 0.5,
                         .step = 5e-3,
-                        .prior = radians(1.0),  // 0.1 mm on a ring of 10 mm: 0.6 degrees
+                        .prior = radians(1.0),  // 0.1 mm on a ring of 10 mm radius: 0.6 degrees
                         .shown = shown::in_degrees,
                         .key = key::in_degrees("joint_eccentricity_cos_deg", -360, 360,
                                                "once a turn of the joint sensor: coefficient of cos theta - 1")}};

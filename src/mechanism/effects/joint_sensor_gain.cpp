@@ -6,7 +6,7 @@
 namespace fusee {
 namespace {
 
-// uncertainty of the gain from three readings of 0.1 degrees at both ends of 45 degrees
+// Uncertainty of the gain from three readings, each uncertain by 0.1 degrees, at both ends of a range of 45 degrees.
 constexpr double k_protractor = 0.002;
 
 std::vector<ManualReading> gain_by_protractor(const DeclaredMechanism& declared) {

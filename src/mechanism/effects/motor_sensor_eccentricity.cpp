@@ -16,7 +16,7 @@ Effect motor_sensor_eccentricity(JointKind) {
                         .least = -0.2,
                         .most = 0.2,
                         .step = 1e-3,
-                        .prior = radians(1.0),  // 0.1 mm on a ring of 10 mm: 0.6 degrees
+                        .prior = radians(1.0),  // 0.1 mm on a ring of 10 mm radius: 0.6 degrees
                         .shown = shown::in_degrees,
                         .key = key::in_degrees("motor_eccentricity_sin_deg", -360, 360,
                                                "once a turn of the motor sensor: coefficient of sin alpha")},
@@ -25,7 +25,7 @@ Effect motor_sensor_eccentricity(JointKind) {
                         .least = -0.2,
                         .most = 0.2,
                         .step = 1e-3,
-                        .prior = radians(1.0),  // 0.1 mm on a ring of 10 mm: 0.6 degrees
+                        .prior = radians(1.0),  // 0.1 mm on a ring of 10 mm radius: 0.6 degrees
                         .shown = shown::in_degrees,
                         .key = key::in_degrees("motor_eccentricity_cos_deg", -360, 360,
                                                "once a turn of the motor sensor: coefficient of cos alpha - 1")}};

@@ -4,7 +4,8 @@
 namespace fusee {
 namespace {
 
-constexpr double k_scale_by_caliper = 0.0015;  // uncertainty of a print's scale from three readings of 0.1 mm in 40 mm
+// Uncertainty of a print's scale from three readings of 40 mm, each uncertain by 0.1 mm.
+constexpr double k_scale_by_caliper = 0.0015;
 
 std::vector<ManualReading> by_diameters(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.pulley_scale, 1);

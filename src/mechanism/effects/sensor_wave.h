@@ -1,7 +1,7 @@
 /// \file
 /// Internal: common parts of the harmonics of both sensors, wave_sin · sin nφ + wave_cos · (cos nφ − 1) at the angle φ.
-/// A tilted magnet or unequal gains of two channels repeat twice a turn, an elliptic ring twice, motor poles near the
-/// magnet four times. n is searched, not fitted.
+/// The errors of a tilted magnet, of unequal gains of two channels and of an elliptic ring repeat twice a turn, those
+/// of motor poles near the magnet four times. n is searched, not fitted.
 #pragma once
 
 #include <vector>

@@ -3,7 +3,7 @@
 namespace fusee {
 namespace {
 
-double sheath_total(double added, const Mechanism& declared) {
+double total_mu_bend(double added, const Mechanism& declared) {
   const double total = declared.sheath.mu * declared.sheath.bend + added;
   return total > 0 ? total : 0.0;
 }
@@ -31,7 +31,7 @@ Effect sheath_friction(JointKind) {
        .most = 2,
        .step = 5e-3,
        .prior = 0.15,  // half a turn of bends with μ larger by 0.05; an additional quarter turn at 0.1
-       .shown = sheath_total,
+       .shown = total_mu_bend,
        .key = key::plain("sheath_mu_bend", "", -20, 20, "added to sheath.friction times the total bend in radians"),
        .merge_rule = MergeRule::add}};
   effect.starts = {{0.1}, {0.4}};

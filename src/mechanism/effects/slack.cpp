@@ -3,7 +3,7 @@
 namespace fusee {
 namespace {
 
-double whole_pretension(double added, const Mechanism& declared) {
+double total_pretension(double added, const Mechanism& declared) {
   return declared.tendon.pretension + added > 0 ? declared.tendon.pretension + added : 0.0;
 }
 
@@ -70,7 +70,7 @@ Effect slack(JointKind kind) {
        .most = 1000,
        .step = 0.1,
        .prior = 5,  // set by feel
-       .shown = whole_pretension,
+       .shown = total_pretension,
        .key = key::plain("pretension_N", "N", -100000, 100000,
                          "added to tendon.pretension_N; without effect on tendons with slack"),
        .merge_rule = MergeRule::add,

@@ -3,7 +3,7 @@
 namespace fusee {
 namespace {
 
-double real_section_stiffness(double stretch, const Mechanism& declared) {
+double identified_section_stiffness(double stretch, const Mechanism& declared) {
   return section_stiffness(declared.tendon) / (1.0 + stretch);
 }
 
@@ -49,7 +49,7 @@ Effect tendon_stretch(JointKind kind) {
        .most = 60,
        .step = 0.01,
        .prior = 1,  // catalogue moduli of braids are known to a factor of two
-       .shown = real_section_stiffness,
+       .shown = identified_section_stiffness,
        .key =
            key::plain("stretch", "", -0.999, 1e+06, "compliance of the tendon beyond the declared one, relative to it"),
        .merge_rule = MergeRule::compound,

@@ -228,7 +228,7 @@ class Stroke(Value):
     dtheta_dalpha: Numbers
     r1_mm: Numbers  #: moment arm about the pulley's axis
     r2_mm: Numbers
-    m1_mm: Numbers  #: moment arm about the joint's
+    m1_mm: Numbers  #: moment arm about the joint's axis
     m2_mm: Numbers
     wrap1_rad: Numbers  #: turning over the guide pin
     wrap2_rad: Numbers
@@ -304,8 +304,8 @@ class Knot(Value):
     alpha_rad: float
     wrap_left_rad: float  #: wrap between take-off and tie-off at that α
     tension_N: float  #: between pulley and pin
-    at_knot_N: float  #: what friction on the pulley leaves of it
-    share: Optional[float]  #: of its strength; None if the tendon's strength is unknown
+    at_knot_N: float  #: after friction on the pulley
+    share: Optional[float]  #: of at_knot_N in the knot's strength; None if the tendon's strength is unknown
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -342,7 +342,7 @@ class UnderLoad(Value):
     theta_error_rad: Extreme  #: from the target motion, in either direction
     slack1_rad: Tuple[Tuple[float, float], ...]  #: parts of α where tendon 1 is without tension
     slack2_rad: Tuple[Tuple[float, float], ...]
-    taut_pretension_N: Optional[float]  #: keeps a slack tendon taut
+    taut_pretension_N: Optional[float]  #: least pretension that keeps both tendons taut; None if none is slack, or if none suffices
     lost_at_rad: Optional[float]  #: α without equilibrium
     safety_factor: Optional[float]  #: against breaking; None if the tendon's strength is unknown
     motor: Optional[Motor]
@@ -500,7 +500,7 @@ class Optimum(Value):
     reason: str  #: if nothing was found: the most frequent cause
     numbers: Table[str, float]  #: of the best design: key → value
     value: Optional[float]  #: of the first objective
-    before: Optional[float]  #: that of the unchanged file
+    before: Optional[float]  #: first objective of the unchanged file
     proven: bool
     lower_bound: Optional[float]
     relative_gap: Optional[float]

@@ -120,7 +120,7 @@ TEST(CheckDrawing, RejectsFigureOfEight) {
   EXPECT_THAT(check.where, HasSubstr("(15, 15)"));
 }
 
-// It turns to one side at every corner, as a convex outline does, but twice round.
+// A pentagram turns to one side at every corner, as a convex outline does, but twice round.
 TEST(CheckDrawing, RejectsPentagram) {
   Drawing drawing = plate();
   drawing.paths[2].points.clear();
@@ -128,7 +128,7 @@ TEST(CheckDrawing, RejectsPentagram) {
   EXPECT_FALSE(check_named(check_drawing(drawing), "no_self_crossing").ok);
 }
 
-// Its box contains a contour that it meets in one case and not in the other.
+// The box of an L contains a square, which meets the L only in the second case.
 TEST(CheckDrawing, ComparesContoursWithOverlappingBoxes) {
   Drawing drawing = plate();
   drawing.paths[2].points = {{0, 0}, {30, 0}, {30, 5}, {5, 5}, {5, 30}, {0, 30}};

@@ -46,7 +46,8 @@ inline const Check& check_named(const std::vector<Check>& checks, const std::str
   return *found;
 }
 
-/// Input of drawings: pitch curves of known shape, on a shaft of 6 mm, cut from plates of 3 mm with a kerf of 0.2 mm.
+/// Input of drawings: pitch curves of known shape, on a shaft of 6 mm. They are cut with a kerf of 0.2 mm from plates of
+/// 3 mm, with dowel holes of 3 mm, on sheets of 300 mm by 200 mm.
 inline formats::Product product_of(const SupportShape& p1, const SupportShape& p2) {
   formats::Product product;
   Mechanism& mechanism = product.joint.mechanism;

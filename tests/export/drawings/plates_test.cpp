@@ -94,7 +94,8 @@ TEST(Plates, DowelsClearFeaturesAndFitOneWay) {
   const Product product = egg_with_anchor();
   const Plates plates = make_plates(product);
   ASSERT_EQ(plates.dowels.size(), 2u);
-  const double clear = 0.5 * plates.dowel_diameter + 1.0;
+  constexpr double k_least_wall = 1.0;  // mm, between cuts
+  const double clear = 0.5 * plates.dowel_diameter + k_least_wall;
   for (const PlateLayer& layer : plates.layers) {
     for (const Vec2& dowel : plates.dowels) {
       ASSERT_TRUE(contains(layer.outer[0], dowel)) << layer.name;
@@ -124,6 +125,7 @@ TEST(Plates, HornRecessRemovesCentreHole) {
   const Plates plates = make_plates(product);
   EXPECT_THAT(plates.notes, Contains(HasSubstr("the horn's recess goes through all plates; it would be 2.1 mm deep")));
   for (const PlateLayer& layer : plates.layers) {
+    // The recess, eight screw holes and the dowels.
     EXPECT_EQ(layer.holes.size(), 1 + 8 + plates.dowels.size()) << layer.name;
     EXPECT_NEAR(circumradius(layer.holes[0].points), 4.0, 1e-3) << "the boss";
     for (std::size_t i = 0; i < layer.holes.size(); ++i) {
@@ -277,9 +279,9 @@ TEST(PlatesDxf, PlatesDoNotOverlap) {
   const auto outlines = on_layer(drawing, "CUT_OUTER");
   for (std::size_t i = 0; i < outlines.size(); ++i) {
     for (std::size_t j = i + 1; j < outlines.size(); ++j) {
-      const auto rest = difference(outlines[i].points, {outlines[j].points});
-      ASSERT_EQ(rest.size(), 1u);
-      EXPECT_NEAR(signed_area(rest[0]), signed_area(outlines[i].points), 1e-6);
+      const auto remaining = difference(outlines[i].points, {outlines[j].points});
+      ASSERT_EQ(remaining.size(), 1u);
+      EXPECT_NEAR(signed_area(remaining[0]), signed_area(outlines[i].points), 1e-6);
     }
   }
 }
@@ -359,7 +361,7 @@ TEST(PlatesDxf, ReportsKerfWiderThanHoles) {
 // A random design with a bore of 1.5 mm and a kerf of 0.55 mm failed its own check.
 TEST(PlatesDxf, OmitsTooNarrowHole) {
   Product product = egg_with_anchor();
-  product.joint.mechanism.cut.kerf = 5.6;  // the bore is 6.2 mm wide
+  product.joint.mechanism.cut.kerf = 5.6;  // the bore is 6 mm wide: the cutter's path would be 0.4 mm wide
   EXPECT_THAT(make_plates(product).notes, Contains(HasSubstr("narrower than 1 mm: drill it")));
   EXPECT_THAT(failed(check_drawing(drawn(product))), IsEmpty());
 }

@@ -38,7 +38,7 @@ TEST_P(BothVersions, ReadsCurvesBackWithinMicrons) {
     const auto paths = on_layer(drawing, layer);
     ASSERT_EQ(paths.size(), 1u) << layer;
     EXPECT_TRUE(paths[0].closed);
-    // The arcs stay within half a micron of the outline, and the reader's chords within one of the arcs.
+    // The arcs stay within 0.0005 mm of the outline, and the reader's chords within 0.001 mm of the arcs.
     const solid::NearestSegment drawn_curve({paths[0].points});
     for (const Vec2& point : points) EXPECT_LE(drawn_curve.distance(point), 0.0016) << layer;
     EXPECT_NEAR(signed_area(paths[0].points) / signed_area(points), 1, 5e-3) << layer;

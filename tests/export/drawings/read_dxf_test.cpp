@@ -198,10 +198,11 @@ TEST(ReadDxf, BlocksArePlacedTurnedAndRepeated) {
 }
 
 TEST(ReadDxf, UnitsBecomeMillimetres) {
-  EXPECT_NEAR(only_path(line(0, 0, 1, 0), {}, 1).points[1].x(), 25.4, 1e-12);
-  EXPECT_NEAR(only_path(line(0, 0, 1, 0), {}, 5).points[1].x(), 10, 1e-12);
-  EXPECT_TRUE(read(dxf_of(line(0, 0, 1, 0), 4)).millimetres);
-  EXPECT_FALSE(read(dxf_of(line(0, 0, 1, 0), 0)).millimetres);
+  constexpr int k_no_unit = 0, k_inch = 1, k_millimetre = 4, k_centimetre = 5;  // values of $INSUNITS
+  EXPECT_NEAR(only_path(line(0, 0, 1, 0), {}, k_inch).points[1].x(), 25.4, 1e-12);
+  EXPECT_NEAR(only_path(line(0, 0, 1, 0), {}, k_centimetre).points[1].x(), 10, 1e-12);
+  EXPECT_TRUE(read(dxf_of(line(0, 0, 1, 0), k_millimetre)).millimetres);
+  EXPECT_FALSE(read(dxf_of(line(0, 0, 1, 0), k_no_unit)).millimetres);
 }
 
 TEST(ReadDxf, ListsIgnoredEntities) {
@@ -350,7 +351,7 @@ TEST(ReadDxf, RejectsOtherFormats) {
 
 TEST(ReadDxf, RejectsTruncatedFile) {
   const std::string whole = dxf_of(line(0, 0, 1, 0));
-  // After its entities only the last word is missing.
+  // A file that ends after its entities lacks only EOF, and is read.
   const std::size_t entities_end = whole.size() - tags({{0, "EOF"}}).size();
   for (std::size_t size = 0; size + 1 < entities_end; ++size)
     EXPECT_NE(message_of(whole.substr(0, size)), "no error") << size;

@@ -33,7 +33,8 @@ class Bytes {
   std::string text_;
 };
 
-/// A square with an irrelevant colour and normal, a list before the relevant one and an element after it.
+/// A square. Irrelevant are the colour of its vertices, the material of its face, the element before them, which has a
+/// list too, and the element after them.
 std::string binary_square(bool big_endian) {
   Bytes body(big_endian);
   body.put(std::int16_t{-5}).put(std::uint8_t{2}).put(1.5F).put(2.5F);  // element "camera"

@@ -209,7 +209,7 @@ TEST(Stl, RejectsWrongBinaryLength) {
 
 TEST(Stl, RejectsTruncations) {
   EXPECT_EQ(testing::meshes_among_truncations(stl_bytes(testing::tetrahedron(), "x"), "x.stl"), 0);
-  // Only where the last word is already "endsolid" is it whole: with it and with what follows on its line.
+  // Cut off at any place before the end of "endsolid", the text is no mesh. Only the line's end may be missing.
   EXPECT_EQ(testing::meshes_among_truncations("solid x\n" + std::string(k_ascii_facet) + "endsolid\n", "x.stl"), 1);
 }
 

@@ -98,7 +98,7 @@ pugi::xml_document parsed(const Figure& figure) {
   return document;
 }
 
-/// The values of a drawn curve, by data-plot: what the read-out of the page does.
+/// The values of a drawn curve, computed from data-plot as the page's read-out does (readout.js).
 std::vector<Vec2> read_back(const pugi::xml_document& document, const std::string& series) {
   std::istringstream frame_text(document.child("svg").attribute("data-plot").as_string());
   double frame[8];

@@ -111,8 +111,8 @@ TEST(TendonTrace, DetectsWrongPulley) {
 
 TEST(TendonTrace, AgreesWithTransmissionOnRoundPulley) {
   const Case c = made(testing::forearm());
-  // On a round P1 the take-off point is the foot of the perpendicular, so that the free and the wound part are
-  // distinguished.
+  // On a round P1 the take-off point is the foot of the perpendicular, so that the transmission's free length ends
+  // there. The traced length less that free length is the wound length, which decreases by r1 · α.
   const auto first =
       trace_tendon(c.mechanism, c.synthesis.p1, c.synthesis.stroke.front().alpha, c.synthesis.stroke.front().theta);
   ASSERT_TRUE(first.has_value());

@@ -67,6 +67,7 @@ class Skin : public ::testing::Test {
       const Mechanism& mechanism = product.joint.mechanism;
       HelixProduct& helix = product.helix.emplace();
       const helical_solid::HelicalSection section = helical_solid::helical_section(mechanism);
+      // Slopes 2 % above the least ones at which neighbouring turns clear each other.
       const auto p1 = oval(9.0, 0.6, 0.3, 0.4), p2 = growing(13.0, -0.8, 2.0);
       helix.synthesis.sides[0].spiral = spiral_of(p1, 0.4, 4.3, 1.02 * testing::slope_for(p1, 0.4, 4.3, section));
       helix.synthesis.sides[1].spiral = spiral_of(p2, 2.0, 3.6, 1.02 * testing::slope_for(p2, 2.0, 3.6, section));

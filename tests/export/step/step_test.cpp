@@ -127,7 +127,7 @@ TEST_F(HelicalStep, IsSoundSolidAndWinds) {
 TEST_F(HelicalStep, DetectsFloorsOfAnotherTendon) {
   write_file(path_, file().bytes, true);
   Product other = helical();
-  other.joint.mechanism.tendon.diameter += 0.001;
+  other.joint.mechanism.tendon.diameter += 0.001;  // mm; the floor moves by half of it, five times the limit
   EXPECT_THAT(inspect_step(path_, other, 0.02).checks,
               Contains(::testing::AllOf(Field(&Check::name, "floor_error"), Field(&Check::ok, false))));
 }
