@@ -129,8 +129,8 @@ Command check_command() {
           "a closed, valid solid, or closed contours without crossings. Each check has a\n"
           "value and a limit, and a failed one the place of the fault. A faulty facet or a\n"
           "duplicate line fails one check and is omitted from the others. Reports size and\n"
-          "volume, and warns if the size suggests inches or metres. With --mechanism it also\n"
-          "tests that the part, after the print has shrunk, fits into the mechanism's\n"
+          "volume, and warns if the size suggests inches or metres. With --mechanism it\n"
+          "also tests that the part, after the print has shrunk, fits into the mechanism's\n"
           "body.room_diameter_mm about the z axis.",
           {{"--mechanism", "SPEC.toml", "also test the room of this mechanism"}, strict_option()},
           {{"fusee check out/arm/pulley.stl", "is the mesh a solid that can be printed?"},
