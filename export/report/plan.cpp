@@ -12,6 +12,7 @@
 #include "fusee/export.h"
 #include "fusee/measurement.h"
 #include "mechanism/effect.h"
+#include "mechanism/lengths.h"
 #include "transmission/load.h"
 
 namespace fusee::formats {
@@ -111,10 +112,11 @@ std::string hanging_words(const PlanProduct& product, const plan::PlannedRun& ru
   const Mechanism& declared = product.file.mechanism;
   if (declared.transmission) return "load " + rounded(run.load, 4) + " in the unit of your log";
   const double mass = std::abs(run.load) / transmission::k_gravity;
-  return "tip force " + rounded(run.load, 4) + " N, " + (run.load > 0 ? "against" : "along") + " +theta: hang " +
-         rounded(mass, 3) + " kg on a cord over a disc of radius " + rounded(declared.joint.R, 4) +
-         " mm on the joint's axis (torque " + rounded(std::abs(run.load) * declared.joint.R, 4) +
-         " N·mm at every angle)";
+  const std::string words = "tip force " + rounded(run.load, 4) + " N, " + (run.load > 0 ? "against" : "along") +
+                            " +theta: hang " + rounded(mass, 3) + " kg on a cord over a disc of radius " +
+                            rounded(declared.joint.R, 4) + " mm on the joint's axis (torque " +
+                            rounded(std::abs(run.load) * declared.joint.R, 4) + " N·mm at every angle)";
+  return lengths_in(product.file.mechanism.units, words);
 }
 
 std::string run_csv(const PlanProduct& product, std::size_t step) {

@@ -128,6 +128,9 @@ Mechanism judged(const Problem& problem, const DeclaredMechanism& declared);
 std::vector<ValueEdit> edits_of(const Problem& problem, const Design& design);
 /// Total violation of the constraints, each relative to its own size; 0 if all are satisfied.
 double constraint_violation(const Problem& problem, const Design& design);
+/// The design with each number that is within rounding of a bound moved to it: 50 in place of 49.99999999999999. Bounds
+/// are those of the variables and of the constraints.
+Design moved_to_bounds(const Problem& problem, Design design);
 /// Evaluates the objective, constraints, bounds of ties, the cap, and (if required) whether a pulley can be made.
 Evaluation evaluate_design(const Problem& problem, Objective objective, const Design& design);
 

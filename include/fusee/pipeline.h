@@ -347,6 +347,10 @@ struct PartSize {
 /// `checks`: the result of check_part().
 PartSize size_of(const Part& part, const std::vector<Check>& checks);
 
+/// The width of a mesh about the z axis, after it has shrunk, against body.room_diameter_mm. Empty for a drawing and
+/// without that key.
+std::optional<Check> room_check(const Mechanism& mechanism, const Part& part);
+
 /// Winds tendons on the grooves of a mesh at the mechanism's groove heights, or on the contours P1_FLOOR and P2_FLOOR
 /// of a drawing (P1_PITCH and P2_PITCH without them). Throws InputError if there is no such groove.
 profile::RewindResult rewind_part(const joint::IdentifiedJoint& joint, const Part& part);

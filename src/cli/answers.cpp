@@ -583,8 +583,10 @@ Answer<TypedMotor> read_motor(std::string_view typed, LengthUnit plain) {
   Answer<TypedMotor> answer = gear_ratio != 1 ? read_geared(simple, gear_ratio, typed, plain)
                               : shaft         ? *shaft
                                               : read_entry(words_of_name(simple), typed);
-  if (TypedMotor* const motor = std::get_if<TypedMotor>(&answer); motor != nullptr && travel > 0)
-    motor->travel = motor->typed_travel = travel;
+  if (TypedMotor* const motor = std::get_if<TypedMotor>(&answer); motor != nullptr && travel > 0) {
+    motor->typed_travel = travel;
+    motor->travel = travel / motor->gear_ratio;
+  }
   return answer;
 }
 

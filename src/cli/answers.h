@@ -44,15 +44,15 @@ struct TypedMotor {
   double bore = 0;          ///< diameter of any other shaft, mm
   bool flat = false;        ///< that shaft is a D shaft
   std::string model;        ///< a motor of the catalogue by its maker's name, or empty
-  double travel = 0;        ///< rotation of a hobby servo, rad; 0: unlimited
-  double typed_travel = 0;  ///< rotation that was typed beside its name, rad
+  double travel = 0;        ///< rotation of the pulley that the motor allows, behind a gearbox, rad; 0: unlimited
+  double typed_travel = 0;  ///< rotation of the motor that was typed beside its name, before a gearbox, rad
   double gear_ratio = 1;    ///< of a gearbox that was typed beside its name
   std::string words;        ///< for the summary
   std::string choice;       ///< name of the shaft that was chosen from a family, and the others; empty without a choice
 };
 /// A name of the catalogue or part of it ("n20-d3", "MG996R horn", "nema 17 round"), a model ("XL430-W250"), or a shaft
-/// ("5 mm", "1/4 in D"). "180 deg" beside it is its travel. "5:1" beside a model is a gearbox, whose own shaft may follow
-/// ("NEMA17-48mm 5:1, 8 mm D"). A plain number is in `plain`.
+/// ("5 mm", "1/4 in D"). "180 deg" beside it is the travel of the motor itself. "5:1" beside a model is a gearbox, whose
+/// own shaft may follow ("NEMA17-48mm 5:1, 8 mm D"). A plain number is in `plain`.
 Answer<TypedMotor> read_motor(std::string_view text, LengthUnit plain = LengthUnit::mm);
 
 struct TypedTendon {

@@ -2,6 +2,7 @@
 #include "cli/as_built.h"
 #include "cli/command.h"
 #include "cli/strict.h"
+#include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {
@@ -73,14 +74,34 @@ void add_size(const pipeline::PartSize& size, Reply& reply) {
   if (size.contours) reply.fields["contours"] = *size.contours;
 }
 
+/// Adds the test of the room that --mechanism states, or a note that gives the reason why there is none.
+void add_room(const Arguments& arguments, const pipeline::Part& part, const RunContext& context,
+              std::vector<Check>& checks, Reply& reply) {
+  const std::optional<std::string> path = arguments.text("--mechanism");
+  if (!path) return;
+  const MechanismFile spec = read_mechanism(*path, arguments.settings(), *context.files);
+  reply.diagnostics = spec.warnings;
+  reply.fields["mechanism"] = *path;
+  if (const std::optional<Check> room = pipeline::room_check(spec.mechanism, part)) {
+    checks.push_back(*room);
+    return;
+  }
+  const bool is_drawing = std::holds_alternative<formats::Drawing>(part);
+  reply.diagnostics.push_back(about_file(
+      Severity::note, *path,
+      is_drawing ? "the room is not tested: the outlines of a drawing do not lie about the pulley's axis; test the mesh"
+                 : "the room is not tested: the file has no body.room_diameter_mm"));
+}
+
 Reply run_check(const Arguments& arguments, Console&, const RunContext& context) {
   const std::string& file = arguments.positionals().front();
   context.begin_step("reading the file");
   const pipeline::Part part = pipeline::read_part(file, *context.files);
   context.begin_step("checking");
-  const std::vector<Check> checks = pipeline::check_part(part);
+  std::vector<Check> checks = pipeline::check_part(part);
   const pipeline::PartSize size = pipeline::size_of(part, checks);
   Reply reply;
+  add_room(arguments, part, context, checks, reply);
   const bool ok = all_ok(checks);
   reply.text = file + ": " + description_of(part) + "\n" + size_text(size) + "\n\n" + checks_table(checks) + "\n" +
                (ok ? "valid" : "not valid") + "\n";
@@ -108,10 +129,13 @@ Command check_command() {
           "a closed, valid solid, or closed contours without crossings. Each check has a\n"
           "value and a limit, and a failed one the place of the fault. A faulty facet or a\n"
           "duplicate line fails one check and is omitted from the others. Reports size and\n"
-          "volume, and warns if the size suggests inches or metres.",
-          {strict_option()},
+          "volume, and warns if the size suggests inches or metres. With --mechanism it\n"
+          "also tests that the part, after the print has shrunk, fits into the mechanism's\n"
+          "body.room_diameter_mm about the z axis.",
+          {{"--mechanism", "SPEC.toml", "also test the room of this mechanism"}, strict_option()},
           {{"fusee check out/arm/pulley.stl", "is the mesh a solid that can be printed?"},
            {"fusee check out/arm/plates.dxf", "are all contours closed and free of crossings?"},
+           {"fusee check out/arm/pulley.stl --mechanism arm.toml", "does it fit into its room?"},
            {"fusee check out/arm/pulley.3mf --json", "for a script"}},
           run_check};
 }

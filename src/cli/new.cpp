@@ -117,6 +117,9 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
                                                               layout.pretension_words))
                 : make_diagnostic(Severity::warning, "a tendon is slack under the load: " + layout.pretension_words));
   }
+  if (!layout.price_words.empty())
+    reply.diagnostics.push_back(
+        make_diagnostic(layout.is_held ? Severity::note : Severity::warning, layout.price_words));
   if (!product.file.mechanism.motor.is_there()) reply.diagnostics.push_back(motor_note(layout));
   reply.diagnostics.push_back(make_diagnostic(Severity::note, "save this file, then run 'fusee build' on it"));
   reply.fields["text"] = reply.text;

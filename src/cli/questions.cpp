@@ -164,7 +164,9 @@ const std::vector<Question>& questions() {
        [](Answers& answers, std::string_view text) {
          return stored<TypedMotor>(read_motor(text, answers.plain), answers.motor, [&answers](const TypedMotor& motor) {
            return motor_words(answers) + (motor.choice.empty() ? "" : " (" + motor.choice + ")") +
-                  (motor.travel > 0 ? fmt::format("; turns {} deg", rounded(degrees(motor.travel))) : "");
+                  (motor.travel > 0 ? fmt::format("; turns {}{} deg", motor.gear_ratio != 1 ? "the pulley " : "",
+                                                  rounded(degrees(motor.travel)))
+                                    : "");
          });
        }},
       {"tendon", list_of_tendons(), "The tendon: diameter, material or both (0.6 mm, Dyneema 0.6, steel 1.2)?",
@@ -275,6 +277,7 @@ std::vector<std::string> keys_to_write(const DeclaredMechanism& mechanism) {
     keys += "body.shaft";
   else
     keys += mechanism.body.bore == Bore::horn ? "body.bore body.horn" : "body.bore body.bore_diameter_mm";
+  if (mechanism.body.set_screw != default_mechanism().body.set_screw) keys += " body.set_screw body.nut_trap";
   if (mechanism.motor.model != Motor{}.model) keys += " motor.model";
   if (mechanism.motor.travel > 0) keys += " motor.travel_deg";
   if (mechanism.motor.gear_ratio != 1) keys += " motor.gear_ratio";
@@ -321,7 +324,10 @@ class Layouts {
                                        *context_.files);
       return read;
     };
-    return pipeline::choose_layout({joint_of(answers), answers.room, answers.motor.travel, any}, file, context);
+    pipeline::LayoutRequirements requirements{joint_of(answers), answers.room, answers.motor.travel, any};
+    requirements.joint.motor = motor_of(requirements.joint);
+    if (const double travel = motor_limits(requirements.joint.motor).travel; travel > 0) requirements.travel = travel;
+    return pipeline::choose_layout(requirements, file, context);
   }
 
   /// Changes of single answers with which a layout exists.
@@ -355,6 +361,21 @@ class Layouts {
   }
 
  private:
+  /// The motor of the answers with settings, as a file with both has it. Its travel is that of the motor, before a
+  /// gearbox.
+  Motor motor_of(const DeclaredMechanism& joint) const {
+    std::vector<Setting> of_motor;
+    std::copy_if(settings_.begin(), settings_.end(), std::back_inserter(of_motor),
+                 [](const Setting& setting) { return setting.key.starts_with("motor."); });
+    if (of_motor.empty()) return joint.motor;
+    DeclaredMechanism complete = joint;  // with any layout, as the reader requires one
+    for (double* length :
+         {&complete.guides.EB, &complete.guides.ED, &complete.guides.OE, &complete.pulley.EF, &complete.pulley.r1})
+      *length = 10;
+    const std::string text = file_of(complete, "");
+    return parse_mechanism(text, "your answers", ".", of_motor, nullptr, nullptr, *context_.files).motor;
+  }
+
   /// False also if a setting does not suit the answers, such as motor.enforce for another motor.
   bool exists(const Answers& answers) const {
     try {
@@ -409,9 +430,10 @@ std::string about(const pipeline::ChosenLayout& layout, const Answers& answers) 
   // The reason for a pretension that is written stands beside it.
   const analysis::UnderLoad& load = layout.built.product.under_load;
   const bool is_slack = !layout.pretension_words.empty() && !(load.slack1.empty() && load.slack2.empty());
-  const std::string slack = is_slack ? " A tendon is slack under the load: " + layout.pretension_words + "." : "";
+  std::string shortcoming = is_slack ? " A tendon is slack under the load: " + layout.pretension_words + "." : "";
+  if (!layout.price_words.empty()) shortcoming += " Note: " + layout.price_words + ".";
   return fmt::format("{} Motor: {}. Tendon: {}.{}", lengths_in(answers.units, pulley), motor_words(answers),
-                     lengths_in(answers.units, answers.tendon.words), slack);
+                     lengths_in(answers.units, answers.tendon.words), shortcoming);
 }
 
 bool sets_units(const Setting& setting) { return setting.key == "units"; }

@@ -21,10 +21,11 @@ constexpr std::array<std::string_view, 5> k_joint_words = {"joint", "joints", "t
 constexpr std::array<std::string_view, 12> k_table_motor_words = {"stepper",     "spool",  "winch",    "antrieb",
                                                                   "motorwinkel", "motore", "moteur",   "stellmotor",
                                                                   "motorhoek",   "silnik", "actuador", "actionneur"};
-constexpr std::array<std::string_view, 27> k_table_joint_words = {
-    "gelenk",       "gelenkwinkel", "finger",      "elbow", "knee",     "wrist",      "shoulder", "thumb", "hip",
-    "ankle",        "limb",         "arm",         "staw",  "gewricht", "giunto",     "junta",    "doigt", "dedo",
-    "articulation", "articulacion", "articulacao", "dito",  "ellbogen", "handgelenk", "knie",     "coude", "codo"};
+constexpr std::array<std::string_view, 28> k_table_joint_words = {
+    "gelenk",        "gelenkwinkel", "finger",   "elbow",      "knee", "wrist",        "shoulder",
+    "thumb",         "hip",          "ankle",    "limb",       "arm",  "staw",         "gewricht",
+    "gewrichtshoek", "giunto",       "junta",    "doigt",      "dedo", "articulation", "articulacion",
+    "articulacao",   "dito",         "ellbogen", "handgelenk", "knie", "coude",        "codo"};
 /// Words of an angle sensor of either side.
 constexpr std::array<std::string_view, 19> k_sensor_words = {
     "encoder", "enc",      "pot", "poti", "potentiometer", "sensor", "angle", "winkel", "pos", "position", "hall",

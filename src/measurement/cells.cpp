@@ -66,12 +66,18 @@ constexpr std::string_view k_minus_signs[] = {"\xE2\x88\x92", "\xE2\x80\x93"};
 /// sign, or if its marks do not group three digits.
 std::string plain_number(std::string_view text) {
   std::string plain;
+  const std::size_t size = text.size();
+  for (const std::string_view blank : {std::string_view("\xC2\xA0"), std::string_view("\xE2\x80\xAF")}) {
+    while (text.starts_with(blank)) text.remove_prefix(blank.size());
+    while (text.ends_with(blank)) text.remove_suffix(blank.size());
+  }
+  bool is_changed = text.size() < size;
   for (const std::string_view minus : k_minus_signs) {
     if (!text.starts_with(minus)) continue;
     plain = "-";
     text.remove_prefix(minus.size());
+    is_changed = true;
   }
-  bool is_changed = !plain.empty();
   bool has_groups = false;
   while (!text.empty()) {
     const auto mark = std::find_if(std::begin(k_group_marks), std::end(k_group_marks),

@@ -19,10 +19,12 @@ namespace {
 /// Names that are recognised for a role without --column, in any unit, besides the default name.
 const std::vector<std::string>& words_of(const std::string& role) {
   static const std::map<std::string, std::vector<std::string>> words = {
-      {"alpha", {"alpha"}},
-      {"theta", {"theta"}},
+      {"alpha", {"alpha", "α"}},
+      {"theta", {"theta", "θ", "ϑ"}},
       {"load", {"load"}},
-      {"time", {"time", "timestamp", "time_stamp", "%time", "__time", "zeit", "temps", "tiempo", "tijd", "czas"}},
+      {"time",
+       {"time", "timestamp", "time_stamp", "%time", "__time", "zeit", "zeitstempel", "zeitpunkt", "temps", "horodatage",
+        "tiempo", "tempo", "tijd", "czas"}},
       {"tension1", {"tension1"}},
       {"temperature", {"temperature", "temp"}},
       {"tension2", {"tension2"}}};
@@ -181,7 +183,23 @@ class ColumnFinder {
                               shell_argument(names_[i]) + " --unit " + role + (is_load ? "=N" : "=s"));
       noted_.insert(i);
     }
+    return role == "time" ? clock_index() : std::nullopt;
+  }
+
+  /// The first column that is called by a unit of time alone, "millis()" or "us", or "t" with its unit.
+  std::optional<std::size_t> clock_index() const {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const ColumnName name = parse_column_name(names_[i], Quantity::time);
+      if (clock_unit(names_[i]) != nullptr || (name.base == "t" && name.unit != nullptr)) return i;
+    }
     return std::nullopt;
+  }
+
+  /// The unit that is the whole name of a clock; null for other names, for a single letter, and for a minimum.
+  static const Unit* clock_unit(const std::string& name) {
+    std::string word = lower(trimmed(name));
+    if (word.ends_with("()")) word.resize(word.size() - 2);
+    return word.size() > 1 && word != "min" ? find_unit(Quantity::time, word) : nullptr;
   }
 
   /// `by_option`: --column names the column.
@@ -213,6 +231,7 @@ class ColumnFinder {
 
   void take_unit_of_name(Column& column, bool by_option) {
     column.unit = ros_unit(column.name, column.quantity);
+    if (column.unit == nullptr && column.quantity == Quantity::time) column.unit = clock_unit(column.name);
     if (column.unit != nullptr) return;
     const ColumnName name = parse_column_name(without_field(column.name), column.quantity);
     column.unit = name.unit;

@@ -1,6 +1,7 @@
 #include "measurement/row_reader.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -90,7 +91,7 @@ constexpr std::string_view k_padding{"\0\x1A", 2};
 /// The likely separator of a line; a comma if it has none. A semicolon or tab comes first, since commas may be decimal
 /// marks beside it.
 char separator_of(std::string_view line) {
-  for (const char separator : {';', '\t', ',', ' '}) {
+  for (const char separator : {';', '\t', ',', '|', ' '}) {
     if (line.find(separator) != std::string_view::npos) return separator;
   }
   return ',';
@@ -291,10 +292,10 @@ class RowReader {
     }
     header_text_ = text;
     if (text.starts_with("% ")) text = trimmed(text.substr(1));  // a comment of MATLAB
-    for (const char separator : {',', ';', '\t', ' ', stated_separator_}) {
+    for (const char separator : {',', ';', '\t', '|', ' ', stated_separator_}) {
       if (separator == 0 || (stated_separator_ != 0 && separator != stated_separator_)) continue;
       std::vector<std::string> names = names_in(text, separator);
-      if (names.size() > k_most_columns) refuse_many_columns();
+      if (names.size() > k_most_columns) refuse_many_columns(text);
       while (names.size() > 1 && names.back().empty()) names.pop_back();  // after trailing separators
       if (is_stamped_) names.emplace_back("time");
       Header header = find_columns(names, options_);
@@ -305,7 +306,37 @@ class RowReader {
     remember_likely_header(text);
   }
 
-  [[noreturn]] void refuse_many_columns() const {
+  /// Throws for a text that is no table, by its first line.
+  void refuse_other_format(std::string_view line) const {
+    const auto refuse_as = [&](const std::string& message, const std::string& hint) {
+      const Diagnostic problem{Severity::error, place(line_, 1), message, hint};
+      throw InputError(problem);
+    };
+    const std::string export_hint = "write a CSV text: the names of the columns, then a line of values for each time";
+    if (line.starts_with("{") || line.starts_with("[{") || line.starts_with("[["))
+      refuse_as("is JSON and no table", export_hint);
+    if (line.starts_with("<") && line.find('>') != std::string_view::npos)
+      refuse_as("is XML or HTML and no table", export_hint);
+    const std::string label = label_of(line);
+    if (!label.empty())
+      refuse_as("each value follows its name, as in " + shown(label),
+                "write the names once, in the first line, such as alpha_deg,theta_deg, and the values alone below");
+  }
+
+  /// "alpha:17.7" if a line begins with a name and its value; else empty.
+  static std::string label_of(std::string_view line) {
+    if (line.starts_with(">")) line.remove_prefix(1);
+    const std::string_view cell = line.substr(0, line.find_first_of(", ;\t|"));
+    const std::size_t mark = cell.find_first_of(":=");
+    if (mark == std::string_view::npos || mark == 0 || mark + 1 == cell.size()) return {};
+    double value = 0;
+    const bool is_name = std::isalpha(static_cast<unsigned char>(cell.front())) != 0;
+    return is_name && read_number(cell.substr(mark + 1), value) == CellContent::number ? std::string(cell)
+                                                                                       : std::string();
+  }
+
+  [[noreturn]] void refuse_many_columns(std::string_view text) const {
+    refuse_other_format(text);
     const Diagnostic problem{Severity::error, place(line_, 1),
                              "the header names more than " + std::to_string(k_most_columns) + " columns",
                              "measured data need only a few"};
@@ -365,6 +396,7 @@ class RowReader {
       throw InputError(problem);
     }
     line_ = likely_header_.line;
+    refuse_other_format(likely_header_.text);
     if (all_numbers(likely_header_.names)) {
       const bool in_comment = comment_.find("alpha") != std::string::npos;
       fail(1, "the first line has numbers: there is no header",

@@ -214,9 +214,14 @@ class UnitFinder {
     return best;
   }
 
-  /// Without a declared range: ROS positions are radians, and so are motions below 2π in the column's unit.
-  static const char* likely_unit(const Column& column) {
-    const bool is_position = lower(column.name).find("position") != std::string::npos;
+  /// Without a declared range: ROS positions are radians, and so are motions below 2π in the column's unit. A joint does
+  /// not turn more than twice: its positions are degrees then, and so are those of its motor.
+  const char* likely_unit(const Column& column) const {
+    const auto is_wide_joint = [](const Column& other) {
+      return other.role == "theta" && other.unit == nullptr && other.most - other.least > 2 * k_two_pi;
+    };
+    const bool is_position = lower(column.name).find("position") != std::string::npos &&
+                             std::none_of(columns_.begin(), columns_.end(), is_wide_joint);
     return is_position || column.most - column.least <= k_two_pi ? "rad" : "deg";
   }
 

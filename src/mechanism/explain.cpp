@@ -123,8 +123,9 @@ std::string field_text(const Field& field) {
   std::string text = field.name();
   if (!field.symbol.empty()) text += "  (" + std::string(field.symbol) + ")";
   text += "\n" + wrapped(field.meaning, "  ", "  ") + wrapped(kind_text(field), "  is       ", "           ");
+  const bool is_horn = field.name() == "body.horn";  // a text, as [horn] describes others
   if (field.kind != FieldKind::choice && field.kind != FieldKind::boolean)
-    text += wrapped(allowed_text(field), "  allowed  ", "           ");
+    text += wrapped(is_horn ? "own, or a name in the list below" : allowed_text(field), "  allowed  ", "           ");
   if (is_length(field.key)) text += wrapped(k_length_words, "  ", "  ");
   return text + wrapped(default_text(field), "  ", "  ");
 }

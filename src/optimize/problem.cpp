@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -166,6 +168,32 @@ std::vector<ValueEdit> edits_of(const Problem& problem, const Design& design) {
   std::vector<ValueEdit> edits;
   for (const MovingKey& moving : problem.moving) edits.push_back({moving.key, moving.value(design)});
   return edits;
+}
+
+Design moved_to_bounds(const Problem& problem, Design design) {
+  const auto is_near = [](double number, double bound) {
+    constexpr double k_rounding = 1e-12;
+    return std::abs(number - bound) <= k_rounding * std::abs(bound);
+  };
+  const auto digits = [](double number) { return fmt::format("{}", number).size(); };
+  for (std::size_t i = 0; i < design.size(); ++i) {
+    const Variable& variable = problem.variables[i];
+    for (const double bound : {variable.lower, variable.upper})
+      if (is_near(design[i], bound)) design[i] = bound;
+  }
+  for (const LinearConstraint& constraint : problem.constraints) {
+    for (std::size_t i = 0; i < design.size(); ++i) {
+      if (constraint.a[i] == 0) continue;
+      double remainder = constraint.b;
+      for (std::size_t j = 0; j < design.size(); ++j) {
+        if (j != i) remainder -= constraint.a[j] * design[j];
+      }
+      const double bound = remainder / constraint.a[i];
+      // Of the numbers in a constraint, the one with the rounding error moves, and not the round one.
+      if (is_near(design[i], bound) && digits(bound) < digits(design[i])) design[i] = bound;
+    }
+  }
+  return design;
 }
 
 double constraint_violation(const Problem& problem, const Design& design) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <compare>
+#include <limits>
 
 #include "base/text.h"
 #include "fusee/analysis.h"
@@ -43,10 +44,12 @@ constexpr double k_longest_lever = 5000.0;
 // Motor torque with friction in pulley, guides and joint over that without.
 constexpr double k_friction = 1.15;
 constexpr double k_much_friction = 1.4;  // over pins, with the pretension that keeps both tendons taut
+// Torque of a motor without its advised margin, with a pretension that keeps both tendons taut over that without.
+constexpr double k_most_for_pretension = 1.25;
 // Least safety factor of tendons with the pretension that keeps both taut.
 constexpr double k_least_safety = 2.0;
 // Full builds of candidates for one search.
-constexpr int k_max_layout_builds = 6;
+constexpr int k_max_layout_builds = 8;
 // Full builds if the first layout that builds suffices.
 constexpr int k_max_trial_builds = 3;
 
@@ -101,12 +104,17 @@ struct Candidate {
   double torque = 0;      ///< estimate of the motor's, N·mm
 };
 
-/// The torque that the motor should be asked for, N·mm: that of the file's motor, or of the strongest in the catalogue
-/// that fits, over the advised margin. 0: unknown.
-double usable_torque(const Mechanism& mechanism) {
+/// The file's motor, or the strongest in the catalogue that fits. Its torque is 0 if neither is known.
+MotorModel motor_for(const Mechanism& mechanism) {
   MotorModel motor = motor_limits(mechanism.motor);
   if (motor.stall_torque == 0)
     if (const MotorModel* strongest = strongest_motor_that_fits(mechanism.body)) motor = *strongest;
+  return motor;
+}
+
+/// The torque that the motor should be asked for, N·mm: its own over the advised margin. 0: unknown.
+double usable_torque(const Mechanism& mechanism) {
+  const MotorModel motor = motor_for(mechanism);
   return motor.stall_torque / motor.advised_margin();
 }
 
@@ -187,7 +195,8 @@ class Candidates {
   }
 
   /// If a candidate requires too much of the motor, adds wider drums and smaller pulleys that do not, with several turns
-  /// if one is not enough. Candidates within the motor's torque come first.
+  /// if one is not enough, and the smallest pulleys of one turn. Candidates within the motor's torque come first, then
+  /// those that require least.
   void prefer_motor(double rho) {
     const auto is_within = [this](const Candidate& candidate) { return candidate.torque <= usable_; };
     if (usable_ == 0 || std::all_of(all_.begin(), all_.end(), is_within)) return;
@@ -198,14 +207,24 @@ class Candidates {
         const double reduction = k_three_digits * friction * torque_of(joint_) / usable_;
         const double r1 = std::min(std::floor(1e3 * wider / reduction) / 1e3, largest_);
         const double turn = span_ * wider / r1;
-        const bool is_possible = r1 >= std::max(bend_, 0.5 * joint_.tendon.diameter + 1.0);
-        if (is_possible && !(requirements_.travel > 0 && turn > 0.95 * requirements_.travel))
-          add_drum_with(wider, r1,
-                        turn > k_one_turn ? "a drum on the joint, several turns of the pulley" : "a drum on the joint");
+        if (!(requirements_.travel > 0 && turn > 0.95 * requirements_.travel)) add_small_pulley(wider, r1);
       }
       if (wider == widest) break;
     }
-    std::stable_partition(all_.begin(), all_.end(), is_within);
+    // Between a pulley of one turn and one that the motor turns with its margin.
+    for (const double share : {1.0, 0.85, 0.7, 0.55}) {
+      const double r1 = std::ceil(1e3 * share * span_ * widest / turn_) / 1e3;
+      if (share == 1.0 || requirements_.travel == 0) add_small_pulley(widest, r1);
+    }
+    const auto others = std::stable_partition(all_.begin(), all_.end(), is_within);
+    std::stable_sort(others, all_.end(),
+                     [](const Candidate& one, const Candidate& other) { return one.torque < other.torque; });
+  }
+
+  void add_small_pulley(double rho, double r1) {
+    if (r1 < std::max(bend_, 0.5 * joint_.tendon.diameter + 1.0) || r1 > largest_) return;
+    const bool is_one_turn = span_ * rho / r1 <= k_one_turn;
+    add_drum_with(rho, r1, is_one_turn ? "a drum on the joint" : "a drum on the joint, several turns of the pulley");
   }
 
   void add_drum_with(double rho, double r1, const char* words) {
@@ -283,27 +302,73 @@ std::size_t shortcomings(const solid::BodyLayout& layout) {
   return weight;
 }
 
-/// Shortcomings of a plan, without a mesh; 0 if only a build determines them.
-std::size_t planned_shortcomings(const DeclaredMechanism& declared) {
-  const Curves curves = curves_of(declared);
-  if (!curves.obstacles.empty()) return 0;
-  const solid::BodyPlan plan = solid::plan_body(curves.joint.mechanism, curves.synthesis);
-  return plan.is_possible() ? shortcomings(plan.layout) : 0;
+/// True if nothing holds the pulley on its shaft although the file does not renounce a set screw.
+bool is_loose(const Mechanism& mechanism, const solid::BodyLayout& layout) {
+  const Body& body = mechanism.body;
+  return body.bore != Bore::horn && body.set_screw != "none" && body.hub_height > 0 && !layout.set_screw.present;
 }
 
-/// Fewer warnings are better, then fewer shortcomings.
+/// Fewer are better, in this order.
 struct Rank {
-  std::size_t warnings = 0;      ///< a motor without its advised margin counts as one
+  std::size_t stalls = 0;        ///< 1: the motor cannot hold the load
+  std::size_t warnings = 0;      ///< of the build, without those on the motor
+  std::size_t loose = 0;         ///< 1: nothing holds the pulley on its shaft
+  std::size_t weakness = 0;      ///< missing share of the motor's advised margin, in quarters
   std::size_t shortcomings = 0;  ///< of a pulley of one turn; several turns always have the same notes
 
   auto operator<=>(const Rank&) const = default;
+  bool is_without_fault() const { return *this <= Rank{0, 0, 0, 0, shortcomings}; }
 };
 
+/// The motor's torque over the one that it has to hold, N·mm; 0: unknown.
+double motor_margin(const Mechanism& mechanism, double torque) {
+  return torque > 0 ? motor_for(mechanism).stall_torque / torque : 0;
+}
+
+void rank_motor(Rank& rank, const Mechanism& mechanism, double torque) {
+  const double margin = motor_margin(mechanism, torque);
+  if (margin == 0) return;
+  rank.stalls = margin < 1 ? 1 : 0;
+  const double missing = motor_for(mechanism).advised_margin() / margin - 1;
+  rank.weakness = static_cast<std::size_t>(std::ceil(std::clamp(missing, 0.0, 1e3) / 0.25));
+}
+
+/// Rank of a plan without a mesh, with an estimate of the motor's torque in N·mm. Several turns are only built: no
+/// shortcoming is assumed.
+Rank planned_rank(const DeclaredMechanism& declared, double torque) {
+  Rank rank;
+  rank_motor(rank, declared, torque);
+  const Curves curves = curves_of(declared);
+  if (!curves.obstacles.empty()) return rank;
+  const solid::BodyPlan plan = solid::plan_body(curves.joint.mechanism, curves.synthesis);
+  if (!plan.is_possible()) return rank;
+  rank.loose = is_loose(declared, plan.layout) ? 1 : 0;
+  rank.shortcomings = shortcomings(plan.layout);
+  return rank;
+}
+
 Rank rank_of(const formats::Product& product) {
-  const double usable = usable_torque(product.joint.mechanism);
-  const std::size_t weak = usable > 0 && product.under_load.largest_torque.value > usable ? 1 : 0;
-  return {product.file.warnings.size() + product.synthesis.warnings.size() + product.holding.warnings.size() + weak,
-          product.helix ? 0 : shortcomings(product.pulley.layout)};
+  Rank rank;
+  rank_motor(rank, product.joint.mechanism, product.under_load.largest_torque.value);
+  const std::vector<Diagnostic> of_motor = product.under_load.motor
+                                               ? analysis::motor_warnings(*product.under_load.motor, product.file)
+                                               : std::vector<Diagnostic>{};
+  rank.warnings = product.file.warnings.size() + product.synthesis.warnings.size() + product.holding.warnings.size();
+  rank.warnings -= std::min(rank.warnings, of_motor.size());
+  rank.loose = is_loose(product.file.mechanism, product.pulley.layout) ? 1 : 0;
+  rank.shortcomings = product.helix ? 0 : shortcomings(product.pulley.layout);
+  return rank;
+}
+
+/// The same with the smallest set screw in a thread of the hub: the hub that it requires has precedence over marks and
+/// slots. Empty if the pulley has a set screw or must not have one, or if that hub does not fit.
+std::optional<DeclaredMechanism> with_small_screw(const DeclaredMechanism& declared, const Rank& planned) {
+  if (planned.loose == 0 || declared.body.set_screw != "auto" || declared.body.hub_diameter > 0) return std::nullopt;
+  DeclaredMechanism changed = declared;
+  changed.body.set_screw = declared.units == LengthUnit::inch ? "#2-56" : "M2";
+  changed.body.nut_trap = false;
+  if (quick_obstacle(changed)) return std::nullopt;
+  return planned_rank(changed, 0).loose == 0 ? std::optional(changed) : std::nullopt;
 }
 
 /// The tendons' moment arm at home, mm.
@@ -312,34 +377,58 @@ double arm_of(const ChosenLayout& layout) {
   return mechanism.joint.drum_radius > 0 ? mechanism.drum_pitch_radius() : layout.built.product.synthesis.home()->t1.m;
 }
 
+/// Why a layout does not meet the requirements.
+struct Obstacle {
+  std::string message;
+  double torque = 0;  ///< if the motor's torque is the reason: the required one, N·mm
+};
+
 /// The first failed condition or check of a build.
-std::optional<std::string> first_reason(const BuildResult& built) {
+Obstacle first_reason(const BuildResult& built) {
   const formats::Product& product = built.product;
   const auto& conditions = product.synthesis.made() ? product.pulley.conditions : product.synthesis.conditions;
   for (const profile::Condition& condition : conditions)
-    if (!condition.ok) return condition.message;
+    if (!condition.ok) return {condition.message, condition.name == "motor_torque" ? condition.value : 0};
   for (const Check& check : product.checks)
-    if (!check.ok) return "the check " + check.name + " of the part fails";
-  return std::nullopt;
+    if (!check.ok) return {"the check " + check.name + " of the part fails"};
+  return {"no pulley can be made"};
 }
+
+/// The obstacle to report: the last one, or the least torque that a motor would need.
+class Obstacles {
+ public:
+  void add(Obstacle obstacle) {
+    if (obstacle.torque > 0) ++by_torque_;
+    if (last_.torque > 0 && !(obstacle.torque > 0 && obstacle.torque < last_.torque)) return;
+    last_ = std::move(obstacle);
+  }
+  std::string message() const {
+    if (last_.torque == 0 || by_torque_ < 2) return last_.message;
+    return last_.message + fmt::format(", the least of the {} layouts that were built", by_torque_);
+  }
+
+ private:
+  Obstacle last_;
+  int by_torque_ = 0;
+};
 
 /// Fills `layout` by a dry build of its file. Returns the reason why it does not meet the requirements; empty if it
 /// does.
-std::optional<std::string> build_layout(const LayoutRequirements& needs, ChosenLayout& layout,
-                                        const RunContext& context) {
+std::optional<Obstacle> build_layout(const LayoutRequirements& needs, ChosenLayout& layout, const RunContext& context) {
   BuildOptions options;
   options.dry_run = options.force = true;
   options.advice = false;
   options.folder = temporary_folder() / "fusee-layout";
   layout.built = build(layout.file, options, context.without_progress());
-  if (layout.built.status != BuildStatus::done) return first_reason(layout.built).value_or("no pulley can be made");
+  if (layout.built.status != BuildStatus::done) return first_reason(layout.built);
   const formats::Product& product = layout.built.product;
   layout.diameter = solid::diameter_about_axis(product.pulley.mesh);
   layout.travel = product.synthesis.stroke.back().alpha - product.synthesis.stroke.front().alpha;
-  if (layout.diameter > needs.room + 1e-6) return fmt::format("the pulley is {} mm wide", rounded(layout.diameter, 3));
+  if (layout.diameter > needs.room + 1e-6)
+    return Obstacle{fmt::format("the pulley is {} mm wide", rounded(layout.diameter, 3))};
   if (needs.travel > 0 && layout.travel > needs.travel + 1e-9)
-    return fmt::format("the pulley would turn {}°, the motor turns {}°", rounded(degrees(layout.travel), 3),
-                       rounded(degrees(needs.travel), 3));
+    return Obstacle{fmt::format("the pulley would turn {}°, the motor turns {}°", rounded(degrees(layout.travel), 3),
+                                rounded(degrees(needs.travel), 3))};
   return std::nullopt;
 }
 
@@ -359,18 +448,25 @@ void keep_taut(ChosenLayout& chosen, const LayoutRequirements& needs, const Cand
   ChosenLayout taut = chosen;
   taut.file = file_of(mechanism);
   if (taut.file.mechanism.tendon.pretension != mechanism.tendon.pretension) return;  // by a setting
-  const std::optional<std::string> obstacle = build_layout(needs, taut, context);
+  const std::optional<Obstacle> obstacle = build_layout(needs, taut, context);
   const analysis::UnderLoad& load = taut.built.product.under_load;
   const std::string words = rounded(*least, 3) + " N or more keeps both tendons taut under the load";
   std::string against;
+  const double torque = load.largest_torque.value, torque_before = chosen.built.product.under_load.largest_torque.value;
+  Rank rank = rank_of(taut.built.product), rank_before = rank_of(chosen.built.product);
+  const bool is_too_much =
+      rank.weakness > 0 && (rank.stalls > rank_before.stalls || torque > k_most_for_pretension * torque_before);
+  rank.weakness = rank_before.weakness = 0;  // it has a limit of its own
   if (obstacle)
-    against = *obstacle;
+    against = obstacle->message;
   else if (load.safety_factor().value_or(k_least_safety) < k_least_safety)
     against = "the tendons' safety factor would be " + rounded(*load.safety_factor(), 3);
-  else if (rank_of(taut.built.product) > rank_of(chosen.built.product))
+  else if (is_too_much)
+    against = "the motor would have to hold " + rounded(torque, 3) + " Nmm";
+  else if (rank > rank_before)
     against = taut.built.product.file.warnings.size() > chosen.built.product.file.warnings.size()
                   ? taut.built.product.file.warnings.back().message
-                  : "the motor would have to hold " + rounded(load.largest_torque.value, 3) + " Nmm";
+                  : "the pulley would lack more features";
   if (!against.empty()) {
     chosen.pretension_words = "a pretension of " + words + ", but " + against;
     return;
@@ -390,52 +486,130 @@ void keep_room(ChosenLayout& chosen, const LayoutRequirements& needs, const Cand
 
 }  // namespace
 
-LayoutSearch choose_layout(const LayoutRequirements& requirements, const CandidateFile& file_of,
-                           const RunContext& context) {
-  LayoutSearch search;
-  Rank best;
-  int builds = 0;
-  for (Candidate& candidate : Candidates(requirements).all()) {
-    if (search.chosen && (requirements.any || candidate.is_spare)) continue;
-    // Without warnings, only a larger pulley of the same layout can be better: it may have more features.
-    if (search.chosen && best.warnings == 0 && (best.shortcomings == 0 || candidate.words != search.chosen->words))
-      break;
-    context.begin_step("trying " + candidate.words);
-    ChosenLayout layout{file_of(candidate.mechanism), candidate.words, {}, 0, 0, 0, {}};
-    if (std::optional<std::string> obstacle = quick_obstacle(layout.file.mechanism)) {
-      if (builds == 0)
-        search.obstacle = std::move(*obstacle);  // the last one remains: its candidate has the most space
-      continue;
+namespace {
+
+/// One search for a layout.
+class LayoutChoice {
+ public:
+  LayoutChoice(const LayoutRequirements& requirements, const CandidateFile& file_of, const RunContext& context)
+      : requirements_(requirements), file_of_(file_of), context_(context) {}
+
+  LayoutSearch search() {
+    LayoutSearch search;
+    for (const Candidate& candidate : Candidates(requirements_).all()) {
+      if (chosen_ && (requirements_.any || candidate.is_spare)) continue;
+      // Without a fault, only a larger pulley of the same layout can be better: it may have more features.
+      if (chosen_ && best_.is_without_fault() && (best_.shortcomings == 0 || candidate.words != chosen_->words)) break;
+      if (!add(candidate)) break;
     }
-    const bool may_be_better =
-        !search.chosen || best.warnings > 0 || planned_shortcomings(layout.file.mechanism) < best.shortcomings;
-    if (!may_be_better) continue;
-    if (builds++ == (requirements.any ? k_max_trial_builds : k_max_layout_builds)) break;
-    std::optional<std::string> obstacle = build_layout(requirements, layout, context);
-    const double excess = 0.5 * (layout.diameter - requirements.room) + 0.02;
-    if (obstacle && layout.diameter > requirements.room && excess < 0.3 * candidate.mechanism.pulley.r1) {
+    if (chosen_ && !requirements_.any) {
+      add_price();
+      context_.begin_step("keeping both tendons taut");
+      keep_taut(*chosen_, requirements_, file_of_, context_);
+      keep_room(*chosen_, requirements_, file_of_);
+    }
+    search.chosen = std::move(chosen_);
+    search.obstacle = obstacles_.message();
+    if (search.obstacle.empty()) search.obstacle = "the room is smaller than the tendon's groove";
+    return search;
+  }
+
+ private:
+  /// Builds a candidate if it may be better than the best one so far. False if no further build is allowed.
+  bool add(const Candidate& candidate) {
+    context_.begin_step("trying " + candidate.words);
+    const MechanismFile file = file_of_(candidate.mechanism);
+    if (std::optional<std::string> obstacle = quick_obstacle(file.mechanism)) {
+      if (builds_ == 0) obstacles_.add({std::move(*obstacle)});  // the last one remains: it has the most space
+      return true;
+    }
+    if (requirements_.any) return try_build(candidate.mechanism, candidate, /*is_last=*/true);
+    const Rank planned = planned_rank(file.mechanism, candidate.torque);
+    if (const auto with_screw = with_small_screw(file.mechanism, planned)) {
+      Candidate screwed = candidate;
+      screwed.mechanism.body.set_screw = with_screw->body.set_screw;
+      screwed.mechanism.body.nut_trap = false;
+      if (may_be_better(screwed, planned_rank(file_of_(screwed.mechanism).mechanism, candidate.torque))) {
+        if (!try_build(screwed.mechanism, screwed, /*is_last=*/false)) return false;
+        if (chosen_ && best_.loose == 0) return true;
+      }
+    }
+    return !may_be_better(candidate, planned) || try_build(candidate.mechanism, candidate, /*is_last=*/true);
+  }
+
+  bool may_be_better(const Candidate& candidate, Rank planned) const {
+    if (!chosen_ || best_.warnings > 0) return true;
+    // Several turns are not planned. A pulley that is no larger than a loose one is loose, too.
+    if (candidate.mechanism.pulley.r1 <= largest_loose_) planned.loose = 1;
+    return planned < best_;
+  }
+
+  /// False if no further build is allowed.
+  bool try_build(DeclaredMechanism mechanism, const Candidate& candidate, bool is_last) {
+    if (builds_++ == (requirements_.any ? k_max_trial_builds : k_max_layout_builds)) return false;
+    ChosenLayout layout;
+    layout.file = file_of_(mechanism);
+    layout.words = candidate.words;
+    std::optional<Obstacle> obstacle = build_layout(requirements_, layout, context_);
+    const double excess = 0.5 * (layout.diameter - requirements_.room) + 0.02;
+    if (obstacle && layout.diameter > requirements_.room && excess < 0.3 * mechanism.pulley.r1) {
       // The flange also covers the tie-offs. Only the build has determined by how much it exceeds the groove.
-      candidate.mechanism.pulley.r1 -= excess;
-      layout.file = file_of(with_rounded_radius(candidate.mechanism));
-      if (!quick_obstacle(layout.file.mechanism)) obstacle = build_layout(requirements, layout, context);
+      mechanism.pulley.r1 -= excess;
+      layout.file = file_of_(with_rounded_radius(mechanism));
+      if (!quick_obstacle(layout.file.mechanism)) obstacle = build_layout(requirements_, layout, context_);
     }
     if (obstacle) {
-      search.obstacle = std::move(*obstacle);
-      continue;
+      if (is_last) obstacles_.add(std::move(*obstacle));
+      return true;
     }
-    const Rank rank = rank_of(layout.built.product);
-    if (search.chosen && !(rank < best)) continue;
-    best = rank;
+    const formats::Product& product = layout.built.product;
+    const Rank rank = rank_of(product);
+    if (product.helix && rank.loose > 0) largest_loose_ = std::max(largest_loose_, layout.file.mechanism.pulley.r1);
+    const double torque = product.under_load.largest_torque.value;
+    if (rank.loose > 0 && torque > 0) least_loose_torque_ = std::min(least_loose_torque_, torque);
+    if (chosen_ && !(rank < best_)) return true;
+    best_ = rank;
     layout.tension = torque_of(layout.file.mechanism) / arm_of(layout);
-    search.chosen = std::move(layout);
+    // A pulley that was meant to turn more than once may do with one turn.
+    constexpr std::string_view k_turns = ", several turns of the pulley";
+    const std::size_t at = layout.words.find(k_turns);
+    if (!product.helix && at != std::string::npos) layout.words.erase(at, k_turns.size());
+    chosen_ = std::move(layout);
+    return true;
   }
-  if (search.chosen && !requirements.any) {
-    context.begin_step("keeping both tendons taut");
-    keep_taut(*search.chosen, requirements, file_of, context);
-    keep_room(*search.chosen, requirements, file_of);
+
+  /// States what a pulley that is held on its shaft costs, or that none was found.
+  void add_price() {
+    const double share = least_loose_torque_ / chosen_->built.product.under_load.largest_torque.value;
+    chosen_->is_held = best_.loose == 0;
+    if (!chosen_->is_held) {
+      chosen_->price_words =
+          "nothing holds the pulley on its shaft, as there is no space for a hub with a set screw: glue it, or take a "
+          "thinner shaft or a servo with a horn";
+    } else if (best_.weakness > 0 && share < 0.95) {
+      chosen_->price_words =
+          fmt::format("the set screw costs torque: a smaller pulley without one would require {} % less of the motor",
+                      rounded(100.0 * (1.0 - share), 2));
+    }
   }
-  if (search.obstacle.empty()) search.obstacle = "the room is smaller than the tendon's groove";
-  return search;
+
+  const LayoutRequirements& requirements_;
+  const CandidateFile& file_of_;
+  const RunContext& context_;
+  std::optional<ChosenLayout> chosen_;
+  Rank best_;            ///< of the choice
+  Obstacles obstacles_;  ///< of candidates that fail
+  int builds_ = 0;
+  double largest_loose_ = 0;  ///< r1 of the largest pulley of several turns that nothing holds on its shaft, mm
+  /// Least torque of the motor with a pulley that nothing holds on its shaft, N·mm.
+  double least_loose_torque_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+LayoutSearch choose_layout(const LayoutRequirements& requirements, const CandidateFile& file_of,
+                           const RunContext& context) {
+  return LayoutChoice(requirements, file_of, context).search();
 }
 
 namespace {

@@ -35,17 +35,23 @@ struct ChosenLayout {
   double tension = 0;   ///< tension by the declared load, without pretension, N
   /// About a pretension that keeps both tendons taut under the load; "" if the usual one does.
   std::string pretension_words;
+  bool is_held = true;  ///< by a set screw or a horn, or as the file wants it
+  /// What a pulley that is held on its shaft costs, or why nothing holds it; "" if it costs nothing.
+  std::string price_words;
 };
 
 struct LayoutSearch {
   std::optional<ChosenLayout> chosen;
-  std::string obstacle;  ///< without a choice: why the last candidate that was built, or else the last one, fails
+  /// Without a choice: why the last candidate that was built, or else the last one, fails; if the motor is too weak for
+  /// it, with the least torque of all that were built.
+  std::string obstacle;
 };
 
 /// Tries candidates by a quick check, then by full dry builds, in order of preference: a lever where the range allows
-/// it, a drum with one turn of the pulley, a drum with several turns. A candidate whose build has fewer warnings is
-/// preferred over an earlier one, and a larger pulley of the same layout if fewer features are omitted on it. Candidates
-/// that the motor turns with its advised margin come first. The choice keeps its room as body.room_diameter_mm, and has
+/// it, a drum with one turn of the pulley, a drum with several turns. Candidates that the motor turns with its advised
+/// margin come first. A candidate is preferred over an earlier one if the motor can hold the load, if its build has
+/// fewer warnings, if a set screw or a horn holds it on its shaft, if the motor has more of its advised margin, and if
+/// fewer features are omitted, in this order. The choice keeps its room as body.room_diameter_mm, and has
 /// the pretension that keeps both tendons taut under the load if tendons and motor bear it.
 LayoutSearch choose_layout(const LayoutRequirements& requirements, const CandidateFile& file_of,
                            const RunContext& context);

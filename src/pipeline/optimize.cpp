@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "analysis/plausibility.h"
@@ -127,6 +128,23 @@ void search(SearchMethod method, const OptimizeOptions& options, const RunContex
   }
 }
 
+/// Moves the found designs to bounds within rounding, unless no pulley is possible there.
+void move_to_bounds(OptimizeResult& result) {
+  const optimize::Problem& problem = result.problem;
+  const auto moved = [&problem](const optimize::Design& design) -> std::optional<optimize::Design> {
+    optimize::Design at_bounds = optimize::moved_to_bounds(problem, design);
+    const bool is_same = at_bounds == design;
+    if (is_same || !optimize::evaluate_design(problem, problem.objectives.front(), at_bounds).possible)
+      return std::nullopt;
+    return at_bounds;
+  };
+  if (const auto design = moved(result.design)) result.design = *design;
+  if (auto* pareto = std::get_if<optimize::ParetoResult>(&result.search)) {
+    for (optimize::FrontPoint& point : pareto->front)
+      if (const auto design = moved(point.design)) point.design = *design;
+  }
+}
+
 /// File name of a point: point_001.toml …
 std::string point_name(std::size_t number) {
   const std::string digits = std::to_string(number);
@@ -184,6 +202,7 @@ OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& option
   result.before =
       optimize::evaluate(result.problem.objectives.front(), optimize::judged(result.problem, result.problem.base));
   if (!result.found) return result;
+  move_to_bounds(result);
   add_notes_on_turns(file, result);
   write_texts(file, options, *context.files, result);
   if (!options.dry_run) publish(options, front_folder, *context.files, result);

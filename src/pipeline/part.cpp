@@ -5,6 +5,7 @@
 #include "export/mesh_files/mesh_files.h"
 #include "fusee/export.h"
 #include "fusee/pipeline.h"
+#include "solid/conditions.h"
 
 namespace fusee::pipeline {
 namespace {
@@ -67,6 +68,16 @@ PartSize size_of(const Part& part, const std::vector<Check>& checks) {
   }
   if ((box.high - box.low).allFinite()) size.extent = box.high - box.low;
   return size;
+}
+
+std::optional<Check> room_check(const Mechanism& mechanism, const Part& part) {
+  const auto* mesh = std::get_if<solid::TriangleMesh>(&part);
+  if (mesh == nullptr || !(mechanism.body.room > 0)) return std::nullopt;
+  const double diameter = solid::diameter_about_axis(*mesh) * (1.0 - mechanism.material.shrinkage);
+  const profile::Condition room = solid::room_condition(mechanism, diameter);
+  Check check{"room_diameter", room.value, room.limit, room.unit, room.ok, {}};
+  if (!check.ok) check.where = "about the z axis, where fusee build puts the pulley's";
+  return check;
 }
 
 }  // namespace fusee::pipeline

@@ -212,6 +212,8 @@ constexpr int k_max_evaluations = 400;
 constexpr int k_max_sweep_evaluations = 5000;
 // Evaluations that are reserved for changes in pairs.
 constexpr int k_pair_evaluations = 150;
+// Evaluations of the drum of a torque law, after other numbers.
+constexpr int k_drum_evaluations = 80;
 // Number of the most helpful changes that are combined in pairs.
 constexpr std::size_t k_helpful = 4;
 
@@ -235,12 +237,13 @@ class AdviceSearch {
   /// magnitude, so that the nearest changes are found first. If none suffices, all over their whole range.
   std::vector<Change> alone() {
     std::vector<Change> found;
-    search(found, {k_sweep_ratio, HUGE_VAL, true});
-    search(found, {k_step_ratio, k_last_step, false});
+    search(found, {k_sweep_ratio, HUGE_VAL, &oracle_.first});
+    search(found, {k_step_ratio, k_last_step});
     if (found.empty()) {
       max_evaluations_ = oracle_.is_expensive ? k_max_evaluations - k_pair_evaluations : k_max_sweep_evaluations;
-      search(found, {k_sweep_ratio, HUGE_VAL, false});
+      search(found, {k_sweep_ratio, HUGE_VAL});
     }
+    add_drum(found);
     for (Change& change : found) add_end(change);
     return found;
   }
@@ -274,6 +277,19 @@ class AdviceSearch {
   }
 
  private:
+  /// Beside sufficient changes of other numbers, adds one of the drum that makes a torque law feasible: both pulleys grow
+  /// and shrink with it, and the part is often smaller than with a narrow range or another torque.
+  void add_drum(std::vector<Change>& found) {
+    static const std::vector<std::string> drum{"joint.drum_radius_mm"};
+    const bool is_found =
+        std::any_of(found.begin(), found.end(), [](const Change& change) { return change.key == drum.front(); });
+    const bool has_drum = mechanism_.pulley.law == Law::torque && mechanism_.joint.drum_radius > 0;
+    if (!has_drum || found.empty() || is_found) return;
+    sufficient_ = found.size() + 1;
+    max_evaluations_ = evaluations_ + k_drum_evaluations;
+    search(found, {k_sweep_ratio, HUGE_VAL, &drum});
+  }
+
   /// Sets the end of the values that suffice if it is near.
   void add_end(Change& change) const {
     const auto variable =
@@ -347,16 +363,16 @@ class AdviceSearch {
 
   /// Growing steps of a search.
   struct Steps {
-    double ratio;        ///< of a step to the one before
-    double end;          ///< steps stay below it; infinite: to the bounds of all numbers
-    bool is_first_only;  ///< only the numbers of FeasibilityOracle::first
+    double ratio;                                    ///< of a step to the one before
+    double end;                                      ///< steps stay below it; infinite: to the bounds of all numbers
+    const std::vector<std::string>* only = nullptr;  ///< only the numbers of these keys; null: all numbers
   };
 
   /// False for a variable that these steps leave out.
   bool is_searched(const SearchDirection& search, const Steps& steps) const {
-    return !steps.is_first_only || std::any_of(oracle_.first.begin(), oracle_.first.end(), [&](const std::string& key) {
-      return search.variable->key == key || search.variable->key.starts_with(key + "[");
-    });
+    return steps.only == nullptr || std::any_of(steps.only->begin(), steps.only->end(), [&](const std::string& key) {
+             return search.variable->key == key || search.variable->key.starts_with(key + "[");
+           });
   }
 
   /// Advances all variables step by step. A variable with a change is finished.

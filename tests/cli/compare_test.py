@@ -35,7 +35,8 @@ class Compare(harness.Scratch):
         self.assertIn("backlash", change["group"])
         width = change["parameters"]["width_deg"]
         self.assertAlmostEqual(width["change"], 2.0, delta=0.2)
-        self.assertAlmostEqual(width["after"] - width["before"], width["change"], places=6)
+        # Three numbers of six digits, each rounded by half of the fifth decimal at most.
+        self.assertAlmostEqual(width["after"] - width["before"], width["change"], delta=1.5e-5)
         self.assertLess(width["ci95"][0], 2.0)
         self.assertGreater(width["ci95"][1], 2.0)
         self.assertLess(document["difference"]["after_rms_deg"], 0.5 * document["difference"]["before_rms_deg"])

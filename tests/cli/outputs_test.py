@@ -135,6 +135,22 @@ class Build(harness.Scratch):
         for axis, size in zip((x, y, z), self.expect_json("check inches.stl", 0)["size_mm"]):
             self.assertAlmostEqual(axis / 25.4, size, 5)
 
+    def test_check_tests_room_of_mechanism(self):
+        self.build("p")
+        room = "check p/pulley.stl --mechanism arm.toml --set body.room_diameter_mm="
+        size = self.expect_json("build arm.toml --dry-run", 0)["size_mm"]["diameter"]
+        self.expect(f"{room}{size + 1}", 0, r"room_diameter .*\n\nvalid")
+        document = self.expect_json(f"{room}{size - 1}", 5)
+        (check,) = [check for check in document["checks"] if check["name"] == "room_diameter"]
+        self.assertAlmostEqual(check["value"], size, 2)
+        self.assertEqual((check["limit"], check["ok"]), (size - 1, False))
+        # Print shrinkage is compensated in the mesh: the part's size counts.
+        self.expect("build arm.toml --set material.shrinkage_percent=2 -o large", 0)
+        self.expect(f"check large/pulley.stl --mechanism arm.toml --set material.shrinkage_percent=2 --set body.room_diameter_mm={size + 0.01}", 0)
+        self.expect(f"check large/pulley.stl --mechanism arm.toml --set body.room_diameter_mm={size + 0.01}", 5, "room_diameter", "about the z axis")
+        self.expect("check p/pulley.stl --mechanism arm.toml", 0, "valid", "arm.toml: note: the room is not tested: the file has no")
+        self.expect("check p/plates.dxf --mechanism arm.toml --set body.room_diameter_mm=5", 0, "valid", "note: the room is not tested: the outlines")
+
     def move(self, source, target, turn=0.0, by=(0.0, 0.0, 0.0), scale=1.0, mirror=1, keep=lambda z: True):
         """Moves a binary STL as a slicer does: mirrored in x (mirror=-1), turned about z (deg), scaled, then shifted (mm).
         Keeps only facets whose corners all have a z that `keep` accepts."""

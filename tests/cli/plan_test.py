@@ -35,6 +35,13 @@ class Plan(harness.Scratch):
         self.assertNotRegex(files["plan.html"].decode(), r'(src|href)=|http://(?!www\.w3\.org)|https://')
         self.assertEqual(files["plan.html"].decode().count('class="box"'), len(written["steps"]))
 
+    def test_page_of_inch_file_is_in_inches(self):
+        (self.folder / "inch.toml").write_bytes(self.fusee("new finger_mcp --set units=inch").stdout)
+        self.expect("plan inch.toml -o bench --loads 0,5", 0)
+        page = (self.folder / "bench/plan.html").read_text()
+        self.assertRegex(page, r"a disc of radius 1\.\d+ in on the joint")
+        self.assertNotRegex(page, r"\d mm\b")
+
     def test_is_reproducible(self):
         self.expect("plan arm.toml -o one", 0)
         os.environ["TZ"] = "Pacific/Chatham"

@@ -125,7 +125,7 @@ class Questions(harness.Scratch):
         self.assertIn("Motor: NEMA 17 stepper, D shaft.", text.replace("\n# ", " "))
 
     def test_pulley_keeps_its_features_where_there_is_room(self):
-        # With 2 N an N20 needs no reduction; with 5 N it needs a pulley that is too small for a set screw.
+        # With 2 N an N20 needs no reduction; with 5 N it needs a pulley with the smallest set screw only.
         for length, span, room, load, motor in (("45", "0 80", "30", "2 N", "n20-d3"), ("45", "0 80", "25", "2 N", "n20-d3"),
                                                 ("60", "-45 45", "30", "5 N", "5 mm D"), ("40", "±90", "40", "5 N", "nema17-d5"),
                                                 ("30", "0 90", "30", "5 N", "3 mm")):
@@ -205,6 +205,43 @@ class Questions(harness.Scratch):
         out, err = self.ask(answers("elbow", "250 mm", "±60", "12 mm", "20 kg", "NEMA17-48mm", "1 mm"), 4, "new --ask --set motor.enforce=true")
         self.assertIn("no layout fits these answers", err)
         self.assertNotIn("no limit to enforce", err)
+
+    def test_pulley_is_held_on_its_shaft(self):
+        # A pulley of several turns is smaller, and has no space for a hub with a set screw.
+        for load, costs_torque in (("5 N", False), ("7 N", False), ("10 N", True), ("12 N", True)):
+            text, asked = self.ask(answers(load=load))
+            self.builds(text, 30)
+            self.assertNotIn("set screw omitted", self.expect("build asked.toml --dry-run", 0).stderr.decode(), load)
+            self.assertEqual("the set screw costs torque: a smaller pulley without one would require " in asked, costs_torque, load)
+            self.assertEqual("the set screw costs torque" in text.replace("\n# ", " "), costs_torque)
+            self.assertRegex(asked, r"has margin 1\.\d+, and 2 is advised|suitable: N20")
+        # No set screw fits this room.
+        asked = self.ask(answers(room="9 mm", load="0.5 N"))[1]
+        self.assertIn("warning: nothing holds the pulley on its shaft", asked)
+
+    def test_refusal_names_least_torque_of_layouts(self):
+        out, err = self.ask(answers(load="20 N", motor="N20-298-LP"), 4, "new --ask --set motor.enforce=true")
+        self.assertEqual(out, "")
+        found = re.search(r"N20-298-LP stalls at [\d.]+ Nmm, and the load requires ([\d.]+) Nmm .*, the least of the \d layouts", err)
+        self.assertTrue(found, err)
+        # Without the limit, the choice requires no less.
+        self.ask(answers(load="20 N", motor="N20-298-LP"))
+        chosen = self.ask(answers(load="20 N"))[1]
+        self.assertLessEqual(float(found[1]), float(re.search(r"motor has to hold ([\d.]+) Nmm", chosen)[1]) * 1.01)
+
+    def test_travel_is_that_of_the_motor_before_its_gearbox(self):
+        begun = ("a", "250", "±60", "80", "2 kg")
+        self.assertIn("turns the pulley 180 deg", self.understood(*begun, "NEMA17-48mm 5:1, 8 mm D, 900 deg")[0])
+        for words, motor in (("new --ask", "NEMA17-48mm 5:1, 8 mm D, 900 deg"),
+                             ("new --ask --set motor.travel_deg=900", "NEMA17-48mm 5:1, 8 mm D"),
+                             ("new --ask --set motor.travel_deg=900 --set motor.gear_ratio=5", "NEMA17-48mm")):
+            text, _ = self.ask(answers("elbow", "250", "±60", "80", "2 kg", motor, "1"), words=words)
+            self.assertEqual(tomllib.loads(text)["motor"]["travel_deg"], 900)
+            document = self.builds(text, 80)
+            self.assertLessEqual(document["alpha_deg"][1] - document["alpha_deg"][0], 180)
+            self.assertEqual(document["motor"]["travel"]["limit_deg"], 180)
+            analysis = self.expect_json("analyze asked.toml", 0)
+            self.assertEqual(analysis["motor"]["travel"]["limit_deg"], 180)
 
     def test_gearbox_multiplies_torque(self):
         begun = ("a", "250", "±60", "80", "2 kg")

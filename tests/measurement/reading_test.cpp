@@ -337,11 +337,12 @@ TEST(LoggedAngles, TakeUnitFromName) {
        {AngleNames{"alpha [rad]", "theta [rad]", radians(1.0)}, AngleNames{"alpha_rad", "theta_rad", radians(1.0)},
         AngleNames{"Alpha (deg)", "Theta (deg)", 1}, AngleNames{"alpha [\xC2\xB0]", "theta in \xC2\xB0", 1},
         AngleNames{"alpha_mdeg", "theta_mdeg", 1000}, AngleNames{"alpha_turns", "theta [rev]", 1.0 / 360},
-        AngleNames{"alphaMrad", "theta mrad", 1000 * radians(1.0)}}) {
+        AngleNames{"alphaMrad", "theta mrad", 1000 * radians(1.0)}, AngleNames{"alpha_arcmin", "theta [arcsec]", 0},
+        AngleNames{"alpha_gon", "theta_gon", 1 / 0.9}, AngleNames{"alpha [gradi]", "theta [grados]", 1}}) {
     const std::string header = std::string("time_s,") + written.alpha + "," + written.theta;
-    expect_motion(read(table(header, {seconds(), scaled(alpha_of, written.per_degree, 9),
-                                      scaled(theta_of, written.per_degree, 9)}))
-                      .run);
+    const double of_alpha = written.per_degree > 0 ? written.per_degree : 60;  // arc minutes
+    const double of_theta = written.per_degree > 0 ? written.per_degree : 3600;
+    expect_motion(read(table(header, {seconds(), scaled(alpha_of, of_alpha, 9), scaled(theta_of, of_theta, 9)})).run);
   }
   expect_motion(
       read(table("time_s,motor,joint", {seconds(), scaled(alpha_of, radians(1.0), 9), scaled(theta_of, 1000, 3)}),
@@ -428,6 +429,11 @@ TEST(LoggedAngles, InferUnitFromDeclaredRange) {
       with_columns({{"alpha", "motor_position"}, {"theta", "joint_position"}}));
   EXPECT_NEAR(ros.run.samples[20].alpha, 0.2 * alpha_of(20), 1e-6);
   EXPECT_THAT(ros.notes, HasSubstr("alpha taken as rad"));
+  // A joint does not turn ten times.
+  const ReadRun servos = read(table("time_s,position,joint_position", {seconds(), alpha(), theta()}),
+                              with_columns({{"alpha", "position"}, {"theta", "joint_position"}}));
+  expect_motion(servos.run);
+  EXPECT_THAT(servos.notes, HasSubstr("alpha taken as deg"));
 }
 
 // ---- loads ----------------------------------------------------------------------------------------------------------
@@ -590,6 +596,8 @@ TEST(ColumnNames, ChooseAnglesByWords) {
            {"time_s,Motor,Gelenk", "Motor", "Gelenk"},
            {"Zeit,Motor,Gelenk", "Motor", "Gelenk"},
            {"temps,moteur,articulation", "moteur", "articulation"},
+           {"tempo,motore,giunto", "motore", "giunto"},
+           {"tijd,motorhoek,gewrichtshoek", "motorhoek", "gewrichtshoek"},
            {"tiempo,motor,articulaci\xC3\xB3n", "motor", "articulaci\xC3\xB3n"},
            {"time_s,servo,pot", "servo", "pot"},
            {"time_s,servo_cmd,joint", "servo_cmd", "joint"},
@@ -616,6 +624,22 @@ TEST(ColumnNames, ChooseAnglesByWords) {
     stamped += "10:00:" + fixed(10 + time_of(row), 3) + " -> " + alpha()(row) + "," + theta()(row) + "\n";
   EXPECT_TRUE(read(stamped).run.has_time);
   expect_motion(read(stamped).run);
+}
+
+TEST(ColumnNames, ReadGreekLettersAndClocks) {
+  const ReadRun greek = read(table("t [s],\u03B1 [\u00B0],\u03B8 [\u00B0]", {seconds(), alpha(), theta()}));
+  expect_motion(greek.run);
+  EXPECT_TRUE(greek.run.has_time);
+  const auto scaled_time = [](double size) { return [size](int row) { return whole(size * time_of(row)); }; };
+  for (const auto& [clock, size] : std::vector<std::pair<std::string, double>>{
+           {"millis", 1e3}, {"millis()", 1e3}, {"micros", 1e6}, {"ms", 1e3}, {"t_us", 1e6}}) {
+    const ReadRun read_clock = read(table(clock + ",motor_deg,joint_deg", {scaled_time(size), alpha(), theta()}));
+    expect_motion(read_clock.run);
+    EXPECT_TRUE(read_clock.run.has_time) << clock;
+    EXPECT_NEAR(read_clock.run.samples[100].time - read_clock.run.samples[0].time, 2.0, 1e-9) << clock;
+  }
+  const auto stamp = [](int row) { return "01.11.2026 10:00:" + fixed(10 + time_of(row), 3); };
+  EXPECT_TRUE(read(table("Zeitstempel,alpha_deg,theta_deg", {stamp, alpha(), theta()})).run.has_time);
 }
 
 TEST(ColumnNames, ChooseAnglesAboveDecimalCommas) {
@@ -759,6 +783,28 @@ TEST(LoggedText, ReadsTypesetNumbers) {
     expect_motion(read(text).run);
   }
   EXPECT_THAT(error_of("alpha_deg;theta_deg\n1 2;3\n"), HasSubstr("\"1 2\" is not a number"));
+}
+
+TEST(LoggedText, ReadsBarsAndBlanksOfSpreadsheets) {
+  expect_motion(read(table("time_s|alpha_deg|theta_deg", {seconds(), alpha(), theta()}, '|')).run);
+  const auto blank_after = [](int row) { return number(alpha_of(row)) + "\u00A0"; };
+  const auto blank_before = [](int row) { return "\u00A0" + number(theta_of(row)); };
+  expect_motion(read(table("time_s;alpha_deg;theta_deg", {seconds(), blank_after, blank_before}, ';')).run);
+}
+
+TEST(LoggedText, NamesFormatThatIsNoTable) {
+  for (const auto& [text, words] : std::vector<std::pair<std::string, std::string>>{
+           {"{\"alpha_deg\": 1.5, \"theta_deg\": 0.7}\n{\"alpha_deg\": 2.5, \"theta_deg\": 1.2}\n",
+            "is JSON and no table"},
+           {"[{\"alpha_deg\": 1.5, \"theta_deg\": 0.7}]\n", "is JSON and no table"},
+           {"<table><tr><th>alpha_deg</th></tr></table>\n", "is XML or HTML and no table"},
+           {">alpha:1.5\n>theta:0.7\n", "each value follows its name, as in \"alpha:1.5\""},
+           {"t=0.1 alpha=1.5 theta=0.7\n", "each value follows its name, as in \"t=0.1\""},
+           {"alpha_deg:1.5,theta_deg:0.7\n", "each value follows its name, as in \"alpha_deg:1.5\""}}) {
+    const std::string error = error_of(text);
+    EXPECT_THAT(error, HasSubstr(words));
+    EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 2) << error;  // one message with its hint
+  }
 }
 
 TEST(LoggedText, ReadsMissingValues) {

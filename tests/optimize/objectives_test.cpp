@@ -144,6 +144,15 @@ TEST(Problem, AppliesTiesAndConstraints) {
   EXPECT_FALSE(evaluate_design(problem, Objective::max_tension, {200, 110, 10}).possible);
 }
 
+// An optimum at the bound of a constraint was written as EB_mm = 49.99999999999999.
+TEST(Problem, MovesNumbersToBoundsWithinRounding) {
+  const Problem problem = paper_problem();
+  EXPECT_EQ(moved_to_bounds(problem, {100.00000000000001, 49.99999999999999, -39.99999999999999}),
+            (Design{100, 50, -40}));
+  EXPECT_EQ(moved_to_bounds(problem, {200, 99.99999999999999, 10}), (Design{200, 100, 10}));
+  EXPECT_EQ(moved_to_bounds(problem, {200, 99.9999, 10.000001}), (Design{200, 99.9999, 10.000001}));
+}
+
 TEST(Problem, RejectsVariableWithoutEffect) {
   const auto message = [](const std::vector<Setting>& settings) {
     try {

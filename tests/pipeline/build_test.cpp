@@ -463,4 +463,21 @@ std::vector<fs::path> profiles() {
 INSTANTIATE_TEST_SUITE_P(Each, Profiles, ::testing::ValuesIn(profiles()),
                          [](const auto& profile) { return profile.param.stem().string(); });
 
+// Range and torque suffice first, with a part of 167 mm. A smaller drum makes one of 106 mm.
+TEST_F(Build, AdvisesDrumRadiusOfTorqueLaw) {
+  const std::vector<Setting> settings{
+      {"joint.length_mm", "300"}, {"load.lever_mm", "300"}, {"load.mass_kg", "1"}, {"joint.range_deg", "[-60, 60]"}};
+  file_ = read_mechanism(k_profiles / "gravity_arm.toml", settings);
+  options_.dry_run = true;
+  const pipeline::BuildResult refused = pipeline::build(file_, options_);
+  ASSERT_EQ(refused.status, pipeline::BuildStatus::infeasible);
+  std::vector<std::string> keys;
+  for (const profile::Change& change : refused.advice.alone) keys.push_back(change.key);
+  ASSERT_THAT(keys, ::testing::ElementsAre("joint.range_deg", "pulley.motor_torque_Nmm", "joint.drum_radius_mm"));
+  file_.mechanism.joint.drum_radius = refused.advice.alone.back().to;
+  const pipeline::BuildResult built = pipeline::build(file_, options_);
+  EXPECT_EQ(built.status, pipeline::BuildStatus::done);
+  EXPECT_LT(solid::diameter_about_axis(built.product.pulley.mesh), 110.0);
+}
+
 }  // namespace

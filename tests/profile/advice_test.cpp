@@ -203,6 +203,22 @@ TEST(Advice, IsExhaustedOnlyAtBoundsOfAllNumbers) {
   EXPECT_FALSE(find_advice(testing::forearm(), unmakeable).is_exhausted);
 }
 
+TEST(Advice, AddsDrumOfTorqueLawBesideOthers) {
+  const FeasibilityOracle judge{
+      [](const Mechanism& m) {
+        return fails_by(std::min({m.joint.R - 90, 93 - m.pulley.EF, m.joint.drum_radius - 12}));
+      },
+      [](const Mechanism&) { return true; }};
+  Mechanism mechanism = testing::forearm();
+  mechanism.joint.drum_radius = 25;
+  EXPECT_EQ(find_advice(mechanism, judge).alone.size(), 2U);
+  mechanism.pulley.law = Law::torque;
+  mechanism.pulley.motor_torque = 1000;
+  const Advice advice = find_advice(mechanism, judge);
+  ASSERT_EQ(advice.alone.size(), 3U);
+  EXPECT_EQ(advice.alone.back().text, "joint.drum_radius_mm ≤ 12 mm");
+}
+
 TEST(Advice, PutsTypedNumberFirst) {
   FeasibilityOracle judge{[](const Mechanism& m) { return fails_by(std::min(m.pulley.r1 - 15, 800 - m.guides.EB)); },
                           [](const Mechanism&) { return true; }};
