@@ -6,7 +6,7 @@ add_custom_target(portable
   COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DNAME=${portable} -DMODULES=${FUSEE_MODULES}
           -P ${CMAKE_CURRENT_LIST_DIR}/make_portable.cmake
   USES_TERMINAL VERBATIM)
-add_dependencies(portable fusee_cli)
+add_dependencies(portable fusee_cli fusee_share)
 foreach(module IN ITEMS fusee_step fusee_evolution_module)
   if(TARGET ${module})
     add_dependencies(portable ${module})

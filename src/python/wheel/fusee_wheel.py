@@ -135,7 +135,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     with zipfile.ZipFile(Path(wheel_directory) / wheel, "w", zipfile.ZIP_DEFLATED) as packed:
         for path, data in members.items():
             entry = zipfile.ZipInfo(path)  # dated 1980, so that equal input gives equal bytes
-            entry.external_attr = (0o755 if path.endswith("bin/fusee") or ".so" in path else 0o644) << 16
+            entry.external_attr = (0o100755 if path.endswith("bin/fusee") or ".so" in path else 0o100644) << 16  # pip asks for a regular file
             entry.compress_type = zipfile.ZIP_DEFLATED
             packed.writestr(entry, data)
     return wheel
