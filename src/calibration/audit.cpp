@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 
+#include "base/normal_numbers.h"
 #include "calibration/thresholds.h"
 
 // Synthetic data: the declared joint with all found effects but one, logged as these runs were, with their noise. One
@@ -60,7 +60,7 @@ class Auditor {
   };
   using Set = std::vector<std::size_t>;
   SyntheticDataset synthesize(std::size_t found, std::size_t number) const;
-  Eigen::VectorXd noise(std::mt19937_64& random) const;
+  Eigen::VectorXd noise(NormalNumbers& normal) const;
   TangentSums sums(const SyntheticDataset& data, const Set& set) const;
   double penalty(const Set& set) const;
   LinearizedSet evaluate(const SyntheticDataset& data, const Set& set) const;
@@ -121,25 +121,23 @@ Auditor::Auditor(const Evidence& evidence, FitterPool& pool, const Selection& se
 }
 
 /// Noise of the size and autocorrelation of these runs.
-Eigen::VectorXd Auditor::noise(std::mt19937_64& random) const {
-  std::normal_distribution<double> normal;
+Eigen::VectorXd Auditor::noise(NormalNumbers& normal) const {
   const double colour = (1.0 - evidence_model_.independent_share()) / (1.0 + evidence_model_.independent_share());
   const double size = selection_.best.posterior.amplitudes.noise;
   Eigen::VectorXd noise(all_.rows());
   Eigen::Index row = 0;
   for (const Block& block : evidence_.blocks) {
-    double last = normal(random);
+    double last = normal.next();
     for (std::size_t i = 0; i < block.rows.size(); ++i, ++row) {
       noise[row] = size * last;
-      last = colour * last + std::sqrt(1.0 - colour * colour) * normal(random);
+      last = colour * last + std::sqrt(1.0 - colour * colour) * normal.next();
     }
   }
   return noise;
 }
 
 Auditor::SyntheticDataset Auditor::synthesize(std::size_t found, std::size_t number) const {
-  std::mt19937_64 random(1000003ULL * (found + 1) + number);
-  std::normal_distribution<double> normal;
+  NormalNumbers normal(1000003ULL * (found + 1) + number);
   const std::vector<Family>& families = evidence_model_.discrepancy().families;
   SyntheticDataset data;
   data.start = evidence_model_.first_guess();
@@ -153,7 +151,7 @@ Auditor::SyntheticDataset Auditor::synthesize(std::size_t found, std::size_t num
     if (families[f].fixed > 0) continue;
     amplitude = keep(f) ? std::max(amplitude, evidence_model_.floor()) : 0.0;
   }
-  Eigen::VectorXd z = noise(random);
+  Eigen::VectorXd z = noise(normal);
   double size = 0;
   for (const ChordColumns& one : chords_) {
     if (one.count == 0 || !contains(selection_.best.effects, *one.effect)) continue;
@@ -170,10 +168,10 @@ Auditor::SyntheticDataset Auditor::synthesize(std::size_t found, std::size_t num
                                  ? family.fixed * deflection_ratio_
                                  : selection_.best.posterior.amplitudes.families[static_cast<Eigen::Index>(f)];
     if (!(amplitude > 0)) continue;
-    for (Eigen::Index k = 0; k < family.count; ++k) z += amplitude * normal(random) * all_.col(own_ + family.first + k);
+    for (Eigen::Index k = 0; k < family.count; ++k) z += amplitude * normal.next() * all_.col(own_ + family.first + k);
   }
   const double found_size = size;
-  size *= elementary::exp(0.5 * normal(random));
+  size *= elementary::exp(0.5 * normal.next());
   std::vector<std::size_t> others, shapes;
   for (std::size_t i = 0; i < chords_.size(); ++i) {
     // Equally likely rivals are members of the group already.
@@ -192,7 +190,7 @@ Auditor::SyntheticDataset Auditor::synthesize(std::size_t found, std::size_t num
     const ChordColumns& other = chords_[others[(number / 4) % others.size()]];
     Eigen::VectorXd part = Eigen::VectorXd::Zero(all_.rows());
     for (Eigen::Index k = 0; k < other.count; ++k)
-      part += prior_[other.first + k] * normal(random) * all_.col(other.first + k);
+      part += prior_[other.first + k] * normal.next() * all_.col(other.first + k);
     z += part;
     if (rms_of(part) > k_as_large * found_size) data.true_cause = other.effect;
     if (kind == 2) data.excluded = other.effect;
@@ -200,7 +198,7 @@ Auditor::SyntheticDataset Auditor::synthesize(std::size_t found, std::size_t num
     const std::size_t f = shapes[(number / 4) % shapes.size()];
     const Family& family = families[f];
     Eigen::VectorXd part = Eigen::VectorXd::Zero(all_.rows());
-    for (Eigen::Index k = 0; k < family.count; ++k) part += normal(random) * all_.col(own_ + family.first + k);
+    for (Eigen::Index k = 0; k < family.count; ++k) part += normal.next() * all_.col(own_ + family.first + k);
     z += part * (size / std::max(1e-12, rms_of(part)));
     data.start.families[static_cast<Eigen::Index>(f)] = std::max(size, evidence_model_.floor());
   }

@@ -70,6 +70,8 @@ ANY_WORD = re.compile("|".join(rf"(?<!-)\b(?:{expression})\b" for expression in 
 
 #: Their digits depend on the machine.
 ELEMENTARY = re.compile(r"std::(a?(?:sin|cos|tan)h?|atan2|exp|log|log1p|log10|pow|hypot)\b")
+#: The standard leaves their numbers to each library.
+DISTRIBUTION = re.compile(r"std::(\w+_distribution|shuffle|sample|generate_canonical|default_random_engine)\b")
 COMPUTING = ("src/", "export/", "include/")
 
 CPP_COMMENT = re.compile(r"\s*//[/!]?(?!<)\s?(.*)")
@@ -204,11 +206,23 @@ def elementary_faults(lines):
             yield number, f"'{match[0]}' differs between machines", f"elementary::{match[1]}"
         if "std::stod(" in line:
             yield number, "'std::stod' reads the decimal point of the locale", "number_of"
+        for match in DISTRIBUTION.finditer(line.partition("//")[0]):
+            yield number, f"'{match[0]}' differs between standard libraries", "NormalNumbers, or a share of the generator's bits"
+
+
+def tracked(root, under):
+    """The files that git tracks; None without git or outside of a repository."""
+    try:
+        listed = subprocess.run(["git", "-C", root, "ls-files", *under], capture_output=True, text=True)
+    except FileNotFoundError:
+        return None
+    return listed.stdout.splitlines() if listed.returncode == 0 else None
 
 
 def files(root, under=()):
-    listed = subprocess.run(["git", "-C", root, "ls-files", *under], capture_output=True, text=True)
-    names = listed.stdout.splitlines() if listed.returncode == 0 else [str(path.relative_to(root)) for path in root.rglob("*") if path.is_file()]
+    names = tracked(root, under)
+    if names is None:  # an archive
+        names = [str(path.relative_to(root)) for top in root.iterdir() if top.name != "build" for path in (top.rglob("*") if top.is_dir() else [top]) if path.is_file()]
     for name in names:
         path = Path(name)
         if name.startswith((*PENDING, *EXEMPT)) or name in GENERATED or path.suffix not in KINDS:
@@ -257,6 +271,7 @@ class Words(unittest.TestCase):
     def test_detects_functions_of_the_machine(self):
         self.assertEqual([number for number, _, _ in elementary_faults(["elementary::sin(x);", "y = std::atan2(a, b) + std::sqrt(c);"])], [2])
         self.assertEqual([number for number, _, _ in elementary_faults(["number_of(text);", "std::atanh(x);", "std::stod(text);"])], [2, 3])
+        self.assertEqual([number for number, _, _ in elementary_faults(["std::mt19937_64 bits(1);", "std::normal_distribution<double> normal;", "std::shuffle(a, b, bits);  // std::sample"])], [2, 3])
 
     def test_detects_titles(self):
         self.assertEqual(len(self.refused(".cpp", "TEST(Part, WhatIsMade) {\n")), 1)
