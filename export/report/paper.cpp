@@ -165,8 +165,8 @@ std::string laws_section(const paper::Reproduction& all) {
                  fixed(law.tension, 4), rounded(law.torque) + " mm", rounded(law.torque_ripple, 3)});
   }
   return text +
-         "\nA negative bend radius is a concave place, which no tendon follows: with these r1 and EF the pulley "
-         "cannot be made.\n";
+         "\nA negative bend radius is a concave place, which no tendon follows: with these r1 and EF, and a tendon "
+         "without thickness, the pulley cannot be made.\n";
 }
 
 std::string figures_section(const paper::Reproduction& all) {

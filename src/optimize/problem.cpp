@@ -189,7 +189,7 @@ Design moved_to_bounds(const Problem& problem, Design design) {
         if (j != i) remainder -= constraint.a[j] * design[j];
       }
       const double bound = remainder / constraint.a[i];
-      // Of the numbers in a constraint, the one with the rounding error moves, and not the round one.
+      // The number of a constraint that has the rounding error moves, not the round one.
       if (is_near(design[i], bound) && digits(bound) < digits(design[i])) design[i] = bound;
     }
   }

@@ -360,8 +360,8 @@ Rank rank_of(const formats::Product& product) {
   return rank;
 }
 
-/// The same with the smallest set screw in a thread of the hub: the hub that it requires has precedence over marks and
-/// slots. Empty if the pulley has a set screw or must not have one, or if that hub does not fit.
+/// Declares the smallest set screw in a thread of the hub: the hub that it requires has precedence over marks and slots.
+/// Empty if the pulley has a set screw or must not have one, or if that hub does not fit.
 std::optional<DeclaredMechanism> with_small_screw(const DeclaredMechanism& declared, const Rank& planned) {
   if (planned.loose == 0 || declared.body.set_screw != "auto" || declared.body.hub_diameter > 0) return std::nullopt;
   DeclaredMechanism changed = declared;

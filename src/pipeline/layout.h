@@ -36,7 +36,7 @@ struct ChosenLayout {
   /// About a pretension that keeps both tendons taut under the load; "" if the usual one does.
   std::string pretension_words;
   bool is_held = true;  ///< by a set screw or a horn, or as the file wants it
-  /// What a pulley that is held on its shaft costs, or why nothing holds it; "" if it costs nothing.
+  /// Price of holding the pulley on its shaft, or the reason why nothing holds it; "" without a price.
   std::string price_words;
 };
 

@@ -9,6 +9,7 @@
 #include <stop_token>
 #include <tuple>
 
+#include "base/text.h"
 #include "fusee/joint.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
@@ -63,7 +64,7 @@ CarriedMechanism read(const std::string& path, const std::vector<std::pair<std::
 
 /// The number as in the file, without rounding errors of radians.
 py::object number(const Field& field, const DeclaredMechanism& mechanism, int end) {
-  const double value = number_of(number_text(field, mechanism, end));
+  const double value = fusee::number_of(number_text(field, mechanism, end));
   if (field.whole) return py::int_(static_cast<long long>(value));
   return py::float_(value);
 }

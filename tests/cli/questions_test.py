@@ -229,7 +229,7 @@ class Questions(harness.Scratch):
         chosen = self.ask(answers(load="20 N"))[1]
         self.assertLessEqual(float(found[1]), float(re.search(r"motor has to hold ([\d.]+) Nmm", chosen)[1]) * 1.01)
 
-    def test_travel_is_that_of_the_motor_before_its_gearbox(self):
+    def test_travel_is_of_the_motor_before_its_gearbox(self):
         begun = ("a", "250", "±60", "80", "2 kg")
         self.assertIn("turns the pulley 180 deg", self.understood(*begun, "NEMA17-48mm 5:1, 8 mm D, 900 deg")[0])
         for words, motor in (("new --ask", "NEMA17-48mm 5:1, 8 mm D, 900 deg"),
