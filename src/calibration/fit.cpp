@@ -548,7 +548,7 @@ std::vector<Fit> Fitter::add_chords_of_starts(const Fit& fit, const fusee::Effec
 
 FitterPool::FitterPool(const Evidence& evidence, std::stop_token stop) : evidence_(evidence), stop_(std::move(stop)) {
   for (unsigned i = 0; i < ThreadPool::shared().threads(); ++i)
-    forwards_.emplace_back(*evidence.declared, evidence.log, evidence.earlier);
+    forwards_.emplace_back(*evidence.declared, evidence.log, evidence.earlier).serve_fits();
 }
 
 void FitterPool::each(std::size_t count, const std::function<void(const Fitter&, std::size_t)>& job,

@@ -613,10 +613,7 @@ struct JointMotion::State {
   double theta = 0;
   bool loose = false;          ///< the joint was loose at the last step
   double dry = 0;              ///< limit of the dry friction on the joint, N·mm
-  double alpha = 0;            ///< at the last step, rad
-  double turned = 0;           ///< change of α in the last step, rad
   double expected = 0;         ///< model.expected at the last step
-  double departure_slope = 0;  ///< change of θ − model.expected in the last step, per α
   double wound_energy = 0;     ///< energy wound onto the pulleys since home, N·mm
   double home_energy = 0;      ///< energy of the spans at home, N·mm
   double friction = 0;         ///< EquilibriumPoint::friction at the last step
@@ -626,8 +623,6 @@ struct JointMotion::State {
   /// Torque of the tendons minus that of the load, towards +θ.
   Residual residual(const std::array<Trial, 2>& trials, const JointStep& step, double at_theta) const;
   std::array<Trial, 2> trials(const std::array<TendonAtAlpha, 2>& at, double at_theta) const;
-  double predicted(double at_alpha, double expected_there) const;
-  void remember_step(double to_alpha, double expected_there, double found);
   std::optional<RestState> solve_theta(const std::array<TendonAtAlpha, 2>& at, const JointStep& step, double start,
                                        double last_step) const;
   std::optional<RestState> solve_coupled(std::array<TendonAtAlpha, 2>& at, const JointStep& step, double start);
@@ -647,21 +642,6 @@ JointMotion::State::State(JointModel joint) : model(std::move(joint)) {
   expected = model.expected(0.0);
   dry = model.dry_friction(model.pretension, model.pretension * arm1 / arm2);
   for (const TendonHistory& tendon : tendons) home_energy += energy_of_spans(tendon, model);
-}
-
-/// θ at which a search starts: the departure from the expected angle continues its trend in one direction of α.
-double JointMotion::State::predicted(double at_alpha, double expected_there) const {
-  const double turns = at_alpha - alpha;
-  const double trend = turns * turned > 0 ? departure_slope * turns : 0.0;
-  return theta + expected_there - expected + trend;
-}
-
-/// Keeps what predicted() needs.
-void JointMotion::State::remember_step(double to_alpha, double expected_there, double found) {
-  turned = to_alpha - alpha;
-  departure_slope = turned != 0 ? (found - theta - (expected_there - expected)) / turned : 0.0;
-  alpha = to_alpha;
-  expected = expected_there;
 }
 
 std::array<Trial, 2> JointMotion::State::trials(const std::array<TendonAtAlpha, 2>& at, double at_theta) const {
@@ -693,7 +673,7 @@ std::optional<RestState> JointMotion::State::solve_theta(const std::array<Tendon
     const double here = unbalanced(theta).value;
     if (std::abs(here) <= dry) return RestState{theta, 0, true};
     friction_torque = std::copysign(dry, here);
-    if (loose) start = theta;
+    if (loose || dry > 0) start = theta;
   }
   const auto found = find_root(start, model.theta_least, model.theta_most, last_step, unbalanced);
   if (!found) return std::nullopt;
@@ -859,9 +839,9 @@ EquilibriumPoint JointMotion::to(const JointStep& step) {
   // Beyond the law's range nothing is expected: the search starts from the present angle.
   const double known = model.expected(step.alpha);
   const double expected = std::isfinite(known) ? known : state.expected;
-  const auto rest = state.solve_with_friction(at, step, state.predicted(step.alpha, expected));
+  const auto rest = state.solve_with_friction(at, step, state.theta + expected - state.expected);
   if (!rest) return state.without_equilibrium(step);
-  state.remember_step(step.alpha, expected, rest->theta);
+  state.expected = expected;
   state.released = step.tendon.released;
   return state.accept(at, step, *rest);
 }

@@ -18,6 +18,9 @@ namespace {
 /// home is the simplest assumption.
 constexpr int k_approach = 24;
 
+/// Convergence limit for θ in fits: a hundredth of the finest sensor noise. rad
+constexpr double k_last_step_of_fits = 1e-7;
+
 /// Motions in the cache of a joint. Each takes 16 bytes a row.
 constexpr std::size_t k_most_motions = 512;
 
@@ -184,6 +187,7 @@ JointMotion Forward::at_home(const Imperfections& errors) {
   }
   JointModel model = *known->model;
   set_imperfect_statics(model, declared_, errors);
+  if (is_for_fits_) model.last_step = k_last_step_of_fits;
   return JointMotion(std::move(model));
 }
 

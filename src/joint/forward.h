@@ -48,6 +48,9 @@ class Forward {
   /// With runs of an earlier state, if any: imperfections are then added to it and act only in the later runs.
   Forward(const Mechanism& declared, const BenchLog& log, const std::optional<EarlierState>& earlier);
 
+  /// Seeks equilibria less accurately from now on, in less time.
+  void serve_fits() { is_for_fits_ = true; }
+
   /// Readings of the joint sensor. NaN without an equilibrium. With both tendons slack: the angle to which the joint
   /// was last pushed.
   Readings operator()(const Imperfections& imperfections);
@@ -96,8 +99,9 @@ class Forward {
   std::optional<EarlierState> earlier_;
   std::optional<Motion> earlier_motion_;  ///< all runs in the earlier state
   double first_temperature_ = 0;          ///< °C
-  std::optional<MadePulleys> made_;       ///< null for a joint declared by a ratio
-  double alpha_least_ = 0;                ///< range of the logged α, home included, rad
+  bool is_for_fits_ = false;
+  std::optional<MadePulleys> made_;  ///< null for a joint declared by a ratio
+  double alpha_least_ = 0;           ///< range of the logged α, home included, rad
   double alpha_most_ = 0;
   std::vector<Motion> latest_;  ///< grows to k_most_motions
   std::size_t next_ = 0;        ///< entry of latest_ that is replaced next

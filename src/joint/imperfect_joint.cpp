@@ -12,7 +12,7 @@ namespace fusee::joint {
 namespace {
 
 /// Convergence limit for θ, far below sensor noise and the steps of a fit. rad
-constexpr double k_last_step = 1e-7;
+constexpr double k_last_step = 1e-9;
 
 // Bounds that keep the joint physical while a fit varies its numbers.
 constexpr double k_least_drum = 1e-3;                 // mm
