@@ -70,8 +70,9 @@ std::vector<const fusee::Effect*> catalogue(const Mechanism& declared, const mea
 namespace {
 
 constexpr std::size_t k_slip_times = 4;
-/// Times at which a step is tested.
+/// Times at which a step is tested over the whole session, and between the neighbours of each likely one.
 constexpr std::size_t k_tried_times = 96;
+constexpr std::size_t k_refined_times = 24;
 
 /// Times of the rows in use, by the bench's clock.
 std::vector<double> times_of_rows(const Evidence& evidence) {
@@ -85,10 +86,9 @@ std::vector<double> times_of_rows(const Evidence& evidence) {
   return used;
 }
 
-/// Times between rows, evenly among them.
-std::vector<double> times_to_try(std::vector<double> rows) {
-  std::sort(rows.begin(), rows.end());
-  const std::size_t count = std::min(rows.size(), k_tried_times + 1);
+/// At most `most` times between rows, evenly among them. `rows`: sorted.
+std::vector<double> times_between(const std::vector<double>& rows, std::size_t most) {
+  const std::size_t count = std::min(rows.size(), most + 1);
   std::vector<double> times;
   for (std::size_t k = 1; k < count; ++k) {
     const std::size_t i = k * rows.size() / count;
@@ -126,9 +126,34 @@ std::vector<double> by_evidence(const Evidence& evidence, const Fit& base, const
   return ordered;
 }
 
+/// The time next to each of `times` at which a step is likeliest. Rows between the time of a step and its estimate keep
+/// an error of the whole step. `rows`: sorted; `tried`: times that were tested, sorted.
+std::vector<double> refined(const Evidence& evidence, const Fit& base, const std::vector<double>& rows,
+                            const std::vector<double>& tried, std::vector<double> times) {
+  std::vector<std::vector<double>> near;
+  std::vector<double> all;
+  for (const double time : times) {
+    const auto at = std::lower_bound(tried.begin(), tried.end(), time);
+    const double from = at == tried.begin() ? rows.front() : at[-1];
+    const double until = at + 1 == tried.end() ? rows.back() : at[1];
+    near.push_back(times_between(
+        {std::lower_bound(rows.begin(), rows.end(), from), std::upper_bound(rows.begin(), rows.end(), until)},
+        k_refined_times));
+    all.insert(all.end(), near.back().begin(), near.back().end());
+  }
+  const std::vector<double> ordered = by_evidence(evidence, base, all);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto likeliest = std::find_first_of(ordered.begin(), ordered.end(), near[i].begin(), near[i].end());
+    if (likeliest != ordered.end()) times[i] = *likeliest;
+  }
+  return times;
+}
+
 std::vector<double> steps_in_time(const Evidence& evidence, const Fit& base) {
+  std::vector<double> rows = times_of_rows(evidence);
+  std::sort(rows.begin(), rows.end());
+  const std::vector<double> tried = times_between(rows, k_tried_times);
   std::vector<double> times;
-  const std::vector<double> tried = times_to_try(times_of_rows(evidence));
   if (tried.empty()) return times;
   const double spacing = 0.02 * (tried.back() - tried.front());
   for (const double time : by_evidence(evidence, base, tried)) {
@@ -137,7 +162,7 @@ std::vector<double> steps_in_time(const Evidence& evidence, const Fit& base) {
     if (new_place) times.push_back(time);
     if (times.size() == k_slip_times) break;
   }
-  return times;
+  return refined(evidence, base, rows, tried, std::move(times));
 }
 
 }  // namespace

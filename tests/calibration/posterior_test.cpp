@@ -150,5 +150,20 @@ TEST(ExpectedSizes, ShrinkWithObservedSize) {
   EXPECT_LT(2 * size_of_stretch(0.0), size_of_stretch(0.02));
 }
 
+TEST(StartsInTime, LieBetweenTwoRowsOfStep) {
+  constexpr std::size_t k_run = 3, k_row = 33;
+  measurement::Measurement measurement = measured({0, 5, 0, 5, 0, 5, 0, 5}, white_noise(k_floor, 3));
+  for (std::size_t r = k_run; r < measurement.runs.size(); ++r) {
+    std::vector<measurement::Sample>& samples = measurement.runs[r].samples;
+    for (std::size_t i = r == k_run ? k_row : 0; i < samples.size(); ++i) samples[i].theta += 10 * k_floor;
+  }
+  const calibration::Evidence evidence = evidence_of(measurement);
+  calibration::FitterPool pool(evidence);
+  const double row = joint::bench_clock(evidence.log)[k_run] + measurement.runs[k_run].samples[k_row].time;
+  const double time = calibration::starts_of(evidence, pool.one().fit({}, {}), named("tendon_slip")).front().back();
+  EXPECT_GT(time, row - 1);
+  EXPECT_LT(time, row);
+}
+
 }  // namespace
 }  // namespace fusee::calibration::linear
