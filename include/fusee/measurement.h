@@ -19,8 +19,8 @@ namespace fusee::measurement {
 
 /// CSV text as in RFC 4180: UTF-8, Latin-1 or UTF-16; lines end with LF, CR LF or CR; separated by comma, semicolon,
 /// tab, bar or blanks. The header is the first line that names the angles. The unit of a column is taken from the
-/// options, else from its name ("theta_rad", "load [kg]"), else from its values (with a note). Reading throws InputError
-/// if none of them determines it.
+/// options, else from its name ("theta_rad", "load [kg]"), else from its values (with a note). Reading throws
+/// InputError if none of them determines it.
 ///
 /// Recordings of ROS 2: MCAP files, SQLite files of ros2 bag, or a bag's folder, known by their content. Their numbers
 /// are columns with the names that PlotJuggler gives them, "/joint_states/motor/position", in rad, N and N·m; "time" is

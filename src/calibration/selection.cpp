@@ -712,7 +712,7 @@ std::vector<CandidatePair> Selector::pairs_beside(const Fit& base,
 }
 
 /// Exchanges none, one or two members for one or two other effects, since either exchange alone may lower the score.
-/// True if a better set was found. Without this step and four searches that are deleted now, the reported groups contain
+/// True if a better set was found. Without this step and four searches that are deleted now, reported groups contain
 /// 19 of 21 effects instead of all (18 joints from seed 950001).
 bool Selector::exchange_members() {
   const double before = score(selection_.best);

@@ -96,8 +96,8 @@ void set_free_tendon(WrappedTendon& tendon, const transmission::PinPlace& place,
   set_anchor(tendon, place, least, most, R);
 }
 
-/// Sets up a tendon that lies on a drum at every joint angle. Its contact ends where it leaves for the fixed pin. The arc
-/// of the drum that is covered at every angle moves with the link: a chain of points of the link represents it. A
+/// Sets up a tendon that lies on a drum at every joint angle. Its contact ends where it leaves for the fixed pin. The
+/// arc of the drum that is covered at every angle moves with the link: a chain of points of the link represents it. A
 /// wrapping cylinder cannot: between two points on its surface, MuJoCo 3.14.0 alternates between both ways round.
 void set_tendon_on_drum(WrappedTendon& tendon, const transmission::PinPlace& place, const AngleMap& map, double R) {
   const double sign = transmission::mirror_sign(tendon.side);
