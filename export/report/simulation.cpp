@@ -70,7 +70,7 @@ std::vector<SimulationColumn> simulation_columns(const Simulation& simulation) {
     add("loose_deg", [](const measurement::Sample&, const joint::JointState& state) { return degrees(state.loose); });
   }
   add("joint_deg", [](const measurement::Sample&, const joint::JointState& state) { return degrees(state.theta); });
-  // Offsets are written in the logged form, because `fusee calibrate` reads this table.
+  // The angles by which sensors were turned have the columns of a log, because `fusee calibrate` reads this table.
   const auto add_mounting = [&](std::string_view role, double turned) {
     if (turned != 0)
       add(std::string(role) + "_deg",

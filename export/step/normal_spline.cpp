@@ -13,9 +13,9 @@ namespace {
 
 constexpr int k_order = k_step_degree + 1;
 constexpr double k_first_span = radians(30);
-/// Error of a circle within reach that is drawn by the normals, mm. It has to meet the exact circle.
+/// Error of a circle of the radius `reach` that the fitted normals draw, mm. It must coincide with the exact circle.
 constexpr double k_circle_tolerance = 2e-6;
-/// Spans are not divided further: the samples' own directions can be this close beside a bridge.
+/// Shorter spans are not divided: beside a bridge, the directions of two samples can be this close.
 constexpr double k_shortest_span = radians(0.01);
 constexpr std::size_t k_most_spans = 300;
 constexpr int k_samples_a_span = 13;
@@ -274,8 +274,8 @@ Vec2 SupportCurve::at(double psi) const {
   return values.support * unit(psi) + values.slope * turned_left(unit(psi));
 }
 
-// The common outer tangent of both circles of curvature: n · (c1 − c0) = r0 − r1. It has a single direction. Its
-// normals are turned by k_straight_turn, so that it has an extent in the parameter.
+// The common outer tangent of both circles of curvature: n · (c1 − c0) = r0 − r1. Its single normal
+// is spread over the angle k_straight_turn, so that the straight has an extent in ψ.
 std::optional<std::pair<SupportCurve::Sample, SupportCurve::Sample>> SupportCurve::straight_between(const Sample& from,
                                                                                                     const Sample& to) {
   const double width = to.psi - from.psi, mean = (to.point - from.point).norm() / width;

@@ -18,9 +18,9 @@
 namespace fusee::measurement {
 
 /// CSV text as in RFC 4180: UTF-8, Latin-1 or UTF-16; lines end with LF, CR LF or CR; separated by comma, semicolon,
-/// tab or blanks. The header is the first line that names the angles. The unit of a column is taken from the options,
-/// else from its name ("theta_rad", "load [kg]"), else from its values (with a note). Reading throws InputError if none
-/// of them determines it.
+/// tab, bar or blanks. The header is the first line that names the angles. The unit of a column is taken from the
+/// options, else from its name ("theta_rad", "load [kg]"), else from its values (with a note). Reading throws
+/// InputError if none of them determines it.
 ///
 /// Recordings of ROS 2: MCAP files, SQLite files of ros2 bag, or a bag's folder, known by their content. Their numbers
 /// are columns with the names that PlotJuggler gives them, "/joint_states/motor/position", in rad, N and N·m; "time" is
@@ -97,7 +97,7 @@ struct Measurement {
   double theta_quantum = 0;               ///< step of the joint's sensor, rad; 0 if it is too fine to be detected
   std::string load_unit;                  ///< of the loads: "N", "Nm", "Nmm"; "" without loads
   std::vector<std::string> notes;         ///< rows dropped or repaired and likely faults, with file and line
-  std::vector<std::string> sources;       ///< topics and clock of a bag's rows; columns not used. No part of results
+  std::vector<std::string> sources;       ///< topics and clock of a bag's rows, columns not used; not in any result
   std::vector<std::string> not_testable;  ///< reasons why the data cannot be evaluated; empty if they can
 };
 

@@ -304,7 +304,7 @@ std::vector<LinearizedCandidate> Selector::each_alone() const {
   return all;
 }
 
-/// Full fits of those that are near the best of them.
+/// Continues to full fits those that are near the best.
 void Selector::refit_likely(std::vector<Fit>& fits) {
   double best = score(selection_.best);
   for (const Fit& fit : fits) {
@@ -348,7 +348,7 @@ double Selector::predict_score(const Fit& base, const EffectSet& added,
     if (of_one->J.size() == 0) return -std::numeric_limits<double>::infinity();
     SharedLinearization::add(*of_one, tangent);
   }
-  const double loose = base.posterior.log_evidence - base.log_evidence;
+  const double loose = base.posterior.log_evidence - base.log_evidence;  // correction for loose rows
   const EvidenceModel& evidence_model = *evidence_.evidence_model;
   const Posterior posterior = evidence_model.best(tangent, amplitudes, k_linearized_rounds);
   const double predicted_score = posterior.log_evidence - evidence_model.discrepancy_penalty(posterior) - loose - cost;
@@ -491,8 +491,8 @@ std::vector<Fit> Selector::widen_without_discrepancy(const std::vector<FitWithou
   return wider;
 }
 
-/// The likelier fit without discrepancy. Beside the discrepancy, friction that holds a joint fast ends at zero
-/// (held-out seed 201021).
+/// The likelier without discrepancy of a new fit and the known fit beside the discrepancy. The known one alone does not
+/// suffice: beside the discrepancy, friction that holds a joint fast ends at zero (held-out seed 201021).
 Fit Selector::fit_without_discrepancy(const Fitter& fitter, const LinearizedCandidate& added) const {
   Fit fit = fitter.add_effect_without_discrepancy(*added.base, *added.effect);
   const auto seen = seen_.find(key_of({added.effect}));
@@ -712,8 +712,8 @@ std::vector<CandidatePair> Selector::pairs_beside(const Fit& base,
 }
 
 /// Exchanges none, one or two members for one or two other effects, since either exchange alone may lower the score.
-/// True if a better set was found. Without this step and the four that followed it, the reported groups contain 19 of
-/// 21 effects instead of all (18 joints from seed 950001).
+/// True if a better set was found. Without this step and four searches that are deleted now, reported groups contain
+/// 19 of 21 effects instead of all (18 joints from seed 950001).
 bool Selector::exchange_members() {
   const double before = score(selection_.best);
   const std::vector<Fit> bases = reduce_best();
@@ -805,7 +805,7 @@ bool Selector::leaves_unexplained(const Fit& fit) const {
   return is_unexplained(describe_discrepancy(evidence_, fit), evidence_.floor);
 }
 
-/// True if the best set explains all of the residual, or clearly more of it than `others` do.
+/// True if `others` leave a residual of which the best set explains all, or clearly more.
 bool Selector::is_completed_beside(const Fit& others) const {
   const DiscrepancyFit beside_others = describe_discrepancy(evidence_, others);
   if (!is_unexplained(beside_others, evidence_.floor)) return false;

@@ -13,7 +13,7 @@
 namespace fusee::kit {
 namespace {
 
-/// The screw of a motor, M1.6 for holes thinner than all threads of the kit.
+/// The screw of a motor, M1.6 for holes narrower than all threads of the kit.
 std::string motor_screw(const fusee::MotorType& motor, double length) {
   if (motor.hole < k_threads.front().diameter) return "M1.6 × " + rounded(stock_length(length));
   return screw_words(thread_within(motor.hole), length);
@@ -70,7 +70,7 @@ double distance_to_motor(const fusee::MotorType& motor, const Vec2& from_axis, c
 }
 
 std::vector<Disc> motor_corners(const fusee::MotorType& motor, const Vec2& pulley, const Vec2& front) {
-  constexpr double k_beyond_hole = 4;  // width of the plate beyond a screw's hole, mm
+  constexpr double k_beyond_hole = 4;  // from a screw's axis to the plate's end, mm
   const double to_front = std::max(motor.front, motor.hole_front + k_beyond_hole);
   const double to_back = std::max(motor.back, motor.hole_back + k_beyond_hole);
   std::vector<Disc> corners;

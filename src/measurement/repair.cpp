@@ -104,8 +104,8 @@ double span_of_theta(const std::vector<Sample>& samples) {
   return at_rank(thetas.size() - 1 - thetas.size() / 200) - at_rank(thetas.size() / 200);
 }
 
-/// Change of θ up to each row from the row before it. The θ of a row without one is that of the next row that has one,
-/// since the joint may have moved before either. NaN if no θ is known before or after.
+/// Change of θ at each row: from the last known θ before it to the first known θ at or after it. Where θ is missing,
+/// the joint may have moved at any row between both. NaN if no θ is known before or after.
 std::vector<double> steps_of_theta(const std::vector<Sample>& samples) {
   std::vector<double> steps(samples.size());
   double next = std::numeric_limits<double>::quiet_NaN();

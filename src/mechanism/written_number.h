@@ -11,8 +11,8 @@
 
 namespace fusee {
 
-/// The number that a node holds for a key: as written, or in mm for a length of a file in `units` or of a text with its
-/// own unit. Nullopt for anything else.
+/// The number that a node holds for a key, as written. A length is converted to mm: from `units`, or from the unit in
+/// its text. Nullopt if the node holds no number.
 inline std::optional<double> written_number(std::string_view key, const toml::node& node, LengthUnit units) {
   const bool length = is_length(key);
   if (length && node.is_string()) return parse_length(**node.as_string());

@@ -39,7 +39,7 @@ UpperPart upper_part_at(const WrappedTendon& tendon, double theta) {
   const Vec2 pin = mirrored(tendon.pin, tendon.side);
   const Vec2 to_end = at_angle(mirrored(tendon.end, tendon.side), theta) - pin;
   const double distance = to_end.norm();
-  // Measured from the vertical, so that no turn is lost when the end comes down beside the pin.
+  // Direction from the pin to the end. Measured from +y, so that it jumps only if the end passes below the pin.
   const double direction = 0.5 * k_pi + elementary::atan2(-to_end.x(), to_end.y());
   const double normal = direction - elementary::acos(std::min(1.0, tendon.rho / distance));
   return {std::sqrt(std::max(0.0, (distance - tendon.rho) * (distance + tendon.rho))) + tendon.rho * normal, normal};
@@ -96,10 +96,9 @@ void set_free_tendon(WrappedTendon& tendon, const transmission::PinPlace& place,
   set_anchor(tendon, place, least, most, R);
 }
 
-/// Sets up a tendon that is always on a drum. It touches the drum from a point of the link up to the point from which
-/// it leaves for the fixed pin. The part that is covered at every angle has constant length: points of the link, close
-/// together, represent it. Wrapping is no alternative there: between two points on the drum's surface, MuJoCo 3.14.0
-/// alternates between the two ways round.
+/// Sets up a tendon that lies on a drum at every joint angle. Its contact ends where it leaves for the fixed pin. The
+/// arc of the drum that is covered at every angle moves with the link: a chain of points of the link represents it. A
+/// wrapping cylinder cannot: between two points on its surface, MuJoCo 3.14.0 alternates between both ways round.
 void set_tendon_on_drum(WrappedTendon& tendon, const transmission::PinPlace& place, const AngleMap& map, double R) {
   const double sign = transmission::mirror_sign(tendon.side);
   const transmission::UpperSpan home = transmission::upper_span(place, 0),

@@ -108,7 +108,7 @@ TEST(Folds, SpeedIsAFactorToo) {
 
 // ---- dwells and load levels -----------------------------------------------------------------------------------------
 
-/// For each block, the number that it shares with the blocks of its run that it repeats.
+/// The number of each block's kind: blocks of a run that repeat one another share it.
 std::vector<std::size_t> repeats_in(const calibration::Evidence& evidence) {
   std::vector<std::size_t> alike;
   for (const calibration::Block& block : evidence.blocks) alike.push_back(block.alike);
@@ -231,7 +231,7 @@ double cost_of_rows(const Eigen::VectorXd& residuals, double loose, double floor
 TEST(Play, LooseRowsRestPushedOrAnywhere) {
   constexpr double floor = 0.01, loose = 0.3;
   constexpr Eigen::Index count = 400;
-  const double fitted = 0.5 * std::log(count);
+  const double fitted = 0.5 * std::log(count);  // cost of the share that is fitted
   EXPECT_EQ(calibration::loose_rows(Eigen::VectorXd::Constant(9, 0.02), Eigen::VectorXd::Zero(9), floor).nats,
             0);  // no play
   // Rest at the pushed position, with noise: the cost of taut rows.

@@ -155,7 +155,7 @@ double rewinding_limit(const profile::SynthesisResult& synthesis) {
   return 0.005 * std::max(1.0, 8.0 / arm);
 }
 
-/// Drill plates are sound solids, or the obstacle is reported.
+/// The kit's printed parts (plates to drill and the drum) are sound solids, or the obstacle is reported.
 void expect_plates_or_reasons(const formats::Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const kit::KitPlan plan = kit::plan_kit(mechanism, product.synthesis, product.pulley.layout);

@@ -163,9 +163,9 @@ std::vector<Truth> wide_truths(const MadeJoint& joint) {
 Truth truth_of(const std::string& name) {
   Truth truth{name, {}};
   if (name.starts_with("nothing")) return truth;
-  const std::string joint = " + ";
-  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + joint.size()) {
-    end = name.find(joint, begin);
+  const std::string separator = " + ";
+  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + separator.size()) {
+    end = name.find(separator, begin);
     truth.faults.push_back(find_fault(name.substr(begin, end - begin)).name);
   }
   return truth;
@@ -185,7 +185,7 @@ std::vector<Truth> all_truths() {
 }
 
 Truth random_truth(Kind kind, const std::string& split, std::uint64_t seed) {
-  faults_in(split);
+  faults_in(split);  // throws for an unknown split, also for kinds that draw nothing from it
   // heldout_13 was named "unsuspected" when its joints were drawn. Its seeds keep that name.
   Random random(hash_of(split == "heldout_13" ? "unsuspected" : split) ^ (seed * 0xD1B54A32D192ED03ULL));
   Truth truth;

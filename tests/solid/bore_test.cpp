@@ -39,7 +39,7 @@ void expect_cone(const BoreLayout& bore) {
   for (std::size_t i = 0; i < cone.rim.size(); ++i) {
     // Two corners within 0.01 rad of one ray count as one.
     EXPECT_LT(angle_between(cone.rim[i], cone.hole[i]), 0.0101);
-    EXPECT_GT(cross(cone.rim[i], cone.rim[(i + 1) % cone.rim.size()]), 0) << "not once about the axis";
+    EXPECT_GT(cross(cone.rim[i], cone.rim[(i + 1) % cone.rim.size()]), 0) << "corners not counter-clockwise";
     EXPECT_LT(distance_to_edges(bore.outline, cone.rim[i]), 1e-12);
     EXPECT_LT(distance_to_edges(hole, cone.hole[i]), 1e-12);
     furthest = std::max(furthest, (cone.rim[i] - cone.hole[i]).norm());
