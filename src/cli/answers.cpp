@@ -145,7 +145,7 @@ constexpr double k_inch = 25.4, k_foot = 304.8;  // mm
 
 /// mm per unit; empty for an unknown one.
 std::optional<double> unit_of_length(std::string_view word) {
-  static constexpr std::array<std::pair<std::string_view, double>, 24> units{{{"", 1},
+  static constexpr std::array<std::pair<std::string_view, double>, 25> units{{{"", 1},
                                                                               {"mm", 1},
                                                                               {"millimetre", 1},
                                                                               {"millimetres", 1},
@@ -158,6 +158,7 @@ std::optional<double> unit_of_length(std::string_view word) {
                                                                               {"centimeters", 10},
                                                                               {"m", 1000},
                                                                               {"metre", 1000},
+                                                                              {"metres", 1000},
                                                                               {"meter", 1000},
                                                                               {"meters", 1000},
                                                                               {"in", k_inch},

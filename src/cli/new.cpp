@@ -87,9 +87,10 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
         "no file was written"));
     reply.fields["other_answers"] = Json::array();
     for (const OtherAnswer& other : asked.others) {
-      reply.diagnostics.push_back(
-          make_diagnostic(Severity::note, fmt::format("try {} in place of {} for question {} ({})", other.answer,
-                                                      other.given, other.question, other.words)));
+      reply.diagnostics.push_back(make_diagnostic(
+          Severity::note,
+          lengths_in(asked.units, fmt::format("try {} in place of {} for question {} ({})", other.answer, other.given,
+                                              other.question, other.words))));
       reply.fields["other_answers"].push_back(
           {{"question", other.question}, {"subject", other.words}, {"answer", other.answer}, {"given", other.given}});
     }
@@ -120,6 +121,12 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
   if (!layout.price_words.empty())
     reply.diagnostics.push_back(
         make_diagnostic(layout.is_held ? Severity::note : Severity::warning, layout.price_words));
+  if (asked.room)
+    reply.diagnostics.push_back(make_diagnostic(
+        Severity::note, lengths_in(asked.units, fmt::format("the motor holds the load with a larger drum and pulley: "
+                                                            "try {} in place of {} for question {} ({})",
+                                                            asked.room->answer, asked.room->given, asked.room->question,
+                                                            asked.room->words))));
   if (!product.file.mechanism.motor.is_there()) reply.diagnostics.push_back(motor_note(layout));
   reply.diagnostics.push_back(make_diagnostic(Severity::note, "save this file, then run 'fusee build' on it"));
   reply.fields["text"] = reply.text;

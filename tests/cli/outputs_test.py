@@ -590,5 +590,29 @@ class Kill(harness.Scratch):
             self.assertIn(self.files("both"), sets)
 
 
+class Pages(harness.Scratch):
+    def build(self, settings=""):
+        self.expect(f"build arm.toml -o page {settings} --force", 0)
+        return (self.folder / "page/report.html").read_text()
+
+    def test_page_of_inch_file_has_inches(self):
+        (self.folder / "arm.toml").write_bytes(self.fusee("new finger_mcp --set units=inch").stdout)
+        page = self.build()
+        body = page[page.index("<body"):]
+        self.assertIn("try body.hub_diameter_mm = 0.433 (now automatic, 0.283)", body)
+        self.assertRegex(body, r">9\.055 in</td>")  # cut length of tendon 1: 230 mm
+        self.assertRegex(body, r">[\d.]+ in</text>")  # scale bars
+        self.assertNotRegex(re.sub(r"<script.*?</script>", "", body, flags=re.S), r">[\d.]+ mm</(td|text)>")
+
+    def test_summary_and_page_report_taut_tendons(self):
+        (self.folder / "arm.toml").write_bytes(self.fusee("new forearm").stdout)
+        for settings, taut in (("", True), ("--set load.tip_force_N=100", False)):
+            summary = self.expect(f"build arm.toml --dry-run {settings}", 0).stdout.decode()
+            self.assertEqual(bool(re.search(r"both tendons taut over the whole range: [\d.]+ N or more, least at alpha = ", summary)), taut)
+            page = self.build(settings)
+            self.assertEqual("Both tendons stay taut over the whole range: the least tension is " in page, taut)
+            self.assertNotIn("with tendon 1 slack", page)
+
+
 if __name__ == "__main__":
     harness.main()

@@ -195,9 +195,9 @@ class Questions(harness.Scratch):
 
     def test_weak_motor_gets_a_larger_reduction(self):
         for words in ("new --ask", "new --ask --set motor.enforce=true"):
-            text, asked = self.ask(answers("elbow", "250 mm", "±60", "80 mm", "2 kg", "NEMA17-48mm", "1 mm"), words=words)
+            text, asked = self.ask(answers("elbow", "250 mm", "±60", "130 mm", "2 kg", "NEMA17-48mm", "1 mm"), words=words)
             self.assertNotIn("warning", asked)
-            motor = self.builds(text, 80)["motor"]
+            motor = self.builds(text, 130)["motor"]
             self.assertGreaterEqual(motor["torque"]["margin"], 1)
             self.assertLess(len(text.splitlines()), 90)
             self.assertEqual("enforce = true" in text, "enforce" in words)
@@ -205,6 +205,19 @@ class Questions(harness.Scratch):
         out, err = self.ask(answers("elbow", "250 mm", "±60", "12 mm", "20 kg", "NEMA17-48mm", "1 mm"), 4, "new --ask --set motor.enforce=true")
         self.assertIn("no layout fits these answers", err)
         self.assertNotIn("no limit to enforce", err)
+
+    def test_drum_is_no_wider_than_room(self):
+        for typed, room in ((answers(load="5 N"), 30), (answers(room="20"), 20), (answers("elbow", "250", "±60", "60", "2 kg", "NEMA17-48mm 5:1", "1"), 60)):
+            joint = tomllib.loads(self.ask(typed)[0])
+            self.assertLessEqual(2 * (joint["joint"]["drum_radius_mm"] + joint["tendon"]["diameter_mm"]), room, typed)
+        # If the motor is too weak for such drums, the reply names the room that suffices.
+        elbow = answers("elbow", "250", "±60", "80", "2 kg", "NEMA17-48mm", "1")
+        asked = self.ask(elbow)[1]
+        self.assertIn("warning: the motor NEMA17-48mm holds 590 Nmm, and the load requires", asked)
+        room = re.search(r"the motor holds the load with a larger drum and pulley: try ([\d.]+) mm in place of 80 mm for question 4 \(room\)", asked)
+        self.assertTrue(room, asked)
+        self.assertIn(f"try {room[1]} mm in place of 80 mm for question 4", self.ask(elbow, 4, "new --ask --set motor.enforce=true")[1])
+        self.assertNotIn("warning", self.ask(elbow.replace("\n80\n", f"\n{room[1]}\n"))[1])
 
     def test_pulley_is_held_on_its_shaft(self):
         # A pulley of several turns is smaller, and has no space for a hub with a set screw.
