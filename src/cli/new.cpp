@@ -186,13 +186,17 @@ Reply open_print(const Arguments& arguments, FileAccess& files) {
 /// Writes the file of -o, and the table of its law beside it.
 void write_new_file(const Arguments& arguments, FileAccess& files, Reply& reply) {
   const std::filesystem::path path = *arguments.text("--out");
+  const bool force = arguments.has("--force");
   if (!arguments.has("--dry-run")) {
+    // An existing file is refused before its table is written, and an existing table before its file.
+    const bool exists = std::filesystem::exists(path);
+    if (exists) write_file(path, reply.text, force, files);
     if (reply.fields.contains("table")) {
       const auto& table = reply.fields["table"];
       write_file(path.parent_path() / table["file"].get<std::string>(), table["text"].get<std::string>(),
-                 arguments.has("--force"), files);
+                 force, files);
     }
-    write_file(path, reply.text, arguments.has("--force"), files);
+    if (!exists) write_file(path, reply.text, force, files);
   }
   reply.fields["file"] = path.string();
   reply.text = arguments.has("--dry-run") ? "no file written (--dry-run)\n" : path.string() + "\n";

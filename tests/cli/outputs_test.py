@@ -590,6 +590,22 @@ class Kill(harness.Scratch):
             self.assertIn(self.files("both"), sets)
 
 
+class KeptFiles(harness.Scratch):
+    def test_refused_target_leaves_no_table(self):
+        (self.folder / "gripper.toml").write_bytes(self.fusee("new gripper").stdout)
+        self.expect("new --from kept.3mf -o twice.toml", 3)  # no such print
+        table = shutil.copy(harness.SOURCE / "profiles/gripper.csv", self.folder) if (harness.SOURCE / "profiles/gripper.csv").exists() else None
+        self.expect("build gripper.toml -o made", 0)
+        other = self.folder / "other"
+        other.mkdir()
+        (other / "mine.toml").write_text("mine")
+        self.expect("new --from made/pulley.3mf -o other/mine.toml", 6)
+        self.assertEqual([path.name for path in other.iterdir()], ["mine.toml"])
+        self.assertEqual((other / "mine.toml").read_text(), "mine")
+        self.expect("new --from made/pulley.3mf -o other/mine.toml --force", 0)
+        self.assertEqual(len(list(other.iterdir())), 2)
+
+
 class Pages(harness.Scratch):
     def build(self, settings=""):
         self.expect(f"build arm.toml -o page {settings} --force", 0)
