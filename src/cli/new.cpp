@@ -193,8 +193,7 @@ void write_new_file(const Arguments& arguments, FileAccess& files, Reply& reply)
     if (exists) write_file(path, reply.text, force, files);
     if (reply.fields.contains("table")) {
       const auto& table = reply.fields["table"];
-      write_file(path.parent_path() / table["file"].get<std::string>(), table["text"].get<std::string>(),
-                 force, files);
+      write_file(path.parent_path() / table["file"].get<std::string>(), table["text"].get<std::string>(), force, files);
     }
     if (!exists) write_file(path, reply.text, force, files);
   }

@@ -437,6 +437,10 @@ std::optional<Obstacle> build_layout(const LayoutRequirements& needs, ChosenLayo
   layout.built = build(layout.file, options, context.without_progress());
   if (layout.built.status != BuildStatus::done) return first_reason(layout.built);
   const formats::Product& product = layout.built.product;
+  if (const std::optional<double>& lost_at = product.under_load.lost_at)
+    return Obstacle{
+        fmt::format("the load pulls the joint past its dead centre at alpha = {} deg: there is no equilibrium",
+                    fixed(degrees(*lost_at), 1))};
   layout.diameter = solid::diameter_about_axis(product.pulley.mesh);
   layout.travel = product.synthesis.stroke.back().alpha - product.synthesis.stroke.front().alpha;
   if (layout.diameter > needs.room + 1e-6)
