@@ -381,7 +381,8 @@ namespace {
 /// Removes an angle such as "180 deg" from a motor's name and returns it, rad; 0 for none.
 double extract_travel(std::string& simple) {
   for (std::size_t at = 0; at < simple.size(); ++at) {
-    if (!is_digit(simple[at]) || (at > 0 && simple[at - 1] != ' ' && simple[at - 1] != ',')) continue;
+    if (!is_digit(simple[at]) || (at > 0 && std::string_view(" ,(").find(simple[at - 1]) == std::string_view::npos))
+      continue;
     std::string_view rest = std::string_view(simple).substr(at);
     const std::size_t before = rest.size();
     const auto angle = take_decimal(rest, false);
@@ -451,7 +452,8 @@ std::optional<Answer<TypedMotor>> read_shaft(std::string_view text, LengthUnit p
 
 /// The words of an answer that may be part of a name.
 std::vector<std::string> words_of_name(std::string_view text) {
-  constexpr std::array<std::string_view, 7> k_fillers{"hobby", "a", "with", "for", "and", "that", "turns"};
+  constexpr std::array<std::string_view, 9> k_fillers{"hobby", "small", "standard", "a",    "with",
+                                                      "for",   "and",   "that",     "turns"};
   std::vector<std::string> words = split_words(text);
   std::erase_if(words, [&](const std::string& word) {
     return std::find(k_fillers.begin(), k_fillers.end(), word) != k_fillers.end();

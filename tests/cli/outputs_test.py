@@ -126,7 +126,7 @@ class Build(harness.Scratch):
     def test_check_shows_size_and_volume(self):
         self.build("p")
         self.expect("check p/pulley.stl", 0, r"\nsize \d+\.?\d* × \d+\.?\d* × \d+\.?\d* mm, volume \d+\.?\d* cm³\n", "^$")
-        self.expect("check p/profile.dxf", 0, r"\nsize \d+\.?\d* × \d+\.?\d* mm, \d+ closed contours\n", "^$")
+        self.expect("check p/profile.dxf", 0, r"\nsize \d+\.?\d* × \d+\.?\d* mm, \d+ closed paths, marks included\n", "^$")
         document = self.expect_json("check p/pulley.stl", 0)
         x, y, z = document["size_mm"]
         self.assertTrue(0 < document["volume_mm3"] < x * y * z)

@@ -82,7 +82,7 @@ class Questions(harness.Scratch):
 
     def test_lengths_are_understood(self):
         for typed, length in (("45 mm", "45 mm"), ("4.5 cm", "45 mm"), ("4,5 cm", "45 mm"), ("1.8 in", "1.8 in"), ('1.8"', "1.8 in"),
-                              ('1 3/4"', "1.75 in"), ("0.5 m", "500 mm"), ("2 ft 3 in", "27 in")):
+                              ('1 3/4"', "1.75 in"), ("0.5 m", "500 mm"), ("0.5 metres", "500 mm"), ("2 ft 3 in", "27 in")):
             self.assertIn(f"length: {length}", self.understood("a", typed)[0], typed)
 
     def test_ranges_are_understood(self):
@@ -100,7 +100,7 @@ class Questions(harness.Scratch):
 
     def test_motors_and_tendons_are_found_by_name(self):
         begun = ("a", "45", "0 80", "30", "10 N")
-        for typed, motor in (("N20", "N20 gear motor"), ("MG996R horn", "turns 180 deg"), ("dynamixel XL330", "horn of Dynamixel XL330"),
+        for typed, motor in (("N20", "N20 gear motor"), ("small N20 gear motor", "N20 gear motor"), ("MG996R horn", "turns 180 deg"), ("dynamixel XL330", "horn of Dynamixel XL330"),
                              ("5 mm D", "a D shaft of 5 mm"), ("1/4 in", "a round shaft of 6.35 mm")):
             self.assertIn(motor, self.understood(*begun, typed)[0], typed)
         for typed, modulus in (("Dyneema 0.6", 40000), ("0.6 mm Spectra", 40000), ("Vectran 0.6", 25000), ("nylon 0.6 mm", 2000),
