@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "export/report/tendon_trace.h"
 #include "fusee/base.h"
+#include "mechanism/lengths.h"
 
 namespace fusee::formats {
 namespace {
@@ -61,13 +62,16 @@ double scale_bar_length(double scale, double px) {
   return decade;
 }
 
-std::string scale_bar(const View& view, const Vec2& left_end) {
-  const double length = scale_bar_length(view.scale, 80);
-  const Vec2 right_end = left_end + Vec2(length * view.scale, 0);
+/// A bar of a round length in the file's unit.
+std::string scale_bar(const View& view, const Vec2& left_end, LengthUnit units) {
+  const double unit = to_mm(1, units);
+  const double length = scale_bar_length(view.scale * unit, 80);
+  const Vec2 right_end = left_end + Vec2(length * view.scale * unit, 0);
   const Vec2 tick(0, 4);
   return svg_line("dimension", left_end, right_end) + svg_line("dimension", left_end - tick, left_end + tick) +
          svg_line("dimension", right_end - tick, right_end + tick) +
-         svg_words("soft middle", 0.5 * (left_end + right_end) - Vec2(0, 6), rounded(length) + " mm");
+         svg_words("soft middle", 0.5 * (left_end + right_end) - Vec2(0, 6),
+                   rounded(length) + " " + std::string(unit_word(units)));
 }
 
 // Mechanism -----------------------------------------------------------------------------------------------------------
@@ -229,11 +233,11 @@ Figure mechanism_figure(const Mechanism& mechanism, const profile::SynthesisResu
       "θ = " + readable(degrees(pose.theta), 1) + "°, α = " + readable(degrees(pose.alpha), 1) + "°";
   Figure figure{k_panel_width, k_panel_height + k_detail_height, "The mechanism at " + angles, {}, {}};
   figure.body = svg_words("heading", {4, 18}, angles) + scene(mechanism, synthesis, whole, pose) +
-                scale_bar(whole, {6, k_panel_height - 8});
+                scale_bar(whole, {6, k_panel_height - 8}, mechanism.units);
   // A nested svg clips the detail.
   figure.body += "<svg x=\"1\" y=\"" + svg_number(k_panel_height) + "\" width=\"" + svg_number(k_panel_width - 2) +
                  "\" height=\"" + svg_number(k_detail_height - 1) + "\">" + scene(mechanism, synthesis, detail, pose) +
-                 scale_bar(detail, {10, k_detail_height - 14}) + "</svg>";
+                 scale_bar(detail, {10, k_detail_height - 14}, mechanism.units) + "</svg>";
   const Vec2 low(1, k_panel_height), high(k_panel_width - 1, k_panel_height + k_detail_height - 1);
   figure.body += svg_path("frame", {low, {high.x(), low.y()}, high, {low.x(), high.y()}}, true);
   return figure;
@@ -253,7 +257,7 @@ Figure moving_figure(const Mechanism& mechanism, const profile::SynthesisResult&
   const Vec2 origin = view({0, 0});
   figure.body = "<g class=\"scene\" data-view=\"" + shortest(view.scale) + " " + shortest(origin.x()) + " " +
                 shortest(origin.y()) + "\">" + scene(mechanism, synthesis, view, pose) + "</g>" +
-                scale_bar(view, {6, k_moving_height - 8});
+                scale_bar(view, {6, k_moving_height - 8}, mechanism.units);
   return figure;
 }
 

@@ -371,15 +371,25 @@ std::string torques_section(const Product& product) {
          all_in_divs(plots) + "</div></section>";
 }
 
+/// The result beside the paper's model, which has no tendon 1.
+std::string_view taut_words(const analysis::UnderLoad& load) {
+  if (load.rows.empty() || load.lost_at) return "";
+  return load.slack1.empty() && load.slack2.empty()
+             ? "With the pretension, both tendons of this joint stay taut over the whole range."
+             : "With the pretension, a tendon of this joint goes slack: see the top of this page.";
+}
+
 std::string forces_section(const Product& product) {
   const std::string torques = torques_section(product);
   const std::vector<Plot> plots = force_plots(product);
   if (plots.empty()) return torques;
   return torques + "<section id=\"forces\"><h2>Forces</h2><p class=\"lead\">" +
          safe_text(with_unit(product.joint.mechanism.load.tip_force, "N")) +
-         " at the tip, across OC, with tendon 1 slack: the tension of tendon 2, and the joint angle that its stretch "
-         "costs (the paper’s equations 6 to 11).</p><div class=\"plots\">" +
-         all_in_divs(plots) + "</div></section>";
+         " at the tip, across OC, by the paper’s model (equations 6 to 11), which leaves out the pretension and tendon "
+         "1: "
+         "the tension of tendon 2, and the joint angle that its stretch costs. " +
+         std::string(taut_words(product.under_load)) + "</p><div class=\"plots\">" + all_in_divs(plots) +
+         "</div></section>";
 }
 
 // Making --------------------------------------------------------------------------------------------------------------
@@ -612,6 +622,7 @@ std::string report_html(const Product& product) {
   auto part = run_async([&product] { return part_view(product); });
   auto mechanism = run_async([&product] { return mechanism_panels(product); });
   const PageVerdict verdict = verdict_of(product);
+  const LengthUnit units = product.file.mechanism.units;
   const std::string name = product.joint.mechanism.name.empty() ? "unnamed" : safe_text(product.joint.mechanism.name);
   return filled_page(
       embedded::page_html,
@@ -627,7 +638,7 @@ std::string report_html(const Product& product) {
           {"source", source_words(product.file)},
           {"verdict_class", verdict.style},
           {"verdict_sign", verdict.sign},
-          {"verdict", safe_text(verdict.words)},
+          {"verdict", safe_text(lengths_in(units, verdict.words))},
           {"warnings", warnings(product)},
           {"key_numbers", key_numbers(product)},
           {"part", part.get()},
@@ -636,15 +647,16 @@ std::string report_html(const Product& product) {
           {"mechanism_class", product.helix ? "plots" : "panels"},
           {"mechanism", mechanism.get()},
           {"transmission_plots", all_in_divs(transmission_plots(product))},
-          {"as_built_words", safe_text(as_built_words(product))},
+          {"as_built_words", safe_text(lengths_in(units, as_built_words(product)))},
           {"as_built_plots", all_in_divs(as_built_plots(product))},
           {"forces", forces_section(product)},
           {"profile_words", std::string(product.helix ? k_spiral_words : k_profile_words)},
-          {"profiles", profiles(product)},
+          {"profiles", lengths_in(units, profiles(product))},
           {"checks", checks_tables(product.checks)},
-          {"conditions", conditions(product)},
-          {"making", making(product)},
-          {"footer", "Made by " + std::string(k_tool) + ". Lengths in mm, angles in degrees, forces in N."},
+          {"conditions", lengths_in(units, conditions(product))},
+          {"making", lengths_in(units, making(product))},
+          {"footer", "Made by " + std::string(k_tool) + ". Lengths " +
+                         (units == LengthUnit::mm ? "" : "without a unit ") + "in mm, angles in degrees, forces in N."},
       });
 }
 

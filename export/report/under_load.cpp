@@ -125,6 +125,9 @@ std::string under_load_sentences(const analysis::UnderLoad& load, const Mechanis
   words += ", θ is off by up to " + with_unit(degrees(load.theta_error.value), "deg") +
            " (at α = " + readable(degrees(load.theta_error.alpha), 1) + "°).";
   words += slack_sentence(load, 1) + slack_sentence(load, 2);
+  if (const auto least = load.least_tension())
+    words += " Both tendons stay taut over the whole range: the least tension is " + with_unit(least->value, "N") +
+             " (at α = " + readable(degrees(least->alpha), 1) + "°).";
   if (const auto factor = load.safety_factor())
     words += " The tendons’ safety factor against breaking is " + readable_rounded(*factor, 3) + ".";
   return words;

@@ -151,6 +151,9 @@ struct UnderLoad {
   /// Breaking strength per largest tension, or that of a knot per tension at the joint if it is less. Empty if the
   /// strength is unknown or no tendon is tensioned.
   std::optional<double> safety_factor() const;
+  /// The least tension of any tendon in both directions, with its place, N. Empty if one is slack, or without
+  /// equilibrium.
+  std::optional<Extreme> least_tension() const;
   /// True if these ranges of slack are the whole range.
   bool is_whole_range(const std::vector<AlphaRange>& ranges) const;
 };

@@ -269,6 +269,18 @@ std::optional<double> UnderLoad::safety_factor() const {
   return largest_at_joint.value > 0 ? std::min(of_tendon, strength->at_knot / largest_at_joint.value) : of_tendon;
 }
 
+std::optional<Extreme> UnderLoad::least_tension() const {
+  if (rows.empty() || lost_at || !slack1.empty() || !slack2.empty()) return std::nullopt;
+  Extreme least{std::numeric_limits<double>::infinity(), 0};
+  for (const AnalysisRow& row : rows) {
+    for (const joint::EquilibriumPoint* point : {&row.rising, &row.falling}) {
+      const double tension = std::min({point->t1.upper, point->t1.lower, point->t2.upper, point->t2.lower});
+      if (tension < least.value) least = {tension, row.declared.alpha};
+    }
+  }
+  return least;
+}
+
 bool UnderLoad::is_whole_range(const std::vector<AlphaRange>& ranges) const {
   return ranges.size() == 1 && ranges.front().from == rows.front().declared.alpha &&
          ranges.front().to == rows.back().declared.alpha;

@@ -145,7 +145,7 @@ constexpr double k_inch = 25.4, k_foot = 304.8;  // mm
 
 /// mm per unit; empty for an unknown one.
 std::optional<double> unit_of_length(std::string_view word) {
-  static constexpr std::array<std::pair<std::string_view, double>, 24> units{{{"", 1},
+  static constexpr std::array<std::pair<std::string_view, double>, 25> units{{{"", 1},
                                                                               {"mm", 1},
                                                                               {"millimetre", 1},
                                                                               {"millimetres", 1},
@@ -158,6 +158,7 @@ std::optional<double> unit_of_length(std::string_view word) {
                                                                               {"centimeters", 10},
                                                                               {"m", 1000},
                                                                               {"metre", 1000},
+                                                                              {"metres", 1000},
                                                                               {"meter", 1000},
                                                                               {"meters", 1000},
                                                                               {"in", k_inch},
@@ -380,7 +381,8 @@ namespace {
 /// Removes an angle such as "180 deg" from a motor's name and returns it, rad; 0 for none.
 double extract_travel(std::string& simple) {
   for (std::size_t at = 0; at < simple.size(); ++at) {
-    if (!is_digit(simple[at]) || (at > 0 && simple[at - 1] != ' ' && simple[at - 1] != ',')) continue;
+    if (!is_digit(simple[at]) || (at > 0 && std::string_view(" ,(").find(simple[at - 1]) == std::string_view::npos))
+      continue;
     std::string_view rest = std::string_view(simple).substr(at);
     const std::size_t before = rest.size();
     const auto angle = take_decimal(rest, false);
@@ -450,7 +452,8 @@ std::optional<Answer<TypedMotor>> read_shaft(std::string_view text, LengthUnit p
 
 /// The words of an answer that may be part of a name.
 std::vector<std::string> words_of_name(std::string_view text) {
-  constexpr std::array<std::string_view, 7> k_fillers{"hobby", "a", "with", "for", "and", "that", "turns"};
+  constexpr std::array<std::string_view, 9> k_fillers{"hobby", "small", "standard", "a",    "with",
+                                                      "for",   "and",   "that",     "turns"};
   std::vector<std::string> words = split_words(text);
   std::erase_if(words, [&](const std::string& word) {
     return std::find(k_fillers.begin(), k_fillers.end(), word) != k_fillers.end();

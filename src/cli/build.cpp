@@ -91,7 +91,7 @@ std::string tendons_text(const formats::Product& product) {
 std::string mesh_size_text(const solid::BodyLayout& layout, const solid::OuterSize& size) {
   if (layout.scale == 1) return "";
   const std::string larger =
-      rounded(100 * std::abs(layout.scale - 1), 2) + (layout.scale > 1 ? " % larger" : " % smaller");
+      rounded(100 * std::abs(layout.scale - 1), 3) + (layout.scale > 1 ? " % larger" : " % smaller");
   return titled("", "in the mesh ⌀ " + fixed(size.diameter * layout.scale, 1) + " mm, " +
                         fixed(size.height * layout.scale, 1) + " mm high: " + larger +
                         ", for the shrinkage of the print (material.shrinkage_percent)");

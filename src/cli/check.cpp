@@ -30,7 +30,7 @@ std::string size_text(const pipeline::PartSize& size) {
   if (!size.extent) return "size: none, the part is empty";
   if (size.contours)
     return "size " + extent_text(*size.extent, true, 1) + ", " + std::to_string(*size.contours) + " closed " +
-           (*size.contours == 1 ? "contour" : "contours");
+           (*size.contours == 1 ? "path, marks included" : "paths, marks included");
   const std::string extent = "size " + extent_text(*size.extent, false, 1);
   return extent +
          (size.volume ? ", volume " + rounded(*size.volume / 1000.0) + " cm³" : ", no volume: the mesh is not closed");

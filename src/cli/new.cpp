@@ -87,9 +87,10 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
         "no file was written"));
     reply.fields["other_answers"] = Json::array();
     for (const OtherAnswer& other : asked.others) {
-      reply.diagnostics.push_back(
-          make_diagnostic(Severity::note, fmt::format("try {} in place of {} for question {} ({})", other.answer,
-                                                      other.given, other.question, other.words)));
+      reply.diagnostics.push_back(make_diagnostic(
+          Severity::note,
+          lengths_in(asked.units, fmt::format("try {} in place of {} for question {} ({})", other.answer, other.given,
+                                              other.question, other.words))));
       reply.fields["other_answers"].push_back(
           {{"question", other.question}, {"subject", other.words}, {"answer", other.answer}, {"given", other.given}});
     }
@@ -120,6 +121,12 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
   if (!layout.price_words.empty())
     reply.diagnostics.push_back(
         make_diagnostic(layout.is_held ? Severity::note : Severity::warning, layout.price_words));
+  if (asked.room)
+    reply.diagnostics.push_back(make_diagnostic(
+        Severity::note, lengths_in(asked.units, fmt::format("the motor holds the load with a larger drum and pulley: "
+                                                            "try {} in place of {} for question {} ({})",
+                                                            asked.room->answer, asked.room->given, asked.room->question,
+                                                            asked.room->words))));
   if (!product.file.mechanism.motor.is_there()) reply.diagnostics.push_back(motor_note(layout));
   reply.diagnostics.push_back(make_diagnostic(Severity::note, "save this file, then run 'fusee build' on it"));
   reply.fields["text"] = reply.text;
@@ -179,13 +186,16 @@ Reply open_print(const Arguments& arguments, FileAccess& files) {
 /// Writes the file of -o, and the table of its law beside it.
 void write_new_file(const Arguments& arguments, FileAccess& files, Reply& reply) {
   const std::filesystem::path path = *arguments.text("--out");
+  const bool force = arguments.has("--force");
   if (!arguments.has("--dry-run")) {
+    // An existing file is refused before its table is written, and an existing table before its file.
+    const bool exists = std::filesystem::exists(path);
+    if (exists) write_file(path, reply.text, force, files);
     if (reply.fields.contains("table")) {
       const auto& table = reply.fields["table"];
-      write_file(path.parent_path() / table["file"].get<std::string>(), table["text"].get<std::string>(),
-                 arguments.has("--force"), files);
+      write_file(path.parent_path() / table["file"].get<std::string>(), table["text"].get<std::string>(), force, files);
     }
-    write_file(path, reply.text, arguments.has("--force"), files);
+    if (!exists) write_file(path, reply.text, force, files);
   }
   reply.fields["file"] = path.string();
   reply.text = arguments.has("--dry-run") ? "no file written (--dry-run)\n" : path.string() + "\n";

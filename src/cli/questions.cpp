@@ -337,9 +337,8 @@ class Layouts {
       found.push_back({question, std::string(questions()[static_cast<std::size_t>(question - 1)].subject),
                        std::move(to), std::move(from)});
     };
-    constexpr int k_room_question = 4, k_motor_question = 6, k_tendon_question = 7;  // numbers in questions()
-    if (const auto room = nearest(answers, &Answers::room, {1.1, 1.25, 1.5, 2, 3, 5, 8}))
-      add(k_room_question, rounded(*room) + " mm", rounded(answers.room) + " mm");
+    constexpr int k_motor_question = 6, k_tendon_question = 7;  // numbers in questions()
+    if (auto room = other_room(answers)) found.push_back(std::move(*room));
     // Thinner tendons, the thickest first, in numbers of two digits.
     for (const double share : {0.75, 0.5, 0.3, 0.15}) {
       Answers other = answers;
@@ -358,6 +357,15 @@ class Layouts {
       break;
     }
     return found;
+  }
+
+  /// A larger room with which a layout exists: for a pulley and a drum.
+  std::optional<OtherAnswer> other_room(const Answers& answers) const {
+    constexpr int k_room_question = 4;  // number in questions()
+    const auto room = nearest(answers, &Answers::room, {1.1, 1.25, 1.5, 2, 3, 5, 8});
+    if (!room) return std::nullopt;
+    return OtherAnswer{k_room_question, std::string(questions()[k_room_question - 1].subject), rounded(*room) + " mm",
+                       rounded(answers.room) + " mm"};
   }
 
  private:
@@ -482,10 +490,16 @@ AskedMechanism ask_for_mechanism(Console& console, const std::vector<Setting>& s
   }
   const Layouts layouts(settings, context);
   while (true) {
-    AskedMechanism asked{layouts.search(answers, context), {}, {}, answers.units};
+    AskedMechanism asked{layouts.search(answers, context), {}, {}, {}, answers.units};
     if (asked.search.chosen) {
       const pipeline::ChosenLayout& layout = *asked.search.chosen;
       asked.text = text_of(layout, answers, settings);
+      if (layout.stalls) {
+        // With the limit of the motor, a layout that the motor cannot hold is none.
+        std::vector<Setting> with_limit = settings;
+        with_limit.push_back({"motor.enforce", "true"});
+        asked.room = Layouts(with_limit, context).other_room(answers);
+      }
       console.write("\n" + lengths_in(answers.units, joint_picture(layout.built.product)) + "\n");
       return asked;
     }

@@ -3,6 +3,7 @@
 /// it was built once.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct AskedMechanism {
   pipeline::LayoutSearch search;
   std::string text;                 ///< the file; "" without a layout
   std::vector<OtherAnswer> others;  ///< without a layout
+  std::optional<OtherAnswer> room;  ///< with which the named motor holds the load, if it cannot hold it now
   LengthUnit units = LengthUnit::mm;
 };
 

@@ -88,6 +88,15 @@ void put_drum(Mechanism& mechanism, double rho, double reach) {
   joint.attachment2 = end_at(normal + k_least_wrap + joint.theta_max);
 }
 
+/// Largest pitch radius of a drum that, with its tendon, is no wider than a room, in mm. Its drum radius has three
+/// digits, as in the file.
+double widest_drum(double room, double tendon) {
+  const double radius = 0.5 * room - tendon;
+  if (!(radius > 0)) return 0;
+  const double step = elementary::pow(10.0, std::floor(elementary::log10(radius)) - 2);
+  return in_three_digits(std::floor(radius / step + 1e-9) * step) + 0.5 * tendon;
+}
+
 /// Sets guides and pulley to the proportions of the paper's optimum at this link length. `r1`: mm.
 void put_lever(Mechanism& mechanism, double r1) {
   const double R = mechanism.joint.R;
@@ -131,6 +140,7 @@ class Candidates {
     const auto strength = analysis::likely_strength(joint_.tendon);
     // Twice the load, since knots and friction are known to a factor only.
     strong_ = strength ? std::min(2.0 * torque_of(joint_) / strength->at_knot, k_widest_drum * joint_.joint.R) : 0;
+    widest_ = widest_drum(requirements_.room, d);
     usable_ = usable_torque(joint_);
     joint_.pulley.law = Law::compensate;
     joint_.joint.drum_radius = 0;
@@ -139,10 +149,14 @@ class Candidates {
 
   std::vector<Candidate> all() {
     if (!(largest_ > 0)) return {};
+    if (!(widest_ > 0.6 * joint_.tendon.diameter)) {  // a lever has no drum
+      add_lever();
+      return std::move(all_);
+    }
     // Pitch radii of a drum, mm: the least, the usual one, and the largest with which one turn of the pulley suffices.
     const double least = std::max({bend_, strong_, 1.5 + joint_.tendon.diameter});
-    const double usual = std::max(0.15 * joint_.joint.R, least);
-    const double fitting = largest_ * turn_ / span_;
+    const double usual = std::min(std::max(0.15 * joint_.joint.R, least), widest_);
+    const double fitting = std::min(largest_ * turn_ / span_, widest_);
     add_lever();
     if (usual <= fitting) add_drum(usual);
     if (fitting >= least) add_drum(std::min(usual, fitting));
@@ -179,7 +193,7 @@ class Candidates {
   /// A drum and a pulley that both grow, for features that have no space on a smaller pulley. The pulley is no wider
   /// than the drum: the motor needs no more torque than the joint.
   void add_wider_drums(double rho) {
-    const double widest = std::min(k_widest_drum_for_features * joint_.joint.R, largest_);
+    const double widest = std::min({k_widest_drum_for_features * joint_.joint.R, largest_, widest_});
     for (double wider = rho; wider < widest;) {
       wider = std::min(1.35 * wider, widest);
       for (const double share : {0.8, 1.0}) add_drum_with(wider, share * wider, "a drum on the joint");
@@ -201,7 +215,7 @@ class Candidates {
     const auto is_within = [this](const Candidate& candidate) { return candidate.torque <= usable_; };
     if (usable_ == 0 || std::all_of(all_.begin(), all_.end(), is_within)) return;
     constexpr double k_three_digits = 1.01;  // the radius is rounded
-    const double widest = k_widest_drum_for_features * joint_.joint.R;
+    const double widest = std::min(k_widest_drum_for_features * joint_.joint.R, widest_);
     for (double wider = std::min(rho, widest); wider > 0; wider = std::min(1.35 * wider, widest)) {
       for (const double friction : {k_friction, k_much_friction}) {
         const double reduction = k_three_digits * friction * torque_of(joint_) / usable_;
@@ -265,6 +279,7 @@ class Candidates {
   double span_ = 0;          ///< range of θ, rad
   double bend_ = 0;          ///< least pitch radius around which the tendon may be bent, mm
   double largest_ = 0;       ///< largest pitch radius of a pulley within the room, mm
+  double widest_ = 0;        ///< largest pitch radius of a drum that is no wider than the room, mm
   double turn_ = 0;          ///< largest rotation of a pulley of one turn, rad
   double usable_ = 0;        ///< torque of the motor, N·mm; 0: unknown
   double strong_ = 0;        ///< least moment arm at which the knots hold twice the load, mm
@@ -422,6 +437,10 @@ std::optional<Obstacle> build_layout(const LayoutRequirements& needs, ChosenLayo
   layout.built = build(layout.file, options, context.without_progress());
   if (layout.built.status != BuildStatus::done) return first_reason(layout.built);
   const formats::Product& product = layout.built.product;
+  if (const std::optional<double>& lost_at = product.under_load.lost_at)
+    return Obstacle{
+        fmt::format("the load pulls the joint past its dead centre at alpha = {} deg: there is no equilibrium",
+                    fixed(degrees(*lost_at), 1))};
   layout.diameter = solid::diameter_about_axis(product.pulley.mesh);
   layout.travel = product.synthesis.stroke.back().alpha - product.synthesis.stroke.front().alpha;
   if (layout.diameter > needs.room + 1e-6)
@@ -569,6 +588,7 @@ class LayoutChoice {
     if (rank.loose > 0 && torque > 0) least_loose_torque_ = std::min(least_loose_torque_, torque);
     if (chosen_ && !(rank < best_)) return true;
     best_ = rank;
+    layout.stalls = rank.stalls > 0;
     layout.tension = torque_of(layout.file.mechanism) / arm_of(layout);
     // A pulley that was meant to turn more than once may do with one turn.
     constexpr std::string_view k_turns = ", several turns of the pulley";
@@ -671,6 +691,8 @@ std::vector<DeclaredMechanism> drums_for(const DeclaredMechanism& declared) {
       rho = std::max(usual, bend) * larger;
       reach = rho / ratio;
     }
+    if (declared.body.room > 0) rho = std::min(rho, widest_drum(declared.body.room, declared.tendon.diameter));
+    if (!(rho > 0.6 * declared.tendon.diameter)) continue;
     put_drum(changed, rho, reach);
     all.push_back(std::move(changed));
   }

@@ -35,6 +35,7 @@ struct ChosenLayout {
   double tension = 0;   ///< tension by the declared load, without pretension, N
   /// About a pretension that keeps both tendons taut under the load; "" if the usual one does.
   std::string pretension_words;
+  bool stalls = false;  ///< the motor cannot hold the load
   bool is_held = true;  ///< by a set screw or a horn, or as the file wants it
   /// Price of holding the pulley on its shaft, or the reason why nothing holds it; "" without a price.
   std::string price_words;
@@ -48,7 +49,7 @@ struct LayoutSearch {
 };
 
 /// Tries candidates by a quick check, then by full dry builds, in order of preference: a lever where the range allows
-/// it, a drum with one turn of the pulley, a drum with several turns. Candidates that the motor turns with its advised
+/// it, a drum with one turn of the pulley, a drum with several turns. No drum is wider than the room. Candidates that the motor turns with its advised
 /// margin come first. A candidate is preferred over an earlier one if the motor can hold the load, if its build has
 /// fewer warnings, if a set screw or a horn holds it on its shaft, if the motor has more of its advised margin, and if
 /// fewer features are omitted, in this order. The choice keeps its room as body.room_diameter_mm, and has

@@ -169,7 +169,7 @@ CASES = [
     ("check text.dxf", 3, "^$", "text.dxf"),
     ("check arm.toml", 3, "^$", "arm.toml"),
     ("check triangle.obj", 5, r"size 1 × 1 × 0 mm, no volume: the mesh is not closed.*FAILED", "looks like inches \\(× 25.4 = 25.4 × 25.4 × 0 mm\\) or metres.*check '.*' failed"),
-    ("check contours.dxf", 0, r"size 1500 × 40 mm, 1 closed contour\n", r"looks like millimetres read as inches \(÷ 25.4 = 59.06 × 1.575 mm\)"),
+    ("check contours.dxf", 0, r"size 1500 × 40 mm, 1 closed path, marks included\n", r"looks like millimetres read as inches \(÷ 25.4 = 59.06 × 1.575 mm\)"),
     ("rewind arm.toml triangle.obj", 3, "^$", "triangle.obj.*groove"),
     ("rewind arm.toml missing.stl", 3, "^$", "missing.stl"),
     ("replay missing.zip", 3, "^$", "missing.zip"),

@@ -126,7 +126,7 @@ class Build(harness.Scratch):
     def test_check_shows_size_and_volume(self):
         self.build("p")
         self.expect("check p/pulley.stl", 0, r"\nsize \d+\.?\d* × \d+\.?\d* × \d+\.?\d* mm, volume \d+\.?\d* cm³\n", "^$")
-        self.expect("check p/profile.dxf", 0, r"\nsize \d+\.?\d* × \d+\.?\d* mm, \d+ closed contours\n", "^$")
+        self.expect("check p/profile.dxf", 0, r"\nsize \d+\.?\d* × \d+\.?\d* mm, \d+ closed paths, marks included\n", "^$")
         document = self.expect_json("check p/pulley.stl", 0)
         x, y, z = document["size_mm"]
         self.assertTrue(0 < document["volume_mm3"] < x * y * z)
@@ -588,6 +588,45 @@ class Kill(harness.Scratch):
                 out, err = run.communicate(timeout=120)
                 self.assertEqual(run.returncode, 0, err)
             self.assertIn(self.files("both"), sets)
+
+
+class KeptFiles(harness.Scratch):
+    def test_refused_target_leaves_no_table(self):
+        (self.folder / "gripper.toml").write_bytes(self.fusee("new gripper").stdout)
+        shutil.copy(harness.SOURCE / "profiles/gripper_law.csv", self.folder)
+        self.expect("build gripper.toml -o made", 0)
+        other = self.folder / "other"
+        other.mkdir()
+        (other / "mine.toml").write_text("mine")
+        self.expect("new --from made/pulley.3mf -o other/mine.toml", 6)
+        self.assertEqual([path.name for path in other.iterdir()], ["mine.toml"])
+        self.assertEqual((other / "mine.toml").read_text(), "mine")
+        self.expect("new --from made/pulley.3mf -o other/mine.toml --force", 0)
+        self.assertEqual(len(list(other.iterdir())), 2)
+
+
+class Pages(harness.Scratch):
+    def build(self, settings=""):
+        self.expect(f"build arm.toml -o page {settings} --force", 0)
+        return (self.folder / "page/report.html").read_text()
+
+    def test_page_of_inch_file_has_inches(self):
+        (self.folder / "arm.toml").write_bytes(self.fusee("new finger_mcp --set units=inch").stdout)
+        page = self.build()
+        body = page[page.index("<body"):]
+        self.assertIn("try body.hub_diameter_mm = 0.433 (now automatic, 0.283)", body)
+        self.assertRegex(body, r">9\.055 in</td>")  # cut length of tendon 1: 230 mm
+        self.assertRegex(body, r">[\d.]+ in</text>")  # scale bars
+        self.assertNotRegex(re.sub(r"<script.*?</script>", "", body, flags=re.S), r">[\d.]+ mm</(td|text)>")
+
+    def test_summary_and_page_report_taut_tendons(self):
+        (self.folder / "arm.toml").write_bytes(self.fusee("new forearm").stdout)
+        for settings, taut in (("", True), ("--set load.tip_force_N=100", False)):
+            summary = self.expect(f"build arm.toml --dry-run {settings}", 0).stdout.decode()
+            self.assertEqual(bool(re.search(r"both tendons taut over the whole range: [\d.]+ N or more, least at alpha = ", summary)), taut)
+            page = self.build(settings)
+            self.assertEqual("Both tendons stay taut over the whole range: the least tension is " in page, taut)
+            self.assertNotIn("with tendon 1 slack", page)
 
 
 if __name__ == "__main__":

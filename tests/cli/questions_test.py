@@ -82,7 +82,7 @@ class Questions(harness.Scratch):
 
     def test_lengths_are_understood(self):
         for typed, length in (("45 mm", "45 mm"), ("4.5 cm", "45 mm"), ("4,5 cm", "45 mm"), ("1.8 in", "1.8 in"), ('1.8"', "1.8 in"),
-                              ('1 3/4"', "1.75 in"), ("0.5 m", "500 mm"), ("2 ft 3 in", "27 in")):
+                              ('1 3/4"', "1.75 in"), ("0.5 m", "500 mm"), ("0.5 metres", "500 mm"), ("2 ft 3 in", "27 in")):
             self.assertIn(f"length: {length}", self.understood("a", typed)[0], typed)
 
     def test_ranges_are_understood(self):
@@ -100,7 +100,7 @@ class Questions(harness.Scratch):
 
     def test_motors_and_tendons_are_found_by_name(self):
         begun = ("a", "45", "0 80", "30", "10 N")
-        for typed, motor in (("N20", "N20 gear motor"), ("MG996R horn", "turns 180 deg"), ("dynamixel XL330", "horn of Dynamixel XL330"),
+        for typed, motor in (("N20", "N20 gear motor"), ("small N20 gear motor", "N20 gear motor"), ("MG996R horn", "turns 180 deg"), ("dynamixel XL330", "horn of Dynamixel XL330"),
                              ("5 mm D", "a D shaft of 5 mm"), ("1/4 in", "a round shaft of 6.35 mm")):
             self.assertIn(motor, self.understood(*begun, typed)[0], typed)
         for typed, modulus in (("Dyneema 0.6", 40000), ("0.6 mm Spectra", 40000), ("Vectran 0.6", 25000), ("nylon 0.6 mm", 2000),
@@ -195,9 +195,9 @@ class Questions(harness.Scratch):
 
     def test_weak_motor_gets_a_larger_reduction(self):
         for words in ("new --ask", "new --ask --set motor.enforce=true"):
-            text, asked = self.ask(answers("elbow", "250 mm", "±60", "80 mm", "2 kg", "NEMA17-48mm", "1 mm"), words=words)
+            text, asked = self.ask(answers("elbow", "250 mm", "±60", "240 mm", "2 kg", "NEMA17-48mm", "1 mm"), words=words)
             self.assertNotIn("warning", asked)
-            motor = self.builds(text, 80)["motor"]
+            motor = self.builds(text, 240)["motor"]
             self.assertGreaterEqual(motor["torque"]["margin"], 1)
             self.assertLess(len(text.splitlines()), 90)
             self.assertEqual("enforce = true" in text, "enforce" in words)
@@ -205,6 +205,19 @@ class Questions(harness.Scratch):
         out, err = self.ask(answers("elbow", "250 mm", "±60", "12 mm", "20 kg", "NEMA17-48mm", "1 mm"), 4, "new --ask --set motor.enforce=true")
         self.assertIn("no layout fits these answers", err)
         self.assertNotIn("no limit to enforce", err)
+
+    def test_drum_is_no_wider_than_room(self):
+        for typed, room in ((answers(load="5 N"), 30), (answers(room="20"), 20), (answers("elbow", "250", "±60", "60", "2 kg", "NEMA17-48mm 5:1", "1"), 60)):
+            joint = tomllib.loads(self.ask(typed)[0])
+            self.assertLessEqual(2 * (joint["joint"]["drum_radius_mm"] + joint["tendon"]["diameter_mm"]), room, typed)
+        # If the motor is too weak for such drums, the reply names the room that suffices.
+        elbow = answers("elbow", "250", "±60", "80", "2 kg", "NEMA17-48mm", "1")
+        asked = self.ask(elbow)[1]
+        self.assertIn("warning: the motor NEMA17-48mm holds 590 Nmm, and the load requires", asked)
+        room = re.search(r"the motor holds the load with a larger drum and pulley: try ([\d.]+) mm in place of 80 mm for question 4 \(room\)", asked)
+        self.assertTrue(room, asked)
+        self.assertIn(f"try {room[1]} mm in place of 80 mm for question 4", self.ask(elbow, 4, "new --ask --set motor.enforce=true")[1])
+        self.assertNotIn("warning: the motor", self.ask(elbow.replace("\n80\n", f"\n{room[1]}\n"))[1])
 
     def test_pulley_is_held_on_its_shaft(self):
         # A pulley of several turns is smaller, and has no space for a hub with a set screw.
