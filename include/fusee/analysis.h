@@ -108,10 +108,12 @@ struct MotorCheck {
   double joint_speed_needed = 0;  ///< rad/s; 0: none is required
   /// "motor_travel", "motor_torque", "motor_speed": those with a known limit.
   std::vector<profile::Condition> conditions;
-  std::vector<std::string> sufficient_models;  ///< of the catalogue: those that fit the bore first, the weakest first
-  std::size_t fitting_models = 0;              ///< number of sufficient_models that fit the bore
-  std::string strongest_model;                 ///< of the catalogue, of those that fit the bore; "" without one
-  std::string misfit;                          ///< why the model does not fit the bore; "" if it does
+  /// Of the catalogue, behind the file's gearbox ("NEMA17-48mm 5:1"): those that fit the bore first, the weakest first.
+  std::vector<std::string> sufficient_models;
+  std::vector<double> sufficient_torques;  ///< their stall torques behind the gearbox, N·mm
+  std::size_t fitting_models = 0;          ///< number of sufficient_models that fit the bore
+  std::string strongest_model;             ///< of the catalogue, of those that fit the bore; "" without one
+  std::string misfit;                      ///< why the model does not fit the bore; "" if it does
   std::string misfit_hint;
   /// Set by the caller: changes with which every condition holds and the pulley passes every check of a full build.
   profile::Advice advice;

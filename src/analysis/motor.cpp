@@ -59,21 +59,30 @@ bool suffices(const MotorModel& model, const MotorCheck& need, const std::vector
          (model.speed > 0 && lowest_joint_speed(model, all, true).value >= need.joint_speed_needed * (1 - k_rounding));
 }
 
-/// Sets the models of the catalogue that suffice, and the strongest that fits the bore. Models that fit the bore come
-/// first; within both groups, the weaker ones.
+/// Sets the models of the catalogue that suffice behind the file's gearbox, and the strongest that fits the bore.
+/// Models that fit the bore come first; within both groups, the weaker ones. A gearbox has a shaft of its own: with one,
+/// the model of the file comes first, and no model is said to fit the bore.
 void add_models(MotorCheck& need, const Mechanism& mechanism, const std::vector<Demand>& all) {
-  std::vector<const MotorModel*> found;
+  struct Found {
+    MotorModel model;
+    bool is_first = false;
+  };
+  const bool has_gearbox = mechanism.motor.gear_ratio != 1;
+  std::vector<Found> found;
   for (const MotorModel& model : motor_models()) {
-    if (suffices(model, need, all)) found.push_back(&model);
+    const MotorModel geared = behind_gearbox(model, mechanism.motor);
+    const bool is_first = has_gearbox ? model.name == mechanism.motor.model : fits_bore(model, mechanism.body);
+    if (suffices(geared, need, all)) found.push_back({geared, is_first});
   }
-  std::stable_sort(found.begin(), found.end(), [&mechanism](const MotorModel* one, const MotorModel* other) {
-    const bool one_fits = fits_bore(*one, mechanism.body), other_fits = fits_bore(*other, mechanism.body);
-    return one_fits != other_fits ? one_fits : one->stall_torque < other->stall_torque;
+  std::stable_sort(found.begin(), found.end(), [](const Found& one, const Found& other) {
+    return one.is_first != other.is_first ? one.is_first : one.model.stall_torque < other.model.stall_torque;
   });
-  for (const MotorModel* model : found) {
-    need.sufficient_models.push_back(model->name);
-    need.fitting_models += fits_bore(*model, mechanism.body) ? 1 : 0;
+  for (const Found& one : found) {
+    need.sufficient_models.push_back(one.model.name);
+    need.sufficient_torques.push_back(one.model.stall_torque);
+    need.fitting_models += !has_gearbox && one.is_first ? 1 : 0;
   }
+  if (has_gearbox) return;
   if (const MotorModel* strongest = strongest_motor_that_fits(mechanism.body)) need.strongest_model = strongest->name;
 }
 
@@ -189,8 +198,7 @@ std::vector<std::string> MotorCheck::models_texts() const {
     std::string text;
     for (std::size_t i = begin; i < end; ++i) {
       text += (i == begin ? "" : ", ") + sufficient_models[i];
-      if (torque.value > 0)
-        text += " (margin " + rounded(find_motor_model(sufficient_models[i])->stall_torque / torque.value, 3) + ")";
+      if (torque.value > 0) text += " (margin " + rounded(sufficient_torques[i] / torque.value, 3) + ")";
     }
     return text;
   };

@@ -540,21 +540,56 @@ double extract_gear_ratio(std::string& simple) {
   return 1;
 }
 
+/// A motor's answer without its shaft.
+struct ModelAnswer {
+  std::vector<const MotorModel*> models;
+  std::optional<double> bore;  ///< the typed diameter of the shaft, mm
+  bool flat = false;
+};
+
+/// Separates the words of a shaft, and of a gearbox, from those of the model.
+ModelAnswer split_model(std::string simple, LengthUnit plain) {
+  ModelAnswer answer;
+  answer.bore = extract_diameter(simple, plain);
+  std::vector<std::string> words = words_of_name(simple);
+  std::erase_if(words, [&answer](const std::string& word) {
+    const bool is_flat = word == "d" || word == "d-shaft" || word == "flat";
+    answer.flat = answer.flat || is_flat;
+    return is_flat || word == "shaft" || word == "round" || word.starts_with("gear") || word == "planetary";
+  });
+  answer.models = matching_models(words);
+  return answer;
+}
+
+/// A model of the catalogue together with its shaft: "NEMA17-40mm, 5 mm D". Empty for any other text.
+std::optional<TypedMotor> read_model_with_shaft(const std::string& simple, LengthUnit plain) {
+  const ModelAnswer answer = split_model(simple, plain);
+  if (!answer.bore || answer.models.size() != 1) return std::nullopt;
+  const MotorModel& model = *answer.models.front();
+  if (find_shaft(model.fits.front()) == nullptr) return std::nullopt;
+  TypedMotor motor = motor_of(model);
+  for (const std::string& name : model.fits) {
+    const ShaftType* shaft = find_shaft(name);
+    if (shaft == nullptr || std::abs(shaft->diameter - *answer.bore) > 0.005) continue;
+    if ((shaft->bore == Bore::d) != answer.flat) continue;
+    motor.shaft = name;
+    motor.words = fmt::format("{}, {} ({})", model.name, shaft->description, name);
+    return motor;
+  }
+  motor.shaft.clear();
+  motor.bore = *answer.bore;
+  motor.flat = answer.flat;
+  motor.words = fmt::format("{}, a {} shaft of {} mm", model.name, answer.flat ? "D" : "round", rounded(*answer.bore));
+  return motor;
+}
+
 /// The model behind a gearbox. Its shaft is that of the gearbox if one was typed.
-Answer<TypedMotor> read_geared(std::string simple, double ratio, std::string_view typed, LengthUnit plain) {
+Answer<TypedMotor> read_geared(const std::string& simple, double ratio, std::string_view typed, LengthUnit plain) {
   const Field& field = *find_field("motor.gear_ratio");
   if (ratio < field.least || ratio > field.most)
     return Refusal{fmt::format("a gear ratio of {}:1 is not within {} to {}", rounded(ratio), rounded(field.least),
                                rounded(field.most))};
-  const std::optional<double> bore = extract_diameter(simple, plain);
-  std::vector<std::string> words = words_of_name(simple);
-  bool flat = false;
-  std::erase_if(words, [&flat](const std::string& word) {
-    if (word == "d" || word == "d-shaft" || word == "flat") flat = true;
-    return word == "d" || word == "d-shaft" || word == "flat" || word == "shaft" || word == "round" ||
-           word.starts_with("gear") || word == "planetary";
-  });
-  const std::vector<const MotorModel*> models = matching_models(words);
+  const auto [models, bore, flat] = split_model(simple, plain);
   if (models.size() != 1) {
     std::string names;
     add_names(names, models);
@@ -583,8 +618,10 @@ Answer<TypedMotor> read_motor(std::string_view typed, LengthUnit plain) {
   const double travel = extract_travel(simple);
   const double gear_ratio = extract_gear_ratio(simple);
   const auto shaft = read_shaft(simple, plain);
+  const auto with_shaft = read_model_with_shaft(simple, plain);
   Answer<TypedMotor> answer = gear_ratio != 1 ? read_geared(simple, gear_ratio, typed, plain)
                               : shaft         ? *shaft
+                              : with_shaft    ? *with_shaft
                                               : read_entry(words_of_name(simple), typed);
   if (TypedMotor* const motor = std::get_if<TypedMotor>(&answer); motor != nullptr && travel > 0) {
     motor->typed_travel = travel;

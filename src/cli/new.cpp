@@ -72,6 +72,17 @@ Diagnostic motor_note(const pipeline::ChosenLayout& layout) {
                          "take a smaller load, or another motor; " + motor.models_text());
 }
 
+/// The torque that the motor of the answers has to hold, with its margin. A motor that is too weak has a warning.
+Diagnostic margin_note(const analysis::MotorCheck& motor) {
+  std::string words = fmt::format("under the load the motor has to hold {} Nmm, and {} {} {} Nmm",
+                                  rounded(motor.torque.value, 3), motor.model.empty() ? "it" : motor.model,
+                                  motor.holds ? "holds" : "stalls at", rounded(motor.torque_limit, 3));
+  if (motor.torque.value > 0)
+    words += fmt::format(" (margin {}; {} is advised)", rounded(motor.torque_limit / motor.torque.value, 3),
+                         rounded(motor.holds ? 1.0 : k_advised_stall_margin));
+  return make_diagnostic(Severity::note, words);
+}
+
 /// The file of the answers, or why no layout fits them and which other answers would do.
 Reply ask_questions(const Arguments& arguments, Console& console, const RunContext& context) {
   if (!arguments.positionals().empty()) throw UsageError("--ask takes no template: it asks for the joint");
@@ -127,7 +138,10 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
                                                             "try {} in place of {} for question {} ({})",
                                                             asked.room->answer, asked.room->given, asked.room->question,
                                                             asked.room->words))));
-  if (!product.file.mechanism.motor.is_there()) reply.diagnostics.push_back(motor_note(layout));
+  if (!product.file.mechanism.motor.is_there())
+    reply.diagnostics.push_back(motor_note(layout));
+  else if (const auto& motor = product.under_load.motor; motor && motor->torque_limit >= motor->torque.value)
+    reply.diagnostics.push_back(margin_note(*motor));
   reply.diagnostics.push_back(make_diagnostic(Severity::note, "save this file, then run 'fusee build' on it"));
   reply.fields["text"] = reply.text;
   reply.fields["layout"] = layout.words;

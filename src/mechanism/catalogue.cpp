@@ -230,12 +230,16 @@ MotorModel motor_limits(const Motor& motor) {
     limits.stall_torque = motor.stall_torque;
     limits.holds = false;  // [motor] states the torque of a stall, not a continuous one
   }
-  if (motor.gear_ratio == 1) return limits;
-  limits.name += (limits.name.empty() ? "" : " ") + rounded(motor.gear_ratio) + ":1";
-  limits.travel /= motor.gear_ratio;
-  limits.speed /= motor.gear_ratio;
-  limits.stall_torque *= motor.gear_ratio * motor.gear_efficiency;
-  return limits;
+  return behind_gearbox(limits, motor);
+}
+
+MotorModel behind_gearbox(MotorModel model, const Motor& motor) {
+  if (motor.gear_ratio == 1) return model;
+  model.name += (model.name.empty() ? "" : " ") + rounded(motor.gear_ratio) + ":1";
+  model.travel /= motor.gear_ratio;
+  model.speed /= motor.gear_ratio;
+  model.stall_torque *= motor.gear_ratio * motor.gear_efficiency;
+  return model;
 }
 
 const Horn& horn_of(const Mechanism& mechanism) {

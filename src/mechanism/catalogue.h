@@ -144,6 +144,8 @@ bool fits_bore(const MotorModel& model, const Body& body);
 /// Limits of the mechanism's motor at the pulley, behind its gearbox: the numbers of [motor] and, where it has none,
 /// those of its model. 0: unknown.
 MotorModel motor_limits(const Motor& motor);
+/// The model behind the gearbox of [motor], with its ratio in the name.
+MotorModel behind_gearbox(MotorModel model, const Motor& motor);
 
 /// The value of body.horn that selects Mechanism::horn.
 inline constexpr std::string_view k_own_horn = "own";

@@ -122,6 +122,22 @@ TEST(Motor, ListsMarginsAndWhetherModelsFit) {
                                         rounded(strongest / motor.torque.value, 3) + ", and 2 is advised");
 }
 
+TEST(Motor, GearboxAppliesToEverySuitableModel) {
+  DeclaredMechanism mechanism = with_motor(100, 0, 0);
+  mechanism.motor = {};
+  mechanism.motor.model = "NEMA17-48mm";
+  const double torque = under_load(mechanism).motor->torque.value,
+               stall = find_motor_model("NEMA17-48mm")->stall_torque;
+  // With a gearbox of twice the missing ratio the motor holds the load.
+  mechanism.motor.gear_ratio = std::ceil(2 * torque / stall) + 1;
+  const MotorCheck motor = *under_load(mechanism).motor;
+  const std::string name = "NEMA17-48mm " + rounded(mechanism.motor.gear_ratio) + ":1";
+  ASSERT_THAT(motor.sufficient_models, Contains(name));
+  EXPECT_EQ(motor.sufficient_models.front(), name);
+  const double margin = stall * mechanism.motor.gear_ratio * mechanism.motor.gear_efficiency / torque;
+  EXPECT_THAT(motor.models_text(), ::testing::StartsWith("suitable: " + name + " (margin " + rounded(margin, 3) + ")"));
+}
+
 TEST(Motor, GearboxMultipliesTorqueAndDividesSpeed) {
   DeclaredMechanism mechanism = linear_wrist();
   mechanism.motor.model = "MG996R";

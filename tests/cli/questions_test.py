@@ -256,6 +256,21 @@ class Questions(harness.Scratch):
             analysis = self.expect_json("analyze asked.toml", 0)
             self.assertEqual(analysis["motor"]["travel"]["limit_deg"], 180)
 
+    def test_model_is_accepted_with_its_shaft(self):
+        begun = ("a", "250", "±60", "80", "2 kg")
+        for typed, words in (("NEMA17-40mm, 5 mm D", "NEMA17-40mm, NEMA 17 stepper, D shaft (nema17-d5)"),
+                             ("NEMA17-40mm 5 mm round shaft", "NEMA17-40mm, NEMA 17 stepper, round shaft (nema17-round5)"),
+                             ("NEMA17-40mm, 6 mm D", "NEMA17-40mm, a D shaft of 6 mm")):
+            self.assertIn("motor: " + words, self.understood(*begun, typed)[0], typed)
+        text, asked = self.ask(answers(load="2 N", room="40", motor="NEMA17-40mm, 5 mm D"))
+        read = tomllib.loads(text)
+        self.assertEqual((read["motor"], read["body"]["shaft"]), ({"model": "NEMA17-40mm"}, "nema17-d5"))
+
+    def test_motor_of_the_answers_has_a_margin(self):
+        for typed, limit in (("NEMA17-48mm 5:1, 8 mm D", "NEMA17-48mm 5:1 holds 2660 Nmm"), ("NEMA17-48mm", "NEMA17-48mm holds 590 Nmm")):
+            _, asked = self.ask(answers("elbow", "250", "±60", "80", "0.1 kg", typed, "1"))
+            self.assertRegex(asked, rf"note: under the load the motor has to hold [\d.]+ Nmm, and {limit} \(margin [\d.]+; 1 is advised\)")
+
     def test_gearbox_multiplies_torque(self):
         begun = ("a", "250", "±60", "80", "2 kg")
         self.assertIn("motor: NEMA17-48mm with a gearbox 5:1, a D shaft of 8 mm", self.understood(*begun, "NEMA17-48mm 5:1, 8 mm D")[0])
