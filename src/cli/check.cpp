@@ -2,6 +2,7 @@
 #include "cli/as_built.h"
 #include "cli/command.h"
 #include "cli/strict.h"
+#include "fusee/joint.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
 
@@ -74,6 +75,31 @@ void add_size(const pipeline::PartSize& size, Reply& reply) {
   if (size.contours) reply.fields["contours"] = *size.contours;
 }
 
+/// Warns about a valid mesh whose grooves are those of the mechanism's pulley in another size.
+void add_scale_warning(const DeclaredMechanism& mechanism, const std::string& file, const pipeline::Part& part,
+                       Reply& reply) {
+  if (!std::holds_alternative<solid::TriangleMesh>(part)) return;
+  const auto add_note = [&](const std::string& reason) {
+    reply.diagnostics.push_back(
+        about_file(Severity::note, file, "its size is not compared with the mechanism's pulley: " + reason));
+  };
+  double scale = 1;
+  try {
+    const pipeline::RewoundPart rewound = pipeline::rewind_moved_part(joint::identified_joint(mechanism), part);
+    if (rewound.place == pipeline::PartPlace::not_recognised) return add_note("its grooves are others");
+    scale = rewound.scale;
+  } catch (const InputError& error) {
+    return add_note(error.diagnostics().front().message);
+  }
+  reply.fields["scale"] = scale;
+  if (scale == 1) return;
+  Diagnostic warning = about_file(Severity::warning, file,
+                                  "it is " + rounded(100 * std::abs(scale - 1), 2) + " % " +
+                                      (scale > 1 ? "larger" : "smaller") + " than the mechanism file's pulley");
+  warning.hint = "'fusee rewind' reports the error of the joint angle";
+  reply.diagnostics.push_back(warning);
+}
+
 /// Adds the test of the room that --mechanism states, or a note that gives the reason why there is none.
 void add_room(const Arguments& arguments, const pipeline::Part& part, const RunContext& context,
               std::vector<Check>& checks, Reply& reply) {
@@ -82,6 +108,7 @@ void add_room(const Arguments& arguments, const pipeline::Part& part, const RunC
   const MechanismFile spec = read_mechanism(*path, arguments.settings(), *context.files);
   reply.diagnostics = spec.warnings;
   reply.fields["mechanism"] = *path;
+  if (all_ok(checks)) add_scale_warning(spec.mechanism, arguments.positionals().front(), part, reply);
   if (const std::optional<Check> room = pipeline::room_check(spec.mechanism, part)) {
     checks.push_back(*room);
     return;
@@ -131,8 +158,9 @@ Command check_command() {
           "duplicate line fails one check and is omitted from the others. Reports size and\n"
           "volume, and warns if the size suggests inches or metres. With --mechanism it\n"
           "also tests that the part, after the print has shrunk, fits into the mechanism's\n"
-          "body.room_diameter_mm about the z axis.",
-          {{"--mechanism", "SPEC.toml", "also test the room of this mechanism"}, strict_option()},
+          "body.room_diameter_mm about the z axis, and warns if it has another size than\n"
+          "the mechanism's pulley.",
+          {{"--mechanism", "SPEC.toml", "also test the room and the size of this mechanism"}, strict_option()},
           {{"fusee check out/arm/pulley.stl", "is the mesh a solid that can be printed?"},
            {"fusee check out/arm/plates.dxf", "are all contours closed and free of crossings?"},
            {"fusee check out/arm/pulley.stl --mechanism arm.toml", "does it fit into its room?"},

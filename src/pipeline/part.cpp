@@ -38,6 +38,9 @@ Part parse_part(std::string_view bytes, const std::string& name) {
 
 bool is_closed(const formats::DrawingPath& path) { return path.closed; }
 
+/// The layer of the lines of text below fusee's sheets; nothing is cut there.
+bool is_note(const formats::DrawingPath& path) { return path.layer == "NOTES"; }
+
 }  // namespace
 
 Part read_part(const std::filesystem::path& path, FileAccess& files) {
@@ -59,7 +62,9 @@ PartSize size_of(const Part& part, const std::vector<Check>& checks) {
   } else {
     solid::TriangleMesh points;
     const std::vector<formats::DrawingPath>& paths = std::get<formats::Drawing>(part).paths;
+    const bool has_cuts = !std::all_of(paths.begin(), paths.end(), is_note);
     for (const formats::DrawingPath& path : paths) {
+      if (has_cuts && is_note(path)) continue;
       for (const Vec2& point : path.points) points.vertices.emplace_back(point.x(), point.y(), 0.0);
     }
     if (points.vertices.empty()) return size;

@@ -151,6 +151,18 @@ class Build(harness.Scratch):
         self.expect("check p/pulley.stl --mechanism arm.toml", 0, "valid", "arm.toml: note: the room is not tested: the file has no")
         self.expect("check p/plates.dxf --mechanism arm.toml --set body.room_diameter_mm=5", 0, "valid", "note: the room is not tested: the outlines")
 
+    def test_check_warns_about_scaled_part(self):
+        self.build("p")
+        self.assertEqual(self.expect_json("check p/pulley.stl --mechanism arm.toml", 0)["scale"], 1)
+        for scale, words in ((1.01, "1 % larger"), (0.985, "1.5 % smaller")):
+            self.move("p/pulley.stl", "scaled.stl", scale=scale)
+            self.expect("check scaled.stl", 0, "valid", "^$")
+            self.expect("check scaled.stl --mechanism arm.toml", 0, "valid", f"scaled.stl: warning: it is {words} than the mechanism file's pulley(.|\n)*fusee rewind")
+            self.expect("check scaled.stl --mechanism arm.toml --strict", 5)
+        # The mesh is larger by the shrinkage that it compensates.
+        self.expect("build arm.toml --set material.shrinkage_percent=2 -o large", 0)
+        self.assertEqual(self.expect_json("check large/pulley.stl --mechanism arm.toml --set material.shrinkage_percent=2", 0)["scale"], 1)
+
     def move(self, source, target, turn=0.0, by=(0.0, 0.0, 0.0), scale=1.0, mirror=1, keep=lambda z: True):
         """Moves a binary STL as a slicer does: mirrored in x (mirror=-1), turned about z (deg), scaled, then shifted (mm).
         Keeps only facets whose corners all have a z that `keep` accepts."""

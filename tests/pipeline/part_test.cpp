@@ -234,6 +234,8 @@ TEST_F(MadePart, SizeMatchesMeshOrDrawing) {
   EXPECT_EQ(*flat.extent, Vec3(4, 4, 0));
   EXPECT_EQ(flat.contours, 1u);
   EXPECT_FALSE(flat.volume);
+  drawing.paths.push_back({"NOTES", "LINE", 3, false, {{0, -68}, {1, -68}}});
+  EXPECT_EQ(*pipeline::size_of(drawing, {}).extent, Vec3(4, 4, 0));
 }
 
 TEST_F(MadePart, ReadsUtf16AndCarriageReturns) {
