@@ -192,8 +192,13 @@ std::string manifest_of(const std::vector<OutputFile>& files) {
 
 std::string claim_windows_text(const paper::Claim& claim) {
   std::string text;
-  for (const paper::ParameterWindows& parameter : claim.windows)
-    text += (text.empty() ? "" : "; ") + parameter.parameter + " " + paper::windows_text(parameter);
+  for (const paper::ParameterWindows& parameter : claim.windows) {
+    text += text.empty() ? "" : "; ";
+    if (parameter.windows.empty())
+      text += "no " + parameter.parameter + " from " + paper::searched_text(parameter) + " makes it hold";
+    else
+      text += parameter.parameter + " " + paper::windows_text(parameter);
+  }
   return text.empty() ? "does not depend on assumed numbers" : text;
 }
 

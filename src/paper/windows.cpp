@@ -37,6 +37,11 @@ std::vector<Window> windows_where(const std::function<bool(double)>& holds, doub
   return windows;
 }
 
+std::string searched_text(const ParameterWindows& parameter) {
+  return rounded(parameter.searched_low, 3) + " to " + rounded(parameter.searched_high, 3) +
+         (parameter.unit.empty() ? "" : " " + parameter.unit);
+}
+
 std::string windows_text(const ParameterWindows& parameter) {
   std::string text;
   for (const Window& window : parameter.windows) {
@@ -50,9 +55,7 @@ std::string windows_text(const ParameterWindows& parameter) {
     else
       text += rounded(window.low, 3) + " to " + rounded(window.high, 3);
   }
-  if (text.empty())
-    return "nowhere in " + rounded(parameter.searched_low, 3) + " to " + rounded(parameter.searched_high, 3) +
-           (parameter.unit.empty() ? "" : " " + parameter.unit);
+  if (text.empty()) return "none from " + searched_text(parameter);
   return text + (parameter.unit.empty() ? "" : " " + parameter.unit);
 }
 

@@ -13,7 +13,10 @@ namespace fusee::paper {
 /// is true at only one of them. Intervals narrower than a step are missed.
 std::vector<Window> windows_where(const std::function<bool(double)>& holds, double low, double high, int steps);
 
-/// "0.132 to 0.249", "up to 0.21", "nowhere".
+/// The searched range: "2 to 42 mm".
+std::string searched_text(const ParameterWindows& parameter);
+
+/// "0.132 to 0.249", "up to 0.21", "none from 2 to 42 mm".
 std::string windows_text(const ParameterWindows& parameter);
 
 }  // namespace fusee::paper

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "export/report/paper.h"
 #include "fusee/optimize.h"
 #include "paper/windows.h"
 
@@ -24,7 +25,13 @@ TEST(Windows, SupportSeveralAndOpenWindows) {
   EXPECT_TRUE(windows[0].open_low);
   EXPECT_TRUE(windows[1].open_high);
   EXPECT_EQ(windows_text({"mu", "", 0, 1, windows}), "up to 0.2 and from 0.7");
-  EXPECT_EQ(windows_text({"r1", "mm", 2, 42, {}}), "nowhere in 2 to 42 mm");
+  EXPECT_EQ(windows_text({"r1", "mm", 2, 42, {}}), "none from 2 to 42 mm");
+}
+
+TEST(Windows, ClaimSaysThatNoValueMakesItHold) {
+  Claim claim;
+  claim.windows = {{"mu", "", 0.01, 0.51, {}}, {"EF", "mm", 20, 220, {{74.8, 220, false, true}}}};
+  EXPECT_EQ(formats::claim_windows_text(claim), "no mu from 0.01 to 0.51 makes it hold; EF from 74.8 mm");
 }
 
 class Paper : public ::testing::Test {
