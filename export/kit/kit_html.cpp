@@ -48,11 +48,15 @@ std::vector<KitStep> steps_of(const KitProduct& product) {
   base.parts = {"base_plate", "leg"};
   base.motor = true;
   base.words = {"Screw a leg under each corner of the base plate, from above."};
-  if (sizes.motor)
+  if (sizes.motor) {
     base.words.push_back(
-        "Screw the motor (" + sizes.motor->name + ") under the plate, low heads above" +
+        "Screw the motor" + (sizes.motor_name.empty() ? "" : " (" + sizes.motor_name + ")") +
+        " under the plate, low heads above" +
         (sizes.motor->shaft > 0 ? "." : ", its horn up; turn its horn so that 0 of the motor is home."));
-  else
+    if (sizes.motor_name != sizes.motor->name)
+      base.words.push_back("The plate's holes for it are an assumption, those of " + sizes.motor->name +
+                           ": body.shaft or body.horn in the mechanism file changes them.");
+  } else
     base.words.push_back("Hold your motor under the plate, its axis in the large hole.");
   steps.push_back(base);
 
@@ -242,7 +246,8 @@ std::string key_section(const KitProduct& product) {
                            readable(degrees(mechanism.joint.theta_max), 1) + "°");
   numbers.add("Scale", readable(degrees(sizes.graduation), 0) + "°", "from line to line");
   numbers.add("Tendons above the base", mm(sizes.z_tendon1) + ", " + mm(sizes.z_tendon2));
-  numbers.add("Motor", sizes.motor ? sizes.motor->name : "your own");
+  numbers.add("Motor", sizes.motor_name.empty() ? "your own" : sizes.motor_name,
+              sizes.motor && sizes.motor_name != sizes.motor->name ? "mount assumed: " + sizes.motor->name : "");
   numbers.add("Bearings", "2 × " + sizes.bearing->name);
   numbers.add("Encoder", sizes.board->name);
   return html_section("numbers", "In short", numbers.html(mechanism.units));

@@ -72,7 +72,8 @@ Json places_json(const kit::KitPlan& plan) {
           {"scale_z_mm", rounded_to_micrometre(sizes.scale_low)},
           {"link_z_mm", rounded_to_micrometre(sizes.link_low)},
           {"bracket_z_mm", rounded_to_micrometre(sizes.bracket_low)},
-          {"motor", sizes.motor ? Json(sizes.motor->name) : Json(nullptr)},
+          {"motor", sizes.motor_name.empty() ? Json(nullptr) : Json(sizes.motor_name)},
+          {"motor_mount", sizes.motor ? Json(sizes.motor->name) : Json(nullptr)},
           {"bearing", sizes.bearing->name},
           {"board", sizes.board->name}};
 }

@@ -142,6 +142,7 @@ std::string plan_json(const PlanProduct& product) {
   json["minutes"] = result_json(product.minutes);
   json["minutes_used"] = result_json(plan.minutes);
   json["motor_range_deg"] = {angle_json(plan.from), angle_json(plan.to)};
+  if (plan.taut_load) json["taut_up_to_load_N"] = result_json(*plan.taut_load);
   json["steps"] = steps_json(plan, plan.steps, true);
   json["more_minutes"] = steps_json(plan, plan.beyond, false);
   json["causes"] = Json::array();

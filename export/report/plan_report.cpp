@@ -76,6 +76,7 @@ std::string steps_section(const PlanProduct& product) {
       "<p class=\"lead\">Keep this order: each step is the most informative one for its minutes, so you can stop "
       "after any of them. Begin every run at the end of the range, coming from home. Do not reset zeros between "
       "runs unless a step says so.</p>" +
+          (product.plan.taut_load ? "<p>" + safe_text("At the bench, " + product.plan.slack_words()) + ".</p>" : "") +
           step_items(product));
 }
 

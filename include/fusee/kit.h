@@ -116,7 +116,8 @@ struct KitPin {
 struct KitSizes {
   const fusee::BearingType* bearing = nullptr;
   const fusee::BoardType* board = nullptr;
-  const fusee::MotorType* motor = nullptr;  ///< null: the catalogue has none with this shaft or horn
+  const fusee::MotorType* motor = nullptr;  ///< its mount; null: the catalogue has none with this shaft or horn
+  std::string motor_name;                   ///< that the file gives by its model, shaft or horn; "" for none
   /// Threads of the joint's axle, of the rods on the feet, of the screws in the post and the tensioner, and of the cap.
   const Thread *axle = nullptr, *foot = nullptr, *small = nullptr, *cap_screw = nullptr;
   double base = 0;        ///< thickness of the base plate

@@ -154,6 +154,12 @@ struct Plan {
   double from = 0, to = 0;    ///< motor range, rad
   std::string load_unit = "N";
   int first_run = 1;  ///< number of the first run's file
+  /// Largest magnitude of a load at which both tendons of the declared joint stay taut, N. Set if a planned load exceeds
+  /// it.
+  std::optional<double> taut_load = std::nullopt;
+
+  /// "a tendon slackens at loads beyond 4.2 N: …"; "" without taut_load.
+  std::string slack_words() const;
 };
 
 /// Plans the runs. The joint's law must exist over its range. If no run fits into the minutes, `steps` is empty. Throws

@@ -45,6 +45,15 @@ void explain_no_pulley(const MechanismFile& file, const pipeline::KitOptions& op
   reply.fields["advice"] = to_json(built.advice.alone);
 }
 
+std::string motor_words(const kit::KitSizes& sizes) {
+  if (!sizes.motor)
+    return sizes.motor_name.empty() ? "your own: no motor of the catalogue fits"
+                                    : sizes.motor_name + ": its mount is not in the catalogue";
+  if (sizes.motor_name == sizes.motor->name) return sizes.motor_name;
+  return (sizes.motor_name.empty() ? "none named in the file" : sizes.motor_name) + ": mount assumed as of " +
+         sizes.motor->name + " (body.shaft or body.horn changes it)";
+}
+
 std::string kit_summary(const pipeline::KitResult& made, const pipeline::KitOptions& options) {
   const formats::KitProduct& product = made.product;
   const kit::KitSizes& sizes = product.plan.sizes;
@@ -60,7 +69,7 @@ std::string kit_summary(const pipeline::KitResult& made, const pipeline::KitOpti
   text += "  parts       " + std::to_string(printed) + " to print, of " + std::to_string(product.plan.parts.size()) +
           " kinds; plates to cut in kit.dxf\n";
   if (!product.plan.drilled) {
-    text += "  motor       " + (sizes.motor ? sizes.motor->name : "your own: no motor of the catalogue fits") + "\n";
+    text += "  motor       " + motor_words(sizes) + "\n";
     text += "  joint       two bearings " + sizes.bearing->name + ", " + sizes.board->name + " over the axis\n";
   }
   for (const formats::KitCut& cut : formats::kit_cuts(product))
@@ -101,6 +110,8 @@ Reply run_kit(const Arguments& arguments, Console&, const RunContext& context) {
     return reply;
   }
   for (const std::string& words : plan.notes) reply.diagnostics.push_back(about_file(Severity::note, file.path, words));
+  if (const std::string slack = made.product.bench.plan.slack_words(); !slack.empty())
+    reply.diagnostics.push_back(about_file(Severity::note, file.path, slack));
   reply.text = kit_summary(made, options);
   reply.fields["name"] = made.product.pulley.joint.mechanism.name;
   reply.fields["folder"] = options.folder.string();

@@ -160,6 +160,8 @@ Reply run_plan(const Arguments& arguments, Console&, const RunContext& context) 
     refuse_short_time(result, file.path, reply);
     return reply;
   }
+  if (const std::string slack = result.product.plan.slack_words(); !slack.empty())
+    reply.diagnostics.push_back(about_file(Severity::note, file.path, slack));
   reply.text = summary(result.product) + "\n" + (result.published ? "In " : "Would be written (--dry-run): ") +
                options.folder.string() + ": plan.html for the bench, and empty run files\n";
   return reply;

@@ -19,17 +19,19 @@ std::string motor_screw(const fusee::MotorType& motor, double length) {
   return screw_words(thread_within(motor.hole), length);
 }
 
+/// True if the motor has the shaft or horn that the file names.
+bool has_named_fitting(const fusee::MotorType& motor, const Body& body) {
+  const std::string& name = body.bore == Bore::horn ? body.horn : body.shaft;
+  return std::find(motor.fits.begin(), motor.fits.end(), name) != motor.fits.end();
+}
+
 }  // namespace
 
 const fusee::MotorType* motor_for(const Mechanism& mechanism, const solid::BodyLayout& layout) {
   const Body& body = mechanism.body;
   const bool horn = body.bore == Bore::horn;
-  const std::string& name = horn ? body.horn : body.shaft;
-  const auto fits_by_name = [&](const fusee::MotorType& motor) {
-    return std::find(motor.fits.begin(), motor.fits.end(), name) != motor.fits.end();
-  };
   for (const fusee::MotorType& motor : motor_types()) {
-    if (fits_by_name(motor)) return &motor;
+    if (has_named_fitting(motor, body)) return &motor;
   }
   if (horn || body.bore == Bore::hex || body.bore == Bore::square) return nullptr;
   // No motor names this shaft: one whose shaft has the same diameter fits too.
@@ -38,6 +40,17 @@ const fusee::MotorType* motor_for(const Mechanism& mechanism, const solid::BodyL
     if (motor.shaft > 0 && std::abs(motor.shaft - shaft) < 0.05) return &motor;
   }
   return nullptr;
+}
+
+std::string motor_name(const Mechanism& mechanism, const fusee::MotorType* mount) {
+  if (const std::string model = motor_limits(mechanism.motor).name; find_motor_model(mechanism.motor.model))
+    return model;
+  return mount != nullptr && has_named_fitting(*mount, mechanism.body) ? mount->name : "";
+}
+
+std::string mount_words(const std::string& name, const fusee::MotorType& mount) {
+  if (name == mount.name) return name;
+  return (name.empty() ? "" : name + "; ") + "its mount is assumed to be that of " + mount.name;
 }
 
 Vec2 motor_front(const Vec2& pulley) { return {0, pulley.y() > 0 ? -1.0 : 1.0}; }
@@ -82,8 +95,13 @@ std::vector<Disc> motor_corners(const fusee::MotorType& motor, const Vec2& pulle
 }
 
 // Screws reach 4 mm into the motor. Those of a motor with a horn reach through its flange and a nut, 8 mm for both.
-void buy_motor(KitPlan& plan, const fusee::MotorType& motor, double plate) {
-  plan.items.push_back({1, motor.name + ": " + motor.description, "drives the pulley; assumed: " + motor.source});
+void buy_motor(KitPlan& plan, const std::string& name, const fusee::MotorType& motor, double plate) {
+  if (name == motor.name)
+    plan.items.push_back({1, motor.name + ": " + motor.description, "drives the pulley; assumed: " + motor.source});
+  else
+    plan.items.push_back({1, name.empty() ? "motor: the file names none" : "motor: " + name,
+                          "drives the pulley; its mount is assumed, body.shaft or body.horn changes it: " + motor.name +
+                              ", " + motor.description + "; " + motor.source});
   if (motor.shaft > 0)
     plan.items.push_back(
         {motor.two_holes ? 2 : 4, motor_screw(motor, plate + 4) + " with low head", "motor, from above"});

@@ -122,7 +122,7 @@ class PartMaker {
     for (const Vec2& leg : plan_.legs) legs.push_back(fixed_at(leg, -sizes_.base - sizes_.leg));
     add_printed("leg", "leg under the base plate", tube(k_leg_radius, leg_screw().tapping, sizes_.leg), legs, 4);
     buy(4, screw_words(leg_screw(), sizes_.base + 10) + " with low head", "legs, from above");
-    if (sizes_.motor) buy_motor(plan_, *sizes_.motor, sizes_.base);
+    if (sizes_.motor) buy_motor(plan_, sizes_.motor_name, *sizes_.motor, sizes_.base);
   }
 
   const Thread& leg_screw() const { return thread_within(3.2, mechanism_.units); }

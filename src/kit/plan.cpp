@@ -116,6 +116,7 @@ void size_pulley(KitSizes& sizes, const Mechanism& mechanism, const profile::Syn
     sizes.pulley_radius = std::max(sizes.pulley_radius, circumradius(profile::parallel(*outline, groove_edge)));
   sizes.pulley_radius = std::max(sizes.pulley_radius, layout.hub_radius);
   sizes.motor = motor_for(mechanism, layout);
+  sizes.motor_name = motor_name(mechanism, sizes.motor);
   const double heads = sizes.motor ? sizes.motor->head + 0.5 : 0.0;
   sizes.pulley_low = std::max(1.5, heads);
   if (sizes.motor && sizes.motor->face > 0) sizes.pulley_low = std::max(sizes.motor->face - sizes.base, heads);
@@ -256,10 +257,11 @@ void check_axle(Conditions& checks, const Scene& scene, const KitPlan& plan) {
   }
   if (sizes.motor) {
     const double distance = distance_to_motor(*sizes.motor, axis - scene.pulley, sizes.motor_front);
-    checks.at_least("axle_beside_motor", fixed(distance - sizes.axle->head_radius), k_clear,
-                    "the screw of the joint's axle is too close to the motor (" + sizes.motor->name + ")",
-                    "pulley.EF_mm " + std::string(scene.pulley.y() < 0 ? "larger" : "smaller") +
-                        " by {}, or a smaller motor (body.shaft, body.horn)");
+    checks.at_least(
+        "axle_beside_motor", fixed(distance - sizes.axle->head_radius), k_clear,
+        "the screw of the joint's axle is too close to the motor (" + mount_words(sizes.motor_name, *sizes.motor) + ")",
+        "pulley.EF_mm " + std::string(scene.pulley.y() < 0 ? "larger" : "smaller") +
+            " by {}, or a smaller motor (body.shaft, body.horn)");
   }
 }
 
@@ -283,10 +285,11 @@ void check_pins(Conditions& checks, const Scene& scene, const KitPlan& plan) {
                     "body.flange_thickness_mm larger by {}");
     if (sizes.motor) {
       const double radius = own.screw ? own.screw->head_radius : own.radius + k_wall;
-      checks.at_least("pin_" + name + "_beside_motor",
-                      {distance_to_motor(*sizes.motor, own.place - scene.pulley, sizes.motor_front) - radius, 0},
-                      k_clear, "pin " + name + " is too close to the motor (" + sizes.motor->name + ")",
-                      "pulley.EF_mm larger by {}");
+      checks.at_least(
+          "pin_" + name + "_beside_motor",
+          {distance_to_motor(*sizes.motor, own.place - scene.pulley, sizes.motor_front) - radius, 0}, k_clear,
+          "pin " + name + " is too close to the motor (" + mount_words(sizes.motor_name, *sizes.motor) + ")",
+          "pulley.EF_mm larger by {}");
     }
   }
   checks.at_least("pins_apart", {(scene.pins[0] - scene.pins[1]).norm() - plan.pins[0].collar - plan.pins[1].collar, 0},

@@ -172,7 +172,7 @@ class TemplateMaker {
     if (motor) {
       for (SlabLoop& loop : motor_holes(*motor, pulley, motor_front(pulley)))
         plate.slabs.front().loops.push_back(std::move(loop));
-      buy_motor(plan_, *motor, k_plate);
+      buy_motor(plan_, motor_name(mechanism_, motor), *motor, k_plate);
     }
     plan_.parts.push_back({"base_template",
                            "base: axis, guides and pulley at the file's positions",
@@ -195,7 +195,8 @@ class TemplateMaker {
     for (const NamedHole& hole : holes) {
       const double distance = distance_to_motor(*motor, hole.place - pulley, motor_front(pulley));
       if (distance - hole.radius >= k_between_holes) continue;
-      plan_.notes.push_back("the motor " + motor->name + " would overlap the hole of " + hole.name +
+      plan_.notes.push_back("the motor (" + mount_words(motor_name(mechanism_, motor), *motor) +
+                            ") would overlap the hole of " + hole.name +
                             ": the base has only a hole for its axis. Increase pulley.EF_mm or choose a smaller motor "
                             "(body.shaft, body.horn)");
       return nullptr;

@@ -69,6 +69,8 @@ bool is_borne(const std::vector<joint::JointState>& states, double most) {
   });
 }
 
+bool is_taut(const joint::JointState& state) { return state.t1.slack <= 0 && state.t2.slack <= 0; }
+
 /// The smallest weight whose deflection is clear. If none is, the largest that the tendons bear, but at least the
 /// smallest weight of the list. N
 double smallest_clear_load(const DeclaredMechanism& declared, const PlannedRun& slow, double noise) {
@@ -122,6 +124,26 @@ Bench bench_of(const DeclaredMechanism& declared, const PlanOptions& options) {
   bench.loads = options.loads.empty() ? usual_loads(declared, slow, options.noise) : options.loads;
   std::stable_partition(bench.loads.begin(), bench.loads.end(), [](double load) { return load == 0; });
   return bench;
+}
+
+std::optional<double> taut_load_of(const DeclaredMechanism& declared, const Bench& bench) {
+  if (declared.transmission) return std::nullopt;
+  const PlannedRun slow{.from = bench.from, .to = bench.to, .speed = bench.speeds.front()};
+  const auto is_taut_at = [&](double scale) {
+    return std::all_of(bench.loads.begin(), bench.loads.end(), [&](double load) {
+      const auto states = under_load(declared, slow, scale * load);
+      return std::all_of(states.front().begin(), states.front().end(), is_taut);
+    });
+  };
+  if (is_taut_at(1)) return std::nullopt;
+  if (!is_taut_at(0)) return 0.0;
+  double taut = 0, slack = 1;
+  constexpr int k_halvings = 10;  // to a thousandth of the largest load
+  for (int i = 0; i < k_halvings; ++i) {
+    const double middle = 0.5 * (taut + slack);
+    (is_taut_at(middle) ? taut : slack) = middle;
+  }
+  return taut * bench.largest_load();
 }
 
 std::vector<PlannedRun> candidate_runs(const Bench& bench) {

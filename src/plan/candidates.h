@@ -2,6 +2,7 @@
 /// The candidate runs of a joint.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "fusee/plan.h"
@@ -17,6 +18,10 @@ struct Bench {
 };
 /// Takes the conditions from the options, and chooses those that are not given.
 Bench bench_of(const DeclaredMechanism& declared, const PlanOptions& options);
+
+/// Largest magnitude of the bench's loads, all scaled alike, at which both tendons stay taut over the range, N. Empty if
+/// they do at all of its loads.
+std::optional<double> taut_load_of(const DeclaredMechanism& declared, const Bench& bench);
 
 /// All candidate runs. The first one is slow and at the first load: every plan begins with it.
 std::vector<PlannedRun> candidate_runs(const Bench& bench);

@@ -37,6 +37,7 @@ class Planner {
       : options_(options),
         context_(context),
         bench_(bench_of(declared, options)),
+        taut_load_(taut_load_of(declared, bench_)),
         signatures_(declared, bench_, options.noise) {
     load_unit_ = declared.transmission ? "" : "N";
     for (const PlannedRun& run : candidate_runs(bench_)) add(run);
@@ -52,6 +53,7 @@ class Planner {
     plan.from = bench_.from;
     plan.to = bench_.to;
     plan.load_unit = load_unit_;
+    plan.taut_load = taut_load_;
     plan.left_out = left_out_;
     std::vector<std::size_t> chosen = choose(options_.minutes, {});
     chosen = without_redundant(chosen);
@@ -312,6 +314,7 @@ class Planner {
   const PlanOptions& options_;
   const RunContext& context_;
   Bench bench_;
+  std::optional<double> taut_load_;
   Signatures signatures_;
   std::string load_unit_;
   std::vector<Candidate> candidates_;
@@ -321,6 +324,14 @@ class Planner {
 };
 
 }  // namespace
+
+std::string Plan::slack_words() const {
+  if (!taut_load) return "";
+  const std::string when = *taut_load > 0 ? "at loads beyond " + rounded(*taut_load, 2) + " N" : "even without load";
+  return "a tendon slackens " + when +
+         ": such runs also show its slack. A larger tendon.pretension_N keeps both taut, and --loads of fusee plan "
+         "chooses other loads";
+}
 
 Plan plan_runs(const DeclaredMechanism& declared, const PlanOptions& options, const RunContext& context) {
   return Planner(declared, options, context).plan();

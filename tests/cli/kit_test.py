@@ -39,6 +39,21 @@ class Kit(harness.Scratch):
         self.expect("check model/link.stl", 0, "valid")
         self.expect("check model/kit.dxf", 0, "valid")
 
+    def test_names_only_the_motor_of_the_file(self):
+        for settings, name, mount, words in (
+            ("", None, "NEMA 17", "none named in the file: mount assumed as of NEMA 17"),
+            (" --set body.shaft=nema17-round5", "NEMA 17", "NEMA 17", "NEMA 17\n"),
+            (" --set motor.model=NEMA17-40mm", "NEMA17-40mm", "NEMA 17", "NEMA17-40mm: mount assumed as of NEMA 17"),
+        ):
+            self.expect(f"kit arm.toml --force -o kit{settings}", 0, rf"motor +{words}")
+            places = json.loads(self.files("kit")["manifest.json"])["places"]
+            self.assertEqual((places["motor"], places["motor_mount"]), (name, mount))
+            page = self.files("kit")["kit.html"].decode()
+            self.assertEqual("Screw the motor under the plate" in page, name is None)
+            self.assertEqual("holes for it are an assumption, those of NEMA 17" in page, name != mount)
+            bill = self.files("kit")["bom.csv"].decode()
+            self.assertEqual("motor: the file names none" in bill, name is None)
+
     def test_picture_has_the_letters_of_every_layout(self):
         for template in ("forearm", "finger_mcp", "elbow_idlers", "wrist_sheath"):
             (self.folder / "joint.toml").write_bytes(self.fusee(f"new {template}").stdout)

@@ -377,8 +377,10 @@ TEST_P(Template, HasAHoleAtEveryAxis) {
   for (const Vec2& at : bored) EXPECT_FALSE(is_inside(base, at)) << at.transpose();
   // The outline, these holes, and those of the motor's screws if a motor fits.
   const auto mounted = std::find_if(motor_types().begin(), motor_types().end(), [&](const MotorType& motor) {
-    return std::any_of(model.plan.items.begin(), model.plan.items.end(),
-                       [&](const kit::KitItem& item) { return item.what.starts_with(motor.name + ":"); });
+    return std::any_of(model.plan.items.begin(), model.plan.items.end(), [&](const kit::KitItem& item) {
+      return item.what.starts_with(motor.name + ":") ||
+             item.use.find("changes it: " + motor.name + ",") != std::string::npos;
+    });
   });
   std::size_t screws = 0;
   if (mounted != motor_types().end()) screws = mounted->two_holes ? 2 : 4;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/text.h"
 #include "fusee/joint.h"
 #include "mechanism/effect.h"
 #include "plan/candidates.h"
@@ -101,6 +102,20 @@ TEST(Plan, WithoutLoadOmitsLoadEffects) {
   for (const auto& [name, why] : plan.left_out) names.push_back(name);
   EXPECT_THAT(names, Contains("tendon_stretch"));
   EXPECT_THAT(plan.causes, Each(::testing::Field(&PlannedCause::name, Not("tendon_stretch"))));
+}
+
+TEST(Plan, ReportsTheLoadBeyondWhichATendonSlackens) {
+  const DeclaredMechanism mechanism = testing::forearm();
+  PlanOptions options;
+  options.loads = {0, 40, -40};
+  const Plan plan = plan_runs(mechanism, options);
+  ASSERT_TRUE(plan.taut_load);
+  EXPECT_THAT(plan.slack_words(),
+              ::testing::StartsWith("a tendon slackens at loads beyond " + rounded(*plan.taut_load, 2) + " N"));
+  // Loads below it keep both tendons taut.
+  options.loads = {0, 0.99 * *plan.taut_load, -0.99 * *plan.taut_load};
+  EXPECT_FALSE(plan_runs(mechanism, options).taut_load);
+  EXPECT_EQ(plan_runs(mechanism, options).slack_words(), "");
 }
 
 TEST(Plan, FalsePositivesAreRare) {
