@@ -108,7 +108,8 @@ struct MotorCheck {
   double joint_speed_needed = 0;  ///< rad/s; 0: none is required
   /// "motor_travel", "motor_torque", "motor_speed": those with a known limit.
   std::vector<profile::Condition> conditions;
-  /// Of the catalogue, behind the file's gearbox ("NEMA17-48mm 5:1"): those that fit the bore first, the weakest first.
+  /// Models of the catalogue behind the file's gearbox, "NEMA17-48mm 5:1": those that fit the bore first, the weakest
+  /// first.
   std::vector<std::string> sufficient_models;
   std::vector<double> sufficient_torques;  ///< their stall torques behind the gearbox, N·mm
   std::size_t fitting_models = 0;          ///< number of sufficient_models that fit the bore
