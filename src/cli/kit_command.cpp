@@ -50,8 +50,8 @@ std::string motor_words(const kit::KitSizes& sizes) {
     return sizes.motor_name.empty() ? "your own: no motor of the catalogue fits"
                                     : sizes.motor_name + ": its mount is not in the catalogue";
   if (sizes.motor_name == sizes.motor->name) return sizes.motor_name;
-  return (sizes.motor_name.empty() ? "none named in the file" : sizes.motor_name) + ": mount assumed as of " +
-         sizes.motor->name + " (body.shaft or body.horn changes it)";
+  return (sizes.motor_name.empty() ? "none named" : sizes.motor_name) + ": mount as of " + sizes.motor->name +
+         " (body.shaft, body.horn)";
 }
 
 std::string kit_summary(const pipeline::KitResult& made, const pipeline::KitOptions& options) {

@@ -70,10 +70,9 @@ std::string under_load_lines(const analysis::UnderLoad& load, const std::string&
                    column);
   }
   if (const auto least = load.least_tension())
-    text += titled("",
-                   "both tendons taut over the whole range: " + rounded(least->value, 3) + " N or more, least at " +
-                       alpha_text(least->alpha),
-                   column);
+    text += titled(
+        "", "both tendons taut: " + rounded(least->value, 3) + " N or more, least at " + alpha_text(least->alpha),
+        column);
   if (const std::string safety = safety_text(load); !safety.empty())
     text += titled("", "safety factor " + safety, column);
   return text;

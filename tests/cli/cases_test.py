@@ -62,7 +62,7 @@ CASES = [
     # Inches: what advice says can be typed into the file.
     ("build inch.toml --dry-run", 0, "r1 +from 0.56 to 0.56 in\n", ".*"),
     ("build arm.toml --dry-run --set body.set_screw=M6 --set body.hub_diameter_mm=10", 4, "^$", "note: besides this, no change of a single number"),
-    ("build arm.toml --dry-run --set material.shrinkage_percent=1.5", 0, "in the mesh ⌀ .* mm high: 1.5 % larger, for the shrinkage of the print", ".*"),
+    ("build arm.toml --dry-run --set material.shrinkage_percent=1.5", 0, "in the mesh ⌀ .* mm high: 1.52 % larger, for the shrinkage of the print", ".*"),
     ("build inch.toml --dry-run --set pulley.r1_mm=0.05", 4, "^$", "try pulley.r1_mm = 0\\.[0-9]+ or more \\(now 0.05\\)"),
     ("build inch.toml --dry-run --set pulley.r1_mm='1/2 in' --set pulley.EF_mm='7 cm'", 0, "r1 +from 0.5 to 0.5 in\n", ".*"),
     ("build arm.toml --dry-run --set pulley.r1_mm='5/8 in'", 0, "r1 +from 15.875 to 15.875 mm", "^$"),

@@ -41,9 +41,9 @@ class Kit(harness.Scratch):
 
     def test_names_only_the_motor_of_the_file(self):
         for settings, name, mount, words in (
-            ("", None, "NEMA 17", "none named in the file: mount assumed as of NEMA 17"),
+            ("", None, "NEMA 17", "none named: mount as of NEMA 17"),
             (" --set body.shaft=nema17-round5", "NEMA 17", "NEMA 17", "NEMA 17\n"),
-            (" --set motor.model=NEMA17-40mm", "NEMA17-40mm", "NEMA 17", "NEMA17-40mm: mount assumed as of NEMA 17"),
+            (" --set motor.model=NEMA17-40mm", "NEMA17-40mm", "NEMA 17", "NEMA17-40mm: mount as of NEMA 17"),
         ):
             self.expect(f"kit arm.toml --force -o kit{settings}", 0, rf"motor +{words}")
             places = json.loads(self.files("kit")["manifest.json"])["places"]
