@@ -385,9 +385,8 @@ std::string forces_section(const Product& product) {
   if (plots.empty()) return torques;
   return torques + "<section id=\"forces\"><h2>Forces</h2><p class=\"lead\">" +
          safe_text(with_unit(product.joint.mechanism.load.tip_force, "N")) +
-         " at the tip, across OC, by the paper’s model (equations 6 to 11), which leaves out the pretension and tendon "
-         "1: "
-         "the tension of tendon 2, and the joint angle that its stretch costs. " +
+         " at the tip, across OC, by the paper’s model (equations 6 to 11), which leaves out the pretension and "
+         "tendon 1: the tension of tendon 2, and the joint angle that its stretch costs. " +
          std::string(taut_words(product.under_load)) + "</p><div class=\"plots\">" + all_in_divs(plots) +
          "</div></section>";
 }

@@ -72,6 +72,11 @@ Diagnostic motor_note(const pipeline::ChosenLayout& layout) {
                          "take a smaller load, or another motor; " + motor.models_text());
 }
 
+std::string other_answer_words(const OtherAnswer& other) {
+  return fmt::format("try {} in place of {} for question {} ({})", other.answer, other.given, other.question,
+                     other.words);
+}
+
 /// The torque that the motor of the answers has to hold, with its margin. A motor that is too weak has a warning.
 Diagnostic margin_note(const analysis::MotorCheck& motor) {
   std::string words = fmt::format("under the load the motor has to hold {} Nmm, and {} {} {} Nmm",
@@ -98,10 +103,7 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
         "no file was written"));
     reply.fields["other_answers"] = Json::array();
     for (const OtherAnswer& other : asked.others) {
-      reply.diagnostics.push_back(make_diagnostic(
-          Severity::note,
-          lengths_in(asked.units, fmt::format("try {} in place of {} for question {} ({})", other.answer, other.given,
-                                              other.question, other.words))));
+      reply.diagnostics.push_back(make_diagnostic(Severity::note, lengths_in(asked.units, other_answer_words(other))));
       reply.fields["other_answers"].push_back(
           {{"question", other.question}, {"subject", other.words}, {"answer", other.answer}, {"given", other.given}});
     }
@@ -134,10 +136,8 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
         make_diagnostic(layout.is_held ? Severity::note : Severity::warning, layout.price_words));
   if (asked.room)
     reply.diagnostics.push_back(make_diagnostic(
-        Severity::note, lengths_in(asked.units, fmt::format("the motor holds the load with a larger drum and pulley: "
-                                                            "try {} in place of {} for question {} ({})",
-                                                            asked.room->answer, asked.room->given, asked.room->question,
-                                                            asked.room->words))));
+        Severity::note, lengths_in(asked.units, "the motor holds the load with a larger drum and pulley: " +
+                                                    other_answer_words(*asked.room))));
   if (!product.file.mechanism.motor.is_there())
     reply.diagnostics.push_back(motor_note(layout));
   else if (const auto& motor = product.under_load.motor; motor && motor->torque_limit >= motor->torque.value)

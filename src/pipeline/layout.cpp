@@ -88,6 +88,9 @@ void put_drum(Mechanism& mechanism, double rho, double reach) {
   joint.attachment2 = end_at(normal + k_least_wrap + joint.theta_max);
 }
 
+/// True if a pitch radius leaves a drum below a tendon of this diameter, in mm.
+bool is_drum(double rho, double tendon) { return rho > 0.6 * tendon; }
+
 /// Largest pitch radius of a drum that, with its tendon, is no wider than a room, in mm. Its drum radius has three
 /// digits, as in the file.
 double widest_drum(double room, double tendon) {
@@ -149,7 +152,7 @@ class Candidates {
 
   std::vector<Candidate> all() {
     if (!(largest_ > 0)) return {};
-    if (!(widest_ > 0.6 * joint_.tendon.diameter)) {  // a lever has no drum
+    if (!is_drum(widest_, joint_.tendon.diameter)) {
       add_lever();
       return std::move(all_);
     }
@@ -242,7 +245,7 @@ class Candidates {
   }
 
   void add_drum_with(double rho, double r1, const char* words) {
-    if (!(rho > 0.6 * joint_.tendon.diameter)) return;
+    if (!is_drum(rho, joint_.tendon.diameter)) return;
     Candidate candidate = with_guides(rho, words);
     candidate.mechanism.pulley.r1 = std::min(in_three_digits(r1), std::floor(1e3 * largest_) / 1e3);
     candidate.torque = k_friction * torque_of(joint_) * candidate.mechanism.pulley.r1 / rho;
@@ -692,7 +695,7 @@ std::vector<DeclaredMechanism> drums_for(const DeclaredMechanism& declared) {
       reach = rho / ratio;
     }
     if (declared.body.room > 0) rho = std::min(rho, widest_drum(declared.body.room, declared.tendon.diameter));
-    if (!(rho > 0.6 * declared.tendon.diameter)) continue;
+    if (!is_drum(rho, declared.tendon.diameter)) continue;
     put_drum(changed, rho, reach);
     all.push_back(std::move(changed));
   }
