@@ -34,7 +34,8 @@ struct Sizes {
   double peak = 57.5;  ///< slope of the ceiling, deg
 };
 
-/// Sizes in the proportions of run_out_sizes(), with pocket cones of 47.5°: an overhang of 45° and a margin of 2.5°.
+/// Sizes with pocket cones of 47.5°, for an overhang of 45° and a margin of 2.5°. A tip ends at a fifth of the channel's
+/// radius.
 RunOutSizes sizes_of(const Sizes& wanted) {
   RunOutSizes sizes;
   sizes.channel_radius = wanted.radius;

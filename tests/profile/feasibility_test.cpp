@@ -100,7 +100,7 @@ TEST(Feasibility, ReportsSheathExitInPulley) {
   mechanism.sheath.exit_across = 5.0;
   mechanism.sheath.exit_above = 12.0;
   expect_refused(mechanism, "line_reaches_mouth_1", "the exit of sheath 1 lies");
-  // This exit is outside the pulley, but so close that the curve would be hollow, or that no line reaches the exit.
+  // Farther out, the exit is still so close that the curve would be hollow, or that no line reaches the exit.
   mechanism.sheath.exit_above = 18.0;
   const SynthesisResult too_near = synthesise(mechanism);
   ASSERT_FALSE(too_near.made());
@@ -114,7 +114,7 @@ TEST(Feasibility, ReportsTendonOffPinAtSheath) {
   expect_refused(mechanism, "tendon_on_pin_B", "down into its sheath, is");
 }
 
-// The sheaths lead to the pulley wherever it is, so EF has no effect.
+// With a sheath, EF only sets where the pulley is drawn.
 TEST(Feasibility, AdviceKeepsArbitraryPulleyPosition) {
   Mechanism mechanism = testing::sheathed_wrist();
   mechanism.sheath.exit_above = 12.0;
