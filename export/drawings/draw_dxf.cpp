@@ -64,11 +64,12 @@ class DxfDrawer {
 
   Drawing draw() {
     drawing_.version = dxf_.version;
+    // Without units, a file of R12 (AC1009) is taken as mm, because R12 has no key for them.
     constexpr int k_insunits_of_mm = 4;
     drawing_.millimetres = dxf_.units ? *dxf_.units == k_insunits_of_mm : dxf_.version == "AC1009";
-    DrawingPlacement whole;
-    whole.linear *= dxf_.unit_in_mm();
-    for (const DxfEntity& entity : dxf_.entities) draw(entity, whole, "0", 0);
+    DrawingPlacement in_mm;
+    in_mm.linear *= dxf_.unit_in_mm();
+    for (const DxfEntity& entity : dxf_.entities) draw(entity, in_mm, "0", 0);
     drawing_.ignored.assign(ignored_.begin(), ignored_.end());
     return std::move(drawing_);
   }

@@ -24,7 +24,7 @@ namespace {
 constexpr double k_least_wall = 1.0;        // least material between cuts, mm
 constexpr double k_least_feature = 1.0;     // narrowest feature that a laser cuts cleanly, mm
 constexpr double k_groove_width = 1.1;      // between the flanges, in tendon diameters
-constexpr double k_engraving_margin = 0.5;  // mm
+constexpr double k_engraving_margin = 0.5;  // from an engraving to every edge, mm
 
 /// The features that plates are cut with, collected once.
 struct CutFeatures {
@@ -254,9 +254,11 @@ std::optional<Vec2> label_place(const PlateLayer& layer, const Material2d& mater
   const Box2d box = bounding_box(layer.outer.front());
   for (double y = box.low.y(); y + size.y() < box.high.y(); y += 1.0) {
     for (int step = 0; step < 40; ++step) {
-      // Places alternate between left and right, from the middle outward, by eightieths of the plate's width.
+      // The label's middle alternates between left and right, from the axis outward, by eightieths of the plate's
+      // width.
       const int side = step % 2 ? 1 : -1;
-      const double x = side * 0.5 * (step + 1) / 2.0 * (box.size().x() / 20) - 0.5 * size.x();
+      const double middle = side * 0.5 * (step + 1) / 2.0 * (box.size().x() / 20);
+      const double x = middle - 0.5 * size.x();
       if (x < box.low.x() || x + size.x() > box.high.x()) continue;
       const double margin = k_engraving_margin;
       const bool is_on_home_mark = !layer.engraving.empty() && x < margin && x + size.x() > -margin &&

@@ -23,6 +23,7 @@ constexpr double k_label_pitch = 4.5;   // mm
 /// Largest distance of the arcs from the outline's points, mm: a twentieth of the outline's tolerance.
 constexpr double k_arc_tolerance = 0.0005;
 
+/// Name and AutoCAD colour index of each layer. Marks and the check square are neither plotted nor cut (false).
 std::vector<DxfLayer> layers() {
   return {{"P1_PITCH", 1},
           {"P2_PITCH", 5},

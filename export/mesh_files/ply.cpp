@@ -71,7 +71,7 @@ struct Element {
   std::size_t least_size(Encoding encoding) const {
     std::size_t size = 0;
     for (const Property& p : properties) {
-      // In text: a digit and a blank, or the end of the file.
+      // In text each value has a digit and a blank at least. No blank follows the last one of the file.
       size += encoding == Encoding::ascii ? 2 : size_of(p.is_list ? p.count_type : p.type);
     }
     return encoding == Encoding::ascii && size > 0 ? size - 1 : size;
@@ -81,7 +81,7 @@ struct Element {
 struct Header {
   Encoding encoding = Encoding::ascii;
   std::vector<Element> elements;
-  std::uint64_t vertices = 0;  ///< of all vertex elements
+  std::uint64_t vertices = 0;  ///< number of vertices, over all vertex elements
 };
 
 // Header -------------------------------------------------------------------------------------------------------------
@@ -324,8 +324,9 @@ class ElementReader {
   }
 
   void read_list(const Property& property) {
-    constexpr double k_lengths = 4294967296.0;  // 2³² values of the largest type, uint
-    const std::uint64_t size = whole(values_, values_.value(property.count_type), k_lengths, "the length of a list");
+    constexpr double k_length_limit = 4294967296.0;  // 2³²: the largest integer type is uint
+    const std::uint64_t size =
+        whole(values_, values_.value(property.count_type), k_length_limit, "the length of a list");
     if (property.role != Role::corners) {
       for (std::uint64_t i = 0; i < size; ++i) values_.value(property.type);
       return;

@@ -49,8 +49,10 @@ bool TextScanner::next_line() {
     line_end_ = end;
     next_ = std::min(end + end_size, text.size());
     ++line_;
-    if (comment_ != '\0')
-      line_end_ = line_start_ + std::min(text.substr(line_start_, end - line_start_).find(comment_), end - line_start_);
+    if (comment_ != '\0') {
+      const std::string_view with_comment = text.substr(line_start_, end - line_start_);
+      line_end_ = line_start_ + std::min(with_comment.find(comment_), with_comment.size());
+    }
     while (cursor_ < line_end_ && is_blank(text[cursor_])) ++cursor_;
     word_start_ = word_end_ = cursor_;
     if (cursor_ < line_end_) return true;

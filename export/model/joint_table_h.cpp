@@ -80,9 +80,9 @@ class Header {
     const std::vector<std::string> source = curve_words(product_.curves.sensed, product_, true);
     lines.insert(lines.end(), source.begin(), source.end());
     const model::AngleMap& map = product_.curves.sensed.middle;
-    const auto degs = [](double angle) { return rounded(degrees(angle), 6); };
-    lines.push_back("alpha (motor) from " + degs(map.alpha_min) + " to " + degs(map.alpha_max) +
-                    " deg, theta (joint) from " + degs(map.theta_min) + " to " + degs(map.theta_max) +
+    const auto degrees_text = [](double angle) { return rounded(degrees(angle), 6); };
+    lines.push_back("alpha (motor) from " + degrees_text(map.alpha_min) + " to " + degrees_text(map.alpha_max) +
+                    " deg, theta (joint) from " + degrees_text(map.theta_min) + " to " + degrees_text(map.theta_max) +
                     " deg; beyond its ends every table is constant.");
     lines.push_back("Straight lines between " + std::to_string(table_.pieces + 1) +
                     " entries, in 32-bit arithmetic, miss that by");
@@ -161,13 +161,15 @@ class Header {
            " + (int32_t)(count < 0.0f ? count - 0.5f : count + 0.5f);\n";
   }
 
-  std::string conversions(const std::string& way, const model::OneWayTable& table) const {
-    const std::string theta = prefix_ + "_theta" + way, motor = prefix_ + (has_ticks() ? "_count" : "_alpha") + way;
+  /// C functions between motor and joint angle. `suffix`: "_up", "_down" or "".
+  std::string conversions(const std::string& suffix, const model::OneWayTable& table) const {
+    const std::string theta = prefix_ + "_theta" + suffix,
+                      motor = prefix_ + (has_ticks() ? "_count" : "_alpha") + suffix;
     return "/* The joint's angle, deg. */\nstatic inline float " + theta + "_deg(" + motor_type() + " " + motor_word() +
            ") {\n  return " + prefix_ + "_between(" + theta + "_table, " + table_position(table) +
            ");\n}\n\n/* The motor angle for a joint angle. */\nstatic inline " + motor_type() + " " + motor +
            (has_ticks() ? "" : "_deg") + "(float theta_deg) {\n" +
-           motor_value(prefix_ + "_between(" + prefix_ + "_motor" + way + "_table, (theta_deg - (" +
+           motor_value(prefix_ + "_between(" + prefix_ + "_motor" + suffix + "_table, (theta_deg - (" +
                        c_float(table_.theta_first_deg) + ")) * " +
                        steps_per_unit(table_.theta_first_deg, table_.theta_last_deg) + ")") +
            "}\n\n";

@@ -58,7 +58,7 @@ std::string joint_urdf(const ModelProduct& product) {
   const SimulatedBody body = body_of(product);
   const model::AngleMap& map = product.curves.physical.middle;
   const Vec2 axis = transmission::pin_place(product.mechanism, transmission::Side::left, 0).pulley_axis();
-  const std::string line = coefficient(product.line.p.c[1]), offset = coefficient(product.line.p.c[0]);
+  const std::string multiplier = coefficient(product.line.p.c[1]), offset = coefficient(product.line.p.c[0]);
   const std::vector<std::string> coupling = {
       "theta mimics alpha: URDF supports only a straight line. The best one (minimax) misses "
       "theta(alpha) by",
@@ -71,7 +71,7 @@ std::string joint_urdf(const ModelProduct& product) {
          hinge("alpha", "pulley", "0 " + number(axis.y() * 1e-3) + " 0", map.alpha_min, map.alpha_max, body.effort,
                body.speed) +
          theta_joint(product, body,
-                     "    <mimic joint=\"alpha\" multiplier=\"" + line + "\" offset=\"" + offset + "\"/>\n") +
+                     "    <mimic joint=\"alpha\" multiplier=\"" + multiplier + "\" offset=\"" + offset + "\"/>\n") +
          "</robot>\n";
 }
 

@@ -45,7 +45,8 @@ std::string coefficient(double value) { return rounded(value, 9); }
 
 std::string c_float(float value) {
   char text[32];
-  const auto [end, error] = std::to_chars(text, text + sizeof(text), value == 0.0f ? 0.0f : value);
+  const float without_negative_zero = value == 0.0f ? 0.0f : value;
+  const auto [end, error] = std::to_chars(text, text + sizeof(text), without_negative_zero);
   std::string result(text, end);
   if (result.find_first_of(".e") == std::string::npos) result += ".0";
   return result + "f";

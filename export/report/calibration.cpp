@@ -1,5 +1,6 @@
 // calibration.json and manifest.json of a calibration. Keys of schema 1 keep their first names, also where the code has
-// others now: "worlds" are simulated joints, "slips" are likely input errors.
+// others now: "worlds" are simulated joints, "unknown" is the discrepancy, "covered" the empirical curve, "slips" are
+// likely input errors, "rest_autocorrelation" is that of residuals, and "tied_at_deg" the assembly angle.
 
 #include <cmath>
 #include <filesystem>

@@ -43,7 +43,8 @@ std::string side_json(const Product& product, std::size_t i) {
   const helix::HelixSide& side = helix.synthesis.sides.at(i);
   const helical_solid::SpiralPlace& place = i == 0 ? helix.pulley.p1 : helix.pulley.p2;
   const std::vector<transmission::TransmissionPoint>& stroke = product.synthesis.stroke;
-  // Rise per mm towards the joint (+y). The slope is per mm along the tendon in plan, |cos(normal)| of which is along y.
+  // Rise per mm of y, towards the joint. The slope rises towards the pulley, hence the minus. It is per mm of the path
+  // in plan, and a millimetre of that path has |cos(normal)| mm along y.
   const auto rise = [&](std::size_t k) {
     const transmission::TendonPoint& tendon = i == 0 ? stroke[k].t1 : stroke[k].t2;
     return -place.direction * elementary::tan(side.stroke[k].slope) / std::abs(elementary::cos(tendon.lower_normal));

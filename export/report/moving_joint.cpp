@@ -250,15 +250,18 @@ std::string lines_for(const std::vector<std::string_view>& words) {
   std::string script;
   std::string_view rest = embedded::moving_joint_js;
   while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size() - 1) + 1;
-    const std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(end);
-    const std::size_t mark = line.rfind(" //=");
+    const std::size_t size = std::min(rest.find('\n'), rest.size() - 1) + 1;  // with the line break
+    const std::string_view line = rest.substr(0, size);
+    rest.remove_prefix(size);
+    constexpr std::string_view k_mark = " //=";
+    const std::size_t mark = line.rfind(k_mark);
     if (mark == std::string_view::npos) {
       script += line;
-    } else if (is_for(line.substr(mark + 4, line.size() - mark - 5), words)) {
-      script += std::string(line.substr(0, mark)) + "\n";
+      continue;
     }
+    const std::size_t begin = mark + k_mark.size();
+    const std::string_view required = line.substr(begin, line.size() - 1 - begin);  // without the line break
+    if (is_for(required, words)) script += std::string(line.substr(0, mark)) + "\n";
   }
   return script;
 }

@@ -53,14 +53,14 @@ struct Plot {
   std::vector<PlotSeries> series;
   std::vector<PlotLimit> limits;
   std::vector<PlotMark> marks;
-  double width = 460;
-  double height = 300;
+  double width = 460;   ///< px
+  double height = 300;  ///< px
 };
 
 Figure plot_figure(const Plot& plot);
 
 /// Evenly spaced round numbers, the first <= low and the last >= high; about `count` of them. Steps are 1, 2, 5 × 10^k.
-/// For `unit` "°", steps above 5 are 10, 15, 30, 45, 90, 180 or 360. Requires finite low < high.
+/// For `unit` "°", steps from 5 to 360 are 5, 10, 15, 30, 45, 90, 180 or 360. Requires finite low < high.
 std::vector<double> nice_ticks(double low, double high, int count, const std::string& unit = {});
 /// The minimax line of the points and its deviation: |y − (offset + slope x)| <= deviation.
 struct BestLine {

@@ -104,7 +104,7 @@ std::string svg_words(std::string_view classes, const Vec2& at, std::string_view
 }
 
 double words_width(std::string_view words, double font_size) {
-  constexpr double k_mean_width = 0.56;  // of a character per font size
+  constexpr double k_mean_width = 0.56;  // of a character, as a share of the font size
   return k_mean_width * font_size * static_cast<double>(characters(words));
 }
 

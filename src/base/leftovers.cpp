@@ -76,7 +76,7 @@ int recover(const fs::path& leftover, const fs::path& place) {
   const Subfolders subfolders = subfolders_of(written);
   if (is_folder(ready)) return move_entries(ready, place, subfolders);
   // A run killed between the exchange and the next rename leaves the earlier folder as new/. The published folder has
-  // hard links to its files, so only its folders are moved.
+  // hard links to the files in new/, so only the folders in new/ are moved.
   if (!is_folder(old)) {
     const auto is_file = [&staged](const std::string& name) { return !is_folder(staged / name); };
     return is_folder(place) ? move_entries(staged, place, subfolders, is_file) : 0;

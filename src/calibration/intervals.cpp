@@ -5,7 +5,7 @@
 namespace fusee::calibration {
 namespace {
 
-/// Variance in steps of the number, squared.
+/// Variance of the k-th x, in its steps².
 double variance_of(const Fit& fit, std::size_t k) {
   const auto i = static_cast<Eigen::Index>(k);
   return std::max(0.0, fit.posterior.covariance(i, i));

@@ -87,7 +87,7 @@ std::string tendons_text(const formats::Product& product) {
   return text + titled("", rig + " for the test rig of fusee kit");
 }
 
-/// The files are larger than the part by the shrinkage of a print.
+/// Size in the mesh files, which are scaled to allow for the shrinkage of a print; "" if they have the part's size.
 std::string mesh_size_text(const solid::BodyLayout& layout, const solid::OuterSize& size) {
   if (layout.scale == 1) return "";
   const std::string larger =

@@ -20,11 +20,11 @@ struct CommandOutcome {
   std::string result() const { return json ? document(reply, command) : reply.text; }
 };
 
-/// Runs a command. `words`: the arguments without the program's name. Never throws; prints only progress. `context`:
-/// its progress is shown on the console.
+/// Runs a command. `words`: the arguments without the program's name. Never throws, and prints only progress:
+/// the console takes the place of `context.progress`.
 CommandOutcome run_command(const std::vector<std::string>& words, Console& console, RunContext context);
 
-/// Runs a command with --bundle, prints everything and returns the exit code.
+/// Runs a command, also one with --bundle, prints everything and returns the exit code.
 int run(const std::vector<std::string>& words);
 
 }  // namespace fusee::cli

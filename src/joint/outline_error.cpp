@@ -116,21 +116,21 @@ std::vector<profile::Condition> turns_inward_as_drawn(const profile::SynthesisRe
 }
 
 Polygon as_made(Polygon drawn, const OutlineError& outline) {
-  const Polygon centred = drawn;
+  const Polygon original = drawn;
   const std::size_t n = drawn.size();
   for (std::size_t i = 0; i < n; ++i)
-    drawn[i] = made_between(drawn[i], centred[(i + n - 1) % n], centred[(i + 1) % n], outline);
+    drawn[i] = made_between(drawn[i], original[(i + n - 1) % n], original[(i + 1) % n], outline);
   return drawn;
 }
 
 Polygon line_as_made(Polygon drawn, const OutlineError& outline, std::size_t beside) {
-  const Polygon centred = drawn;
+  const Polygon original = drawn;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    // Fewer points near an end of the line, on both sides equally many, but at least one.
+    // Near an end of the line, fewer points are used: equally many on both sides. At the end itself, one is used.
     const std::size_t available = std::min({beside, i, drawn.size() - 1 - i});
-    const std::size_t distance = std::max<std::size_t>(available, 1);
-    const std::size_t before = i < distance ? 0 : i - distance, after = std::min(i + distance, drawn.size() - 1);
-    drawn[i] = made_between(drawn[i], centred[before], centred[after], outline);
+    const std::size_t count = std::max<std::size_t>(available, 1);
+    const std::size_t before = i < count ? 0 : i - count, after = std::min(i + count, drawn.size() - 1);
+    drawn[i] = made_between(drawn[i], original[before], original[after], outline);
   }
   return drawn;
 }

@@ -27,15 +27,19 @@ namespace {
 constexpr double k_lever_reach = radians(40.0);
 // Rotation that leaves room for both knots on a pulley of one turn.
 constexpr double k_one_turn = radians(280.0);
+// Least radius of a pulley's groove floor, mm.
+constexpr double k_least_floor = 1.0;
 // Arc of a tendon that stays on the drum at the end of the range.
 constexpr double k_least_wrap = radians(8.0);
 // A guide thicker than a rod of 12 mm, or with a tension that wears a sliding tendon, is an idler on ball bearings.
-// They are of type 623: 10 mm outside diameter, balls on a pitch radius of 3.3 mm.
+// They are of type 623: 10 mm outside diameter, balls on a pitch radius of 3.3 mm. On links that are shorter than
+// k_least_length_with_idlers, wear alone requires no idler.
 constexpr double k_thickest_pin = 6.0;               // radius, mm
 constexpr double k_tension_on_pin = 100.0;           // N
 constexpr double k_least_idler = 8.0;                // radius, mm
 constexpr double k_least_length_with_idlers = 60.0;  // of the link, mm
-// Pitch radius of the largest drum over the link length: beyond it the build warns that the tendon breaks.
+// Largest pitch radius of a drum that is chosen for the strength of the knots, over the link length. If the load
+// requires a larger drum, the build warns that the tendon breaks.
 constexpr double k_widest_drum = 0.5;
 // Limit for a drum that is wider only because features of the pulley require space.
 constexpr double k_widest_drum_for_features = 0.45;
@@ -74,7 +78,8 @@ void put_drum(Mechanism& mechanism, double rho, double reach) {
   // Outside both the drum and the pulley, so that each tendon bends round its guide.
   guides.EB = guides.ED = in_three_digits(std::max(std::max(rho, reach) - guide + 0.18 * guides.OE, 0.5 * guide));
   const double flange = reach - 0.5 * d + mechanism.groove_depth();
-  mechanism.pulley.EF = in_three_digits(guides.radius + flange + std::max(3.0, 0.4 * flange));
+  const double clearance = std::max(3.0, 0.4 * flange);  // between guides and flange, mm
+  mechanism.pulley.EF = in_three_digits(guides.radius + flange + clearance);
   const Vec2 pin(guides.ED, -guides.OE);
   // Angle at which tendon 2 leaves the drum at home: the common tangent of drum and guide.
   const double normal = elementary::atan2(pin.y(), pin.x()) + elementary::acos((rho - guide) / pin.norm());
@@ -188,7 +193,7 @@ class Candidates {
 
   /// Drums of one pitch radius with pulleys of one turn, the smallest pulley first.
   void add_drum(double rho) {
-    double r1 = std::max({rho * span_ / turn_, bend_, 0.5 * joint_.tendon.diameter + 1.0});
+    double r1 = std::max({rho * span_ / turn_, bend_, 0.5 * joint_.tendon.diameter + k_least_floor});
     for (; r1 < largest_; r1 *= 1.3) add_drum_with(rho, r1, "a drum on the joint");
     add_drum_with(rho, largest_, "a drum on the joint");
   }
@@ -239,7 +244,7 @@ class Candidates {
   }
 
   void add_small_pulley(double rho, double r1) {
-    if (r1 < std::max(bend_, 0.5 * joint_.tendon.diameter + 1.0) || r1 > largest_) return;
+    if (r1 < std::max(bend_, 0.5 * joint_.tendon.diameter + k_least_floor) || r1 > largest_) return;
     const bool is_one_turn = span_ * rho / r1 <= k_one_turn;
     add_drum_with(rho, r1, is_one_turn ? "a drum on the joint" : "a drum on the joint, several turns of the pulley");
   }
@@ -268,7 +273,7 @@ class Candidates {
     guides.kind = guides.radius > k_thickest_pin || wears ? GuideKind::idler : GuideKind::pin;
     if (guides.kind == GuideKind::idler) {
       guides.radius = std::max(guides.radius, k_least_idler);
-      guides.bearing_radius = 3.3;
+      guides.bearing_radius = 3.3;  // of type 623, mm
       guides.bearing_friction = 0.003;
     }
     guides.radius = in_three_digits(guides.radius);
@@ -338,7 +343,7 @@ struct Rank {
   bool is_without_fault() const { return *this <= Rank{0, 0, 0, 0, shortcomings}; }
 };
 
-/// The motor's torque over the one that it has to hold, N·mm; 0: unknown.
+/// The motor's stall torque over `torque` (N·mm), which it has to hold; 0: unknown.
 double motor_margin(const Mechanism& mechanism, double torque) {
   return torque > 0 ? motor_for(mechanism).stall_torque / torque : 0;
 }
@@ -351,8 +356,8 @@ void rank_motor(Rank& rank, const Mechanism& mechanism, double torque) {
   rank.weakness = static_cast<std::size_t>(std::ceil(std::clamp(missing, 0.0, 1e3) / 0.25));
 }
 
-/// Rank of a plan without a mesh, with an estimate of the motor's torque in N·mm. Several turns are only built: no
-/// shortcoming is assumed.
+/// Rank of a plan without a mesh, with an estimate of the motor's torque in N·mm. A pulley of several turns has no such
+/// plan: it is assumed to have no shortcoming.
 Rank planned_rank(const DeclaredMechanism& declared, double torque) {
   Rank rank;
   rank_motor(rank, declared, torque);
@@ -378,8 +383,8 @@ Rank rank_of(const formats::Product& product) {
   return rank;
 }
 
-/// Declares the smallest set screw in a thread of the hub: the hub that it requires has precedence over marks and slots.
-/// Empty if the pulley has a set screw or must not have one, or if that hub does not fit.
+/// Declares the smallest set screw, in a thread of the hub. The hub that a declared screw requires has precedence over
+/// marks and slots. Empty if the pulley has a set screw or must not have one, or if that hub does not fit.
 std::optional<DeclaredMechanism> with_small_screw(const DeclaredMechanism& declared, const Rank& planned) {
   if (planned.loose == 0 || declared.body.set_screw != "auto" || declared.body.hub_diameter > 0) return std::nullopt;
   DeclaredMechanism changed = declared;
@@ -469,7 +474,7 @@ void keep_taut(ChosenLayout& chosen, const LayoutRequirements& needs, const Cand
   mechanism.tendon.pretension = rounded_up(*least);
   ChosenLayout taut = chosen;
   taut.file = file_of(mechanism);
-  if (taut.file.mechanism.tendon.pretension != mechanism.tendon.pretension) return;  // by a setting
+  if (taut.file.mechanism.tendon.pretension != mechanism.tendon.pretension) return;  // a setting overrides it
   const std::optional<Obstacle> obstacle = build_layout(needs, taut, context);
   const analysis::UnderLoad& load = taut.built.product.under_load;
   const std::string words = rounded(*least, 3) + " N or more keeps both tendons taut under the load";
@@ -478,7 +483,7 @@ void keep_taut(ChosenLayout& chosen, const LayoutRequirements& needs, const Cand
   Rank rank = rank_of(taut.built.product), rank_before = rank_of(chosen.built.product);
   const bool is_too_much =
       rank.weakness > 0 && (rank.stalls > rank_before.stalls || torque > k_most_for_pretension * torque_before);
-  rank.weakness = rank_before.weakness = 0;  // it has a limit of its own
+  rank.weakness = rank_before.weakness = 0;  // is_too_much limits the motor's torque
   if (obstacle)
     against = obstacle->message;
   else if (load.safety_factor().value_or(k_least_safety) < k_least_safety)
@@ -500,7 +505,7 @@ void keep_taut(ChosenLayout& chosen, const LayoutRequirements& needs, const Cand
 /// Writes the room as a key of the file, so that later changes keep it.
 void keep_room(ChosenLayout& chosen, const LayoutRequirements& needs, const CandidateFile& file_of) {
   DeclaredMechanism mechanism = chosen.file.mechanism;
-  if (mechanism.body.room > 0) return;  // by a setting
+  if (mechanism.body.room > 0) return;  // a setting already gives it
   mechanism.body.room = needs.room;
   MechanismFile file = file_of(mechanism);
   if (!quick_obstacle(file.mechanism)) chosen.file = std::move(file);
@@ -566,13 +571,15 @@ class LayoutChoice {
     return planned < best_;
   }
 
-  /// False if no further build is allowed.
+  /// Builds a candidate. `is_last`: no other variant of it follows, so that its obstacle is reported. False if no
+  /// further build is allowed.
   bool try_build(DeclaredMechanism mechanism, const Candidate& candidate, bool is_last) {
     if (builds_++ == (requirements_.any ? k_max_trial_builds : k_max_layout_builds)) return false;
     ChosenLayout layout;
     layout.file = file_of_(mechanism);
     layout.words = candidate.words;
     std::optional<Obstacle> obstacle = build_layout(requirements_, layout, context_);
+    // Excess radius, with a reserve for rounding. A pulley that is larger by far is not worth a second build.
     const double excess = 0.5 * (layout.diameter - requirements_.room) + 0.02;
     if (obstacle && layout.diameter > requirements_.room && excess < 0.3 * mechanism.pulley.r1) {
       // The flange also covers the tie-offs. Only the build has determined by how much it exceeds the groove.
@@ -683,15 +690,15 @@ std::vector<DeclaredMechanism> drums_for(const DeclaredMechanism& declared) {
   std::vector<DeclaredMechanism> all;
   if (!has_r1 && !(ratio > 0)) return all;
   const double usual = 0.15 * declared.joint.R, bend = 0.5 * declared.tendon.bend_ratio * declared.tendon.diameter;
-  for (const double larger : {1.0, 1.4, 2.0, 0.7}) {
+  for (const double factor : {1.0, 1.4, 2.0, 0.7}) {
     DeclaredMechanism changed = declared;
     double reach = 0, rho = 0;
     if (has_r1) {
-      changed.pulley.r1 = larger == 1.0 ? declared.pulley.r1 : in_three_digits(larger * declared.pulley.r1);
+      changed.pulley.r1 = factor == 1.0 ? declared.pulley.r1 : in_three_digits(factor * declared.pulley.r1);
       reach = changed.pulley.r1;
       rho = std::min(std::max(usual, bend), reach * k_one_turn / span);
     } else {
-      rho = std::max(usual, bend) * larger;
+      rho = std::max(usual, bend) * factor;
       reach = rho / ratio;
     }
     if (declared.body.room > 0) rho = std::min(rho, widest_drum(declared.body.room, declared.tendon.diameter));

@@ -24,7 +24,8 @@ namespace {
 helix::HelixGroove groove_of(const Mechanism& mechanism) {
   const helical_solid::HelicalSection section = helical_solid::helical_section(mechanism);
   const double d = mechanism.tendon.diameter;
-  // A later turn lies below the one before.
+  // The later of two turns lies below. If its radius is larger by `step`, the upper turn is smaller: the growth of the
+  // upper turn is −step.
   return {
       section.depth,
       std::min(solid::room_at_groove_edge(section.walls.below, d), solid::room_at_groove_edge(section.walls.above, d)),
@@ -84,6 +85,7 @@ std::vector<profile::Condition> faults_of(const Mechanism& mechanism, const heli
   return faults;
 }
 
+/// A coarse synthesis, sufficient for slopes and warnings.
 helix::HelixSynthesis brief_synthesis(const Mechanism& mechanism) {
   constexpr double k_brief_chord_error_mm = 0.05;
   profile::SynthesisOptions options;
@@ -127,20 +129,21 @@ std::string words_on_slopes(const Mechanism& mechanism) {
 
 void draw_for_making(helix::Spiral& spiral, const OutlineError& outline) {
   for (helix::SpiralRow& row : spiral.rows) {
-    const profile::OutlinePoint made =
+    const profile::OutlinePoint drawn =
         joint::drawn_for_making({row.turn, Vec2(row.x, row.y), unit(row.turn), row.rho}, outline);
-    row.x = made.position.x();
-    row.y = made.position.y();
-    row.rho = made.curvature_radius;
+    row.x = drawn.position.x();
+    row.y = drawn.position.y();
+    row.rho = drawn.curvature_radius;
   }
 }
 
 helical_solid::FloorLine as_made(helical_solid::FloorLine drawn, const OutlineError& outline) {
   Polygon plan;
   for (const Vec3& point : drawn) plan.push_back(point.head<2>());
-  // Half-planes meet each side of the floor's polygon several times, so a normal averages several sides.
-  constexpr std::size_t k_averaged_sides = 14;
-  plan = joint::line_as_made(std::move(plan), outline, k_averaged_sides);
+  // Half-planes meet each side of the floor's polygon several times. With this number of points on either side, a
+  // normal averages several sides.
+  constexpr std::size_t k_points_beside = 14;
+  plan = joint::line_as_made(std::move(plan), outline, k_points_beside);
   for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i].head<2>() = plan[i];
   return drawn;
 }
@@ -226,15 +229,15 @@ bool design_multi_turn(formats::Product& product, double chord_error_mm, const R
 namespace {
 
 /// Designs a multi-turn pulley within the limit of excess length. A string on a polygon inscribed in its curve is too
-/// short by a share of the chord error per radian of winding. If the excess length over the range exceeds its limit,
-/// the curves are drawn again, as finely as the limit requires (campaign of seed 620001, design 316: 10.5 rad, 0.11 mm
-/// of excess length).
+/// short, in proportion to the chord error and the angle of winding. If the excess length over the range exceeds its
+/// limit, the curves are drawn again, as finely as the limit requires (campaign of seed 620001, design 316: 10.5 rad,
+/// 0.11 mm of excess length).
 bool design_turns_within(formats::Product& product, double chord_error_mm, const AsBuiltLimits& limits,
                          const RunContext& context, solid::TieOffSearch search) {
   if (!design_multi_turn(product, chord_error_mm, context, search)) return false;
   double furthest = 0;  // rad
-  for (const transmission::TransmissionPoint& place : product.synthesis.stroke)
-    furthest = std::max(furthest, std::abs(place.alpha));
+  for (const transmission::TransmissionPoint& point : product.synthesis.stroke)
+    furthest = std::max(furthest, std::abs(point.alpha));
   if (furthest * chord_error_mm <= limits.excess) return true;
   const profile::RewindResult wound = rewind_multi_turn(product, product.pulley.mesh).result;
   if (all_ok(as_built_checks(product.joint.mechanism, wound, limits))) return true;
@@ -296,10 +299,10 @@ helix::HelixSynthesis trial_curves(const Mechanism& mechanism, double chord_erro
 }
 
 /// Obstacles of the curves first, then of the body.
-std::vector<profile::Condition> obstacles_of(const Mechanism& mechanism, const helix::HelixSynthesis& made,
+std::vector<profile::Condition> obstacles_of(const Mechanism& mechanism, const helix::HelixSynthesis& curves,
                                              double chord_error_mm) {
-  if (!made.made()) return profile::failed_of(made.conditions);
-  return helical_solid::helical_obstacles(mechanism, made.sides[0].spiral, made.sides[1].spiral, chord_error_mm);
+  if (!curves.made()) return profile::failed_of(curves.conditions);
+  return helical_solid::helical_obstacles(mechanism, curves.sides[0].spiral, curves.sides[1].spiral, chord_error_mm);
 }
 
 /// The first bend of a tendon that is tighter than tendon.bend_ratio allows.
@@ -331,13 +334,13 @@ namespace {
 // 990202, design 237). Two builds, which run in parallel, are always allowed.
 constexpr double k_rows_for_advice = 9000;
 
-/// Approximate number of rows of such spirals at the final chord error.
+/// Approximate number of rows of the spirals at the final chord error e, which allows turns of √(8e/ρ) between rows.
 double rows_as_made(const helix::HelixSynthesis& curves, double chord_error_mm) {
   double rows = 0;
   for (const helix::HelixSide& side : curves.sides) {
-    const std::vector<helix::SpiralRow>& drawn = side.spiral.rows;
-    for (std::size_t i = 1; i < drawn.size(); ++i)
-      rows += (drawn[i].turn - drawn[i - 1].turn) * std::sqrt(drawn[i].rho / (8.0 * chord_error_mm));
+    const std::vector<helix::SpiralRow>& coarse = side.spiral.rows;
+    for (std::size_t i = 1; i < coarse.size(); ++i)
+      rows += (coarse[i].turn - coarse[i - 1].turn) * std::sqrt(coarse[i].rho / (8.0 * chord_error_mm));
   }
   return rows;
 }

@@ -9,8 +9,8 @@
 
 namespace fusee::pipeline {
 
-/// A warning about a pulley of one turn that reaches twice as far as its hub and the largest radius at which a tendon
-/// leaves it. Such an outline closes in long, pointed wings outside the range. Empty for other parts.
+/// A warning about a pulley of one turn whose radius is at least twice that of its hub, and at least twice the largest
+/// of r1 and r2. Such an outline closes in long, pointed wings outside the range. Empty for other parts.
 std::optional<Diagnostic> wide_part_warning(const formats::Product& product);
 
 }  // namespace fusee::pipeline

@@ -7,8 +7,9 @@
 #include "base/normal_numbers.h"
 #include "plan/thresholds.h"
 
-// A data set y = A x + noise enters the evidence only through z = Aᵀy. With G = AᵀA, z is G x plus a normal vector of
-// covariance G. The log evidence of the columns Z, each with a normal prior of size 1, is
+// A data set y = A x + noise enters the evidence only through z = Aᵀy. With G = AᵀA, summed over runs and readings, z
+// is G x plus a normal vector of covariance G. The log evidence of the columns Z, each scaled by the standard deviation
+// of its normal prior, is
 //   ½ z_Zᵀ (I + G_ZZ)⁻¹ z_Z − ½ log det (I + G_ZZ).
 // An explanation is one cause plus model error. Its alternatives are the other causes, model error alone, and an
 // unmodelled cause at several sizes. The unmodelled cause has any smooth shape over the range, and may depend on
@@ -19,6 +20,9 @@ namespace {
 
 /// Sizes of an unmodelled cause, deg at the joint.
 constexpr double k_unmodelled_sizes[] = {0.02, 0.05, 0.15, 0.5};
+
+/// Lower than any log evidence.
+constexpr double k_no_evidence = -1e300;
 
 /// Log evidence of a set of columns; its matrix is factored once.
 class Explanation {
@@ -98,15 +102,16 @@ class CauseSelector {
     return (known_.runs + known_.readings) * x + noise_ * noise;
   }
 
-  /// Indices of the causes that are reported together; none if an unmodelled cause is as likely. `without`: a cause
-  /// that is removed from the catalogue, or null.
+  /// Indices of the causes that are reported together: the likeliest, and all within k_plan.odds of it. None if the
+  /// likeliest does not exceed every unmodelled explanation by k_plan.odds. `without`: a cause that is removed from the
+  /// catalogue, or null.
   std::vector<std::size_t> reported(const Eigen::VectorXd& z, const Cause* without) const {
-    double unmodelled = -1e300;
+    double unmodelled = k_no_evidence;
     for (const Explanation& explanation : unmodelled_) unmodelled = std::max(unmodelled, explanation.evidence(z));
     std::vector<double> evidence;
     for (std::size_t i = 0; i < causes_.size(); ++i)
-      evidence.push_back(&causes_[i] == without ? -1e300 : explanations_[i].evidence(z));
-    const double best = evidence.empty() ? -1e300 : *std::max_element(evidence.begin(), evidence.end());
+      evidence.push_back(&causes_[i] == without ? k_no_evidence : explanations_[i].evidence(z));
+    const double best = evidence.empty() ? k_no_evidence : *std::max_element(evidence.begin(), evidence.end());
     std::vector<std::size_t> group;
     for (std::size_t i = 0; best > unmodelled + k_plan.odds && i < causes_.size(); ++i) {
       if (evidence[i] > best - k_plan.odds) group.push_back(i);

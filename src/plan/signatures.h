@@ -22,7 +22,7 @@ struct Cause {
   Eigen::Index count() const { return static_cast<Eigen::Index>(numbers.size()); }
 };
 
-/// The usual size of a number, in its own unit.
+/// The usual size of a number, in its own unit. `largest_load`: N.
 double usual_size(const fusee::EffectParameter& number, double largest_load);
 
 /// Columns of the design matrix: causes, then model error, then unmodelled causes.

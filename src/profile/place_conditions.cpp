@@ -67,9 +67,11 @@ double upper_clearance(const transmission::PinPlace& place, double theta, const 
   const Vec2 centre = transmission::drum_centre(place, theta), from_centre = point - centre;
   const double clearance = std::min(distance_to_segment(point, end, centre + place.drum * unit(span.end_normal)),
                                     distance_to_segment(point, centre + place.drum * unit(span.normal), at_pin));
-  // The arc on the drum runs counter-clockwise from the normal of the span to the pin, over the angle `on_drum`.
-  const double from_arc = elementary::atan2(from_centre.y(), from_centre.x()) - span.normal;
-  const bool is_beside_arc = from_arc - k_two_pi * std::floor(from_arc / k_two_pi) <= span.on_drum;
+  // The arc on the drum begins at the normal of the span that reaches the pin. It runs counter-clockwise over the angle
+  // `on_drum`.
+  const double from_begin = elementary::atan2(from_centre.y(), from_centre.x()) - span.normal;
+  const double within_turn = from_begin - k_two_pi * std::floor(from_begin / k_two_pi);  // in [0, 2π)
+  const bool is_beside_arc = within_turn <= span.on_drum;
   return is_beside_arc ? std::min(clearance, std::abs(from_centre.norm() - place.drum)) : clearance;
 }
 

@@ -150,8 +150,8 @@ Vec2 PolarCurve::position(double psi) const {
 CurvePoint PolarCurve::at(double psi) const {
   constexpr double probe = radians(1.0);
   const Vec2 x = position(psi);
-  // Difference quotients to both sides, since ρ = |dX/dψ|. One that crosses a bridge is too large, so the smaller
-  // counts.
+  // Difference quotients to both sides, since ρ = |dX/dψ|. A quotient across a bridge, the straight edge over a hollow,
+  // is too large, so the smaller counts.
   const double radius = std::min((position(psi + probe) - x).norm(), (x - position(psi - probe)).norm()) / probe;
   return {psi, x.dot(unit(psi)), x.dot(turned_left(unit(psi))), radius};
 }

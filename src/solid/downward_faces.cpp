@@ -49,6 +49,7 @@ class DownwardFaceFinder {
  public:
   DownwardFaceFinder(const TriangleMesh& mesh, const std::vector<double>& heights, double steepness)
       : mesh_(mesh), heights_(heights), steepness_(steepness) {
+    // Horizontal length of a path that descends by one layer at the steepness.
     const double reach = heights.size() < 2 ? 0.0 : (heights[1] - heights[0]) / steepness;
     narrow_ = k_narrow_sliver * reach;
     places_.assign(heights.size(), PlacesInPlan(bounds(mesh), reach + k_rounding_margin));
@@ -136,7 +137,7 @@ class DownwardFaceFinder {
     }
   }
 
-  // Adds a feature to each layer whose height range it reaches.
+  // Adds a box between two corners to each layer that it meets. Layer k lies between the heights k − 1 and k.
   void add(const Vec3& low, const Vec3& high) {
     const auto first =
         std::lower_bound(heights_.begin(), heights_.end(), low.z() - k_rounding_margin) - heights_.begin();

@@ -40,7 +40,7 @@ LawSpline interpolated(const std::vector<LawRow>& rows) {
     places(i) = (rows[static_cast<std::size_t>(i)].alpha - first) / span;
     values(i) = rows[static_cast<std::size_t>(i)].theta;
   }
-  places(count - 1) = 1.0;
+  places(count - 1) = 1.0;  // exactly, in spite of rounding
   const Eigen::Index degree = std::min<Eigen::Index>(5, count - 1);
   LawSpline::KnotVectorType knots;
   Eigen::KnotAveraging(places, degree, knots);
@@ -89,6 +89,7 @@ LawValue Transmission::TableLaw::at(double alpha) const {
     law.d1 = law.d1 * x + law.theta;
     law.theta = law.theta * x + piece.powers[k];
   }
+  // Beyond the ends, the Taylor polynomial of degree three.
   const double beyond = alpha - inside;
   if (beyond != 0) {
     law.theta += beyond * (law.d1 + beyond * (law.d2 / 2 + beyond * law.d3 / 6));

@@ -12,18 +12,19 @@
 namespace fusee::calibration::linear {
 namespace {
 
-Eigen::VectorXd drawn(Eigen::Index count, std::mt19937& random, double size = 1) {
-  std::normal_distribution<double> normal(0.0, size);
+/// Normal random numbers.
+Eigen::VectorXd drawn(Eigen::Index count, std::mt19937& random, double standard_deviation = 1) {
+  std::normal_distribution<double> normal(0.0, standard_deviation);
   return Eigen::VectorXd::NullaryExpr(count, [&](Eigen::Index) { return normal(random); });
 }
 
-/// Two families of three columns over `rows` rows.
+/// Two families of three columns over `rows` rows. An amplitude is about the rms of its family, hence the √3.
 calibration::Discrepancy two_families(Eigen::Index rows, std::mt19937& random) {
-  calibration::Discrepancy made;
-  made.columns.resize(rows, 6);
-  for (Eigen::Index k = 0; k < 6; ++k) made.columns.col(k) = drawn(rows, random) / std::sqrt(3.0);
-  made.families = {{calibration::Factor::place, 0, 3, 0}, {calibration::Factor::load, 3, 3, 0}};
-  return made;
+  calibration::Discrepancy discrepancy;
+  discrepancy.columns.resize(rows, 6);
+  for (Eigen::Index k = 0; k < 6; ++k) discrepancy.columns.col(k) = drawn(rows, random) / std::sqrt(3.0);
+  discrepancy.families = {{calibration::Factor::place, 0, 3, 0}, {calibration::Factor::load, 3, 3, 0}};
+  return discrepancy;
 }
 
 calibration::Tangent nothing_varied(const Eigen::VectorXd& residual) {
@@ -51,6 +52,7 @@ double log_density(const Eigen::VectorXd& r, const calibration::Discrepancy& D,
 TEST(EvidenceModel, EqualsFullDensity) {
   std::mt19937 random(1);
   const calibration::Discrepancy D = two_families(40, random);
+  // The noise floor is 0.1, and all rows are independent (share 1).
   const calibration::EvidenceModel evidence_model(D, 0.1, 1.0);
   const calibration::Amplitudes one{Eigen::Vector2d(0.3, 0.0), 0.1}, other{Eigen::Vector2d(0.05, 0.4), 0.1};
   const Eigen::VectorXd r = drawn(40, random, 0.2);
@@ -72,7 +74,7 @@ TEST(EvidenceModel, IntegratesParameterOverItsPrior) {
   tangent.x = tangent.caliper_gradient = Eigen::VectorXd::Zero(1);
   tangent.prior = Eigen::VectorXd::Constant(1, 0.5);
   tangent.caliper_information = Eigen::MatrixXd::Zero(1, 1);
-  // At the mode, where a fit ends.
+  // The evidence is taken at the mode, where a fit ends.
   const double mode = evidence_model.at(tangent, amplitudes).step[0];
   tangent.x[0] = mode;
   tangent.residual -= mode * slope;
@@ -133,8 +135,8 @@ TEST(EvidenceModel, PenalizesDiscrepancyUpToOneFloor) {
   const calibration::EvidenceModel evidence_model(D, 0.1, 1.0);
   calibration::Posterior posterior;
   posterior.coefficients = drawn(6, random);
-  const Eigen::VectorXd moved = D.columns.leftCols(3) * posterior.coefficients.head(3);
-  const double rms = std::sqrt(moved.squaredNorm() / 50.0);
+  const Eigen::VectorXd deflection = D.columns.leftCols(3) * posterior.coefficients.head(3);
+  const double rms = std::sqrt(deflection.squaredNorm() / 50.0);
   for (const double floors : {0.0, 0.3, 0.99, 1.01, 7.0}) {
     calibration::Posterior sized = posterior;
     sized.coefficients.head(3) *= floors * 0.1 / rms;

@@ -11,7 +11,8 @@
 
 namespace fusee::edit_laws {
 
-/// Every `share`-th applicable number key from the `first` on, with its present value.
+/// Every `share`-th number key with its present value: those whose index plus `first` is a multiple of `share`. Keys
+/// that do not apply are omitted.
 inline std::vector<ValueEdit> own_values(const DeclaredMechanism& mechanism, std::size_t first, std::size_t share) {
   std::vector<ValueEdit> edits;
   std::size_t i = first;
@@ -19,7 +20,8 @@ inline std::vector<ValueEdit> own_values(const DeclaredMechanism& mechanism, std
     const auto key = find_number_key(name);
     const Field& field = *key->field;
     if (i++ % share != 0 || field.table == "transmission" || !is_used(field, mechanism)) continue;
-    // An omitted key without a default has no value of its own; a first attachment makes another mechanism, even at C.
+    // An omitted key without a default has no value of its own. The first key of a sheath makes another mechanism, and
+    // so does a first attachment, even at C.
     const bool makes_another = field.kind == FieldKind::point || field.table == "sheath" || field.fallback.empty();
     if (makes_another && field.is_set != nullptr && !field.is_set(mechanism)) continue;
     edits.push_back({name, key->get(mechanism)});

@@ -53,6 +53,8 @@ void expect_good(const HelicalPulley& pulley, const std::string& name) {
   EXPECT_EQ(failures(solid::check_print(pulley.mesh)), "");
 }
 
+// Arguments of spiral_of(): curve, direction of the first normal (rad), number of turns, rise per mm. Feasible leads
+// exceed the least one of the section by a margin.
 TEST(HelicalPulley, BuildsRoundHelix) {
   const Mechanism mechanism = plain();
   const double lead = least_lead(helical_section(mechanism), 0.0) + 0.05, slope = lead / (k_two_pi * 16.0);

@@ -13,9 +13,15 @@ using testing::linear_wrist;
 using testing::reference;
 using testing::unsymmetric;
 
+/// Moment arm of a tendon's upper span, mm. `image_theta`: joint angle in the image of `side`.
+double upper_arm(const Mechanism& mechanism, transmission::Side side, double image_theta) {
+  const transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.guide_pitch_radius());
+  return transmission::upper_span(place, image_theta).m;
+}
+
 struct Sweep {
-  double tip_force = 0;
-  int steps = 90;  ///< from home to an end
+  double tip_force = 0;  ///< N
+  int steps = 90;        ///< from home to an end
   int cycles = 1;
 };
 
@@ -78,8 +84,7 @@ TEST(Equilibrium, AgreesWithPaperTension) {
   const Mechanism mechanism = with(forearm(), 0.0, 0.0);
   for (const EquilibriumPoint& point : follow(joint_model(mechanism), cycles(mechanism, {10.0}))) {
     if (point.load_torque < 1000.0) continue;  // still loading
-    const double m2 =
-        transmission::upper_span(transmission::pin_place(mechanism, transmission::Side::right, 2.5), point.theta).m;
+    const double m2 = upper_arm(mechanism, transmission::Side::right, point.theta);
     EXPECT_EQ(point.t1.upper, 0.0);
     EXPECT_GT(point.t1.slack, 0.0);
     EXPECT_NEAR(point.t2.upper, 10.0 * 100.0 / m2, 1e-9 * point.t2.upper);  // [6]
@@ -134,7 +139,8 @@ TEST(Equilibrium, AgreesWithPaperErrorForStiffTendons) {
 }
 
 TEST(Equilibrium, PretensionDeflectsSoftJoint) {
-  // The tensions must follow r2/r1: T1 m1 = T2 m2. The deviation is proportional to 1/EA.
+  // The tensions must follow r2/r1: T1 m1 = T2 m2. The deviation is proportional to 1/EA, so that both expected values
+  // have the ratio 31000/850.
   const double soft =
       degrees(largest_error(without_groove_sliding(with(reference(), 5.0, 0.0, modulus_of(850.0))), {}));
   const double stiff =
@@ -157,10 +163,8 @@ TEST(Equilibrium, BalancesTorques) {
     ASSERT_EQ(point.status, EquilibriumStatus::held);
     // Horizontal at home: the weight's lever follows a cosine.
     EXPECT_NEAR(point.load_torque, 100.0 * steps[i].tip_force + 0.4 * 9.80665 * 60.0 * std::cos(point.theta), 1e-9);
-    const double m1 =
-        transmission::upper_span(transmission::pin_place(mechanism, transmission::Side::left, 2.5), -point.theta).m;
-    const double m2 =
-        transmission::upper_span(transmission::pin_place(mechanism, transmission::Side::right, 2.5), point.theta).m;
+    const double m1 = upper_arm(mechanism, transmission::Side::left, -point.theta);
+    const double m2 = upper_arm(mechanism, transmission::Side::right, point.theta);
     EXPECT_NEAR(point.t2.upper * m2 - point.t1.upper * m1, point.load_torque, 1e-8);
     for (const TendonState& tendon : {point.t1, point.t2}) {
       const double most = std::exp(0.15 * tendon.wrap) * (1 + 1e-12);
@@ -213,7 +217,7 @@ TEST(Equilibrium, EnergyErrorIsSecondOrder) {
   double scale = 0;
   const double coarse = work_missing(mechanism, {8.0, 250, 1}, &scale);
   const double fine = work_missing(mechanism, {8.0, 1000, 1}, &scale);
-  EXPECT_NEAR(coarse / fine, 16.0, 8.0);
+  EXPECT_NEAR(coarse / fine, 16.0, 8.0);  // four times as many steps
 }
 
 TEST(Equilibrium, SettlesWithinFewCycles) {
@@ -264,7 +268,7 @@ TEST(Equilibrium, KeepsWindingStrainWithInfiniteFriction) {
 }
 
 TEST(Equilibrium, IsOneSpringWithoutFriction) {
-  // From knot to C at one tension, independent of history.
+  // The tendon has one tension from its knot to C, independent of history.
   Mechanism mechanism = with(unsymmetric(), 20.0, 0.0, 3000.0);
   mechanism.pulley.mu = 0;
   const JointModel model = joint_model(mechanism);
@@ -363,14 +367,14 @@ TEST(Equilibrium, GrooveFrictionDissipates) {
 TEST(Equilibrium, IsIndependentOfStepSize) {
   // Steps of 1 degree of α and of a quarter of one; under load, three cycles.
   const Mechanism mechanism = with(forearm(), 5.0, 0.12, 9000.0);
-  const auto at_ends = [&](int steps) {
+  const auto theta_at_tenths = [&](int steps) {
     const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), cycles(mechanism, {12.0, steps, 3}));
     std::vector<double> theta;
     for (std::size_t i = 0; i < points.size(); i += static_cast<std::size_t>(steps) / 10)
       theta.push_back(points[i].theta);
     return theta;
   };
-  const std::vector<double> coarse = at_ends(120), fine = at_ends(480);
+  const std::vector<double> coarse = theta_at_tenths(120), fine = theta_at_tenths(480);
   ASSERT_EQ(coarse.size(), fine.size());
   double largest = 0;
   for (std::size_t i = 0; i < coarse.size(); ++i) largest = std::max(largest, std::abs(coarse[i] - fine[i]));
@@ -418,7 +422,7 @@ TEST(Equilibrium, StiffnessAgreesWithDifferences) {
       JointMotion motion(joint_model(mechanism));
       const double alpha = transmission::Transmission(mechanism).alpha(theta);
       for (int i = 0; i <= 60; ++i) motion.to({alpha * i / 60, 0.0, 0.0});
-      // A larger torque and none before it bring the joint into the middle of the stick range.
+      // First a larger torque, then none, bring the joint into the middle of the stick range.
       motion.to({alpha, 0.0, 60.0});
       motion.to({alpha, 0.0, 0.0});
       const EquilibriumPoint at = motion.to({alpha, 0.0, 20.0});
@@ -461,8 +465,9 @@ TEST(Equilibrium, ScalesWithForces) {
   }
 }
 
-// An independent route: tensions of both tendons on their pulleys, stiff and without friction, under a weight, a force
-// and a spring. The elasticity of the tendons leaves a millionth of the torque.
+// The motor torque by an independent route: from the tensions of both tendons on their pulleys. The tendons are stiff
+// and without friction, under a weight, a force and a spring. Their elasticity leaves an error of a millionth of the
+// torque.
 TEST(Equilibrium, MotorHoldsLoadOfTorqueLaw) {
   Mechanism arm = with(testing::ankle(), 5.0, 0.0, 1e9);
   arm.pulley.mu = 0;
@@ -494,10 +499,8 @@ TEST(Equilibrium, MirroredJointHasMirroredEquilibrium) {
   mechanism.pulley.ratio = 3.0;
   Mechanism image = testing::mirrored(mechanism);
   // Tendon 1's pretension becomes tendon 2's in the image.
-  const double arm1 =
-      transmission::upper_span(transmission::pin_place(mechanism, transmission::Side::left, 2.5), 0.0).m;
-  const double arm2 =
-      transmission::upper_span(transmission::pin_place(mechanism, transmission::Side::right, 2.5), 0.0).m;
+  const double arm1 = upper_arm(mechanism, transmission::Side::left, 0.0);
+  const double arm2 = upper_arm(mechanism, transmission::Side::right, 0.0);
   image.tendon.pretension = 5.0 * arm1 / arm2;
   JointMotion motion(joint_model(mechanism));
   JointMotion mirrored(joint_model(image));
@@ -579,14 +582,14 @@ TEST(MadePulleys, FollowLawWhenMountedAsDeclared) {
     EXPECT_NEAR(paths[0].p, at.t1.p, 1e-12);
     EXPECT_NEAR(paths[1].p, at.t2.p, 1e-12);
     for (std::size_t i = 0; i < 2; ++i) {
-      // The contact is the intersection of neighbouring lines in the pulley's frame: along them by the change of their
-      // distance per turn.
+      // In the pulley's frame the tendon's line turns by ±1 + p'/reach per angle α. Neighbouring lines intersect at the
+      // contact, which is p' over that turn away from the foot of the axis' perpendicular.
       const transmission::TendonPoint& tendon = i == 0 ? at.t1 : at.t2;
-      const double per_turn =
+      const double foot_to_contact =
           tendon.dp / (transmission::mirror_sign(i == 0 ? transmission::Side::left : transmission::Side::right) +
                        tendon.dp / tendon.lower_reach);
-      EXPECT_NEAR(paths[i].reach, tendon.lower_reach - per_turn, 1e-12);
-      EXPECT_GT(std::abs(per_turn), 0.05);
+      EXPECT_NEAR(paths[i].reach, tendon.lower_reach - foot_to_contact, 1e-12);
+      EXPECT_GT(std::abs(foot_to_contact), 0.05);
     }
     EXPECT_NEAR(paths[0].normal, k_pi - at.t1.lower_normal, 1e-12);
   }

@@ -33,6 +33,7 @@ void put(std::string& bytes, Number value) {
   bytes.append(raw, sizeof(Number));
 }
 
+/// A message in little-endian CDR: each number is aligned to its size.
 class Cdr {
  public:
   template <typename Number>
@@ -57,7 +58,7 @@ class Cdr {
     for (const double value : values) add(value);
     return *this;
   }
-  std::string message() const { return std::string("\0\1\0\0", 4) + body_; }
+  std::string message() const { return std::string("\0\1\0\0", 4) + body_; }  // 1: little-endian
 
  private:
   std::string body_;
@@ -73,7 +74,7 @@ std::string joint_state(std::int64_t stamp, const std::vector<std::string>& name
 
 std::string number_message(double value) { return Cdr().add(value).message(); }
 
-/// MCAP without chunks.
+/// MCAP without chunks. Records: 1 header, 2 footer, 3 schema, 4 channel, 5 message.
 class Mcap {
  public:
   Mcap() {
@@ -173,7 +174,7 @@ TEST(Bags, HaveSameRowsFromEveryWriter) {
   expect_corpus_rows(rows_of(corpus_file("good_packed_messages.db3")), 16, "packed messages");
 }
 
-// Results depend on samples, strokes, notes and reasons alone: where these agree, they have the same bytes.
+// Results depend on samples, strokes, notes and reasons alone. If these agree, the results have the same bytes.
 TEST(Bags, GiveSameMeasurementAsTable) {
   const std::filesystem::path data = std::filesystem::path(FUSEE_SOURCE_DIR) / "tests/data/bags";
   Measurement plain;
@@ -244,6 +245,7 @@ TEST(Bags, WithDamagedChunkOmitIt) {
   const std::size_t at = bytes.find("hinge", bytes.size() / 3);
   bytes[at] = 'b';
   const LoggedRows rows = rows_of(bytes);
+  // The damaged chunk has some of the 64 rows, and the others have about half of them or more.
   EXPECT_LT(rows.samples.size(), 62u);
   EXPECT_GT(rows.samples.size(), 30u);
   EXPECT_THAT(rows.notes, Contains("1 chunks of the recording are damaged: omitted"));
@@ -346,6 +348,7 @@ TEST(Joining, DoesNotMixLogsOfARestartedClock) {
       1);
 }
 
+// θ jumps from π to −π. A row between these values takes the nearer one, because their mean would be near 0.
 TEST(Joining, HoldsAngleAcrossAWholeTurn) {
   Track alpha, theta;
   alpha.role = "alpha";
@@ -361,7 +364,7 @@ TEST(Joining, HoldsAngleAcrossAWholeTurn) {
   for (const Sample& sample : keeper.samples) EXPECT_GT(std::abs(sample.theta), 2.0) << sample.time;
 }
 
-// Every 4th, 8th, … row from the first one on, for even and odd limits.
+// At its limit, the keeper drops every second row: of 100 rows it keeps every 16th, for an even and for an odd limit.
 TEST(RowKeeper, KeepsRowsAtEqualDistances) {
   for (const std::size_t most : {8u, 9u}) {
     RowKeeper keeper(most);
@@ -393,7 +396,7 @@ TEST(RowKeeper, KeepsRestartBeforeOmittedRow) {
 TEST(Track, KeepsPointsAtEqualDistances) {
   Track track;
   for (std::int64_t i = 0; i < std::int64_t{9} << 20; ++i) track.add({i, 0, 0});
-  EXPECT_EQ(track.stride, 4u);
+  EXPECT_EQ(track.stride, 4u);  // at most 4 · 2^20 points are kept
   bool is_evenly_spaced = true;
   for (std::size_t i = 0; i < track.points.size(); ++i)
     is_evenly_spaced &= track.points[i].time == static_cast<std::int64_t>(4 * i);
@@ -467,7 +470,7 @@ TEST(BagColumns, AreChosenWhereTheNamesAreObvious) {
   EXPECT_EQ(theta_first.samples[10].theta, 1.0);
 }
 
-// A weight beside the motor is no joint, a potentiometer is.
+// A number that is named weight is not taken as the joint's angle, and one that is named joint_deg is.
 TEST(BagColumns, NeedBothWordsForTwoKinds) {
   for (const char* const name : {"/weight", "/joint_deg"}) {
     Mcap mcap;
@@ -567,6 +570,7 @@ TEST(PlotJuggler, EmptyCellsAreJoinedAsInBag) {
   for (std::int64_t t = 0; t < 1000; t += 5) {
     const std::int64_t time = k_start + t * k_ms;
     const double angle = 0.125 * static_cast<double>(t % 90);
+    // Microseconds with leading zeros: seven digits without the first.
     const std::string seconds =
         std::to_string(time / 1'000'000'000) + "." + std::to_string(1'000'000 + time / 1000 % 1'000'000).substr(1);
     if (t % 20 == 5) {
@@ -594,6 +598,7 @@ TEST(PlotJuggler, EmptyCellsAreJoinedAsInBag) {
 std::string repeated_zeros(int blocks) {
   std::string frame("\x28\xB5\x2F\xFD\x00\x58", 6);  // a window of 2 MB
   for (int i = 0; i < blocks; ++i) {
+    // Block header: size, type (1: one repeated byte), and whether it is the last block.
     const std::uint32_t head = (std::uint32_t{128 * 1024} << 3U) | 2U | (i + 1 == blocks ? 1U : 0U);
     for (int byte = 0; byte < 3; ++byte) frame += static_cast<char>(head >> (8 * byte));
     frame += '\0';
@@ -613,7 +618,7 @@ TEST(Unpacking, StopsAtItsLimit) {
   const std::size_t most = limit.raise_for(packed.size());
   EXPECT_LT(most, std::size_t{65} << 20);
   limit.use(most);
-  EXPECT_EQ(limit.raise_for(1), 1000u);
+  EXPECT_EQ(limit.raise_for(1), 1000u);  // bytes for each packed one
 }
 
 TEST(Unpacking, ReportsDamagedAndCutOffFrames) {

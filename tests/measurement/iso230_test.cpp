@@ -98,7 +98,8 @@ TEST(Iso230, InterpolatesResidualsAtPositions) {
     run.samples.push_back(sample);
     residuals.push_back(i <= 100 ? 0.5 : 0.2);
   }
-  // A partial stroke does not count; its residuals are large here.
+  // Strokes: first and last row, direction, cycle, partial. A partial stroke does not count; its residuals are large
+  // here.
   run.strokes = {{0, 100, 1, 0, false}, {101, 200, -1, 0, false}, {201, 250, 1, 1, true}};
   for (int i = 0; i < 50; ++i) {
     Sample sample;

@@ -140,7 +140,7 @@ TEST(Measurement, FirstStrokeFromMiddleIsPartial) {
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("does not begin at a reversal"));
 }
 
-TEST(Measurement, AcceptsCommentsMarksAndLineEnds) {
+TEST(Measurement, AcceptsCommentsByteOrderMarkAndLineEnds) {
   std::string text = csv(triangle(40, 50, 4), quarter);
   std::string windows = "\xEF\xBB\xBF# a log\r\n";
   for (const char c : text) windows += c == '\n' ? std::string("\r\n  # said\r\n") : std::string(1, c);
@@ -165,6 +165,7 @@ TEST(Measurement, ReadsEverySeparator) {
   for (const std::string& other :
        {replaced(text, ",", ";"), replaced(text, ",", "\t"), replaced(text, ",", "  "), replaced(text, "\n", "\r"),
         replaced(text, "\n", "\r\n"), replaced(text, "\n", ",\n"), text.substr(0, text.size() - 1), padded, quoted}) {
+    // If rows end in a comma, the header has none.
     const ParsedRun p = parsed(replaced(other, "theta_deg,\n", "theta_deg\n"));
     ASSERT_EQ(p.run.samples.size(), plain.run.samples.size()) << other.substr(0, 80);
     for (std::size_t i = 0; i < p.run.samples.size(); ++i)
@@ -279,8 +280,10 @@ TEST(Measurement, UnwrapsEncoder) {
 
 TEST(Measurement, MovesLateRowBack) {
   std::string text = csv(triangle(40, 50, 4), quarter);
+  // The row at 3 s comes after the next row, and comes twice.
   const std::size_t a = text.find("\n3,") + 1, b = text.find('\n', a) + 1, c = text.find('\n', b) + 1;
-  text = text.substr(0, a) + text.substr(b, c - b) + text.substr(a, b - a) + text.substr(a, b - a) + text.substr(c);
+  const std::string late = text.substr(a, b - a), next = text.substr(b, c - b);
+  text = text.substr(0, a) + next + late + late + text.substr(c);
   const ParsedRun p = parsed(text);
   ASSERT_THAT(p.run.samples, SizeIs(201));
   for (std::size_t i = 1; i < 201; ++i) EXPECT_GT(p.run.samples[i].time, p.run.samples[i - 1].time);
@@ -405,6 +408,7 @@ TEST(Strokes, DwellsDoNotCutStrokes) {
   for (const std::size_t every :
        {std::size_t{50}, std::size_t{25}, std::size_t{10}}) {  // at the reversals, in the middle, staircases
     for (const double noise : {0.0, 0.02}) {
+      // θ has noise of 1e-4°, a function of α that scatters like random numbers.
       const ParsedRun p = parsed(csv(jittered(dwelling(alphas, every, 40), noise),
                                      [](double alpha) { return 0.25 * alpha + 1e-4 * std::sin(1e5 * alpha); }));
       EXPECT_EQ(directions_of(p.run), "+-+-+-") << every << " " << noise;
@@ -529,6 +533,7 @@ TEST(Measurement, PlayIsNotFrozenSensor) {
     text += shortest(alpha) + "," + shortest(0.25 * pulley) + "\n";
   }
   EXPECT_EQ(reasons_of(parsed(text).measurement), "");
+  // A sensor with steps of 2°: θ is constant over 8° of α.
   const auto coarse = [](double alpha) { return 2.0 * std::round(0.125 * alpha); };
   EXPECT_EQ(reasons_of(parsed(csv(triangle(40, 100, 4), coarse)).measurement), "");
 }

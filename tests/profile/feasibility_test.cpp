@@ -48,7 +48,7 @@ void expect_refused(const Mechanism& mechanism, const std::string& condition, co
   }
 }
 
-TEST(Feasibility, ReferenceWouldBeConcave) {
+TEST(Feasibility, ReportsConcaveReference) {
   Mechanism mechanism = testing::reference();
   mechanism.tendon.diameter = 0.01;
   expect_refused(mechanism, "convex_floor_P2", "P2 would be concave at α = 92");
@@ -86,6 +86,7 @@ TEST(Feasibility, ReportsTendonThroughOtherPin) {
   mechanism.joint.drum_radius = 0;
   mechanism.joint.theta_min = radians(-1.0);
   mechanism.joint.theta_max = radians(1.0);
+  // Tendon 2 ends far on the left, and passes pin B on its way to pin D.
   mechanism.joint.attachment2 = Attachment{-30.0, 2.0};
   mechanism.guides.OE = -5.0;
   mechanism.guides.EB = 10.0;
@@ -99,7 +100,7 @@ TEST(Feasibility, ReportsSheathExitInPulley) {
   mechanism.sheath.exit_across = 5.0;
   mechanism.sheath.exit_above = 12.0;
   expect_refused(mechanism, "line_reaches_mouth_1", "the exit of sheath 1 lies");
-  // So close that the curve would be hollow, or that no line reaches the exit.
+  // Farther out, the exit is still so close that the curve would be hollow, or that no line reaches the exit.
   mechanism.sheath.exit_above = 18.0;
   const SynthesisResult too_near = synthesise(mechanism);
   ASSERT_FALSE(too_near.made());
@@ -113,6 +114,7 @@ TEST(Feasibility, ReportsTendonOffPinAtSheath) {
   expect_refused(mechanism, "tendon_on_pin_B", "down into its sheath, is");
 }
 
+// With a sheath, EF only sets where the pulley is drawn.
 TEST(Feasibility, AdviceKeepsArbitraryPulleyPosition) {
   Mechanism mechanism = testing::sheathed_wrist();
   mechanism.sheath.exit_above = 12.0;
@@ -140,6 +142,7 @@ TEST(Feasibility, LiftOffOfTendon2MakesStraightPart) {
   const auto& points = result.p2.points;
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
     longest = std::max(longest, (points[i + 1].position - points[i].position).norm());
+  // An edge of √(8 · 0.01 · ρ) mm keeps the chord error of 0.01 mm: less than 4 mm up to ρ = 200 mm.
   EXPECT_GT(longest, 4.0);
 }
 

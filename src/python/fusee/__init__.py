@@ -7,8 +7,9 @@
     'done'
 
 The verbs are functions: ``read``, ``synthesise``, ``build``, ``rewind``, ``check``, ``analyze``, ``optimize``, ``calibrate``, ``compare``,
-``simulate``, ``plan``, ``kit``. Their results are frozen values with read-only arrays and units in the names. Angles are in radians, but in degrees
-for keys of the file. An infeasible joint is a value with reasons and advice; invalid input is an ``InputError`` with all its diagnostics.
+``simulate``, ``plan``, ``kit``. Their results are frozen values with read-only arrays and units in the names. Angles are in radians (``_rad``), but
+in degrees (``_deg``) for keys of the file, columns of logs, and errors in a calibration or comparison. An infeasible joint is a value with reasons
+and advice; invalid input is an ``InputError`` with all its diagnostics.
 """
 
 from ._core import version as __version__

@@ -1,6 +1,6 @@
 """The verbs: each takes a mechanism and returns a frozen value.
 
-Options have the names, ranges and defaults of the program's own (``fusee COMMAND --help``). Without `folder` nothing is written, and
+Options have the names, ranges and defaults of the program's options (``fusee COMMAND --help``). Without `folder` nothing is written, and
 ``files`` has the content. An invalid argument is an InputError; an infeasible joint is a value.
 """
 
@@ -31,6 +31,7 @@ Settings = abc.Sequence[Tuple[bytes, bytes]]
 T = TypeVar("T")
 
 _MOST_SEED = 2**32 - 1
+_MOST_LEVELS = 12  # loads or speeds of a plan
 _MOST_TOLERANCE_MM = 1.0
 
 
@@ -72,7 +73,7 @@ def _core_of(mechanism: Mechanism) -> _core.CarriedMechanism:
 
 def _target(folder: Optional[PathLike], force: bool) -> _core.Target:
     if folder is None:
-        # An unused name: nothing is written there, and there is no earlier run.
+        # A forced dry run (True, True) to an unused name: nothing is written there, and there is no earlier run.
         nowhere = os.path.join(tempfile.gettempdir(), f"fusee-nowhere-{os.getpid()}")
         return _core.Target(os.fsencode(nowhere), True, True)
     path = path_bytes("folder", folder)
@@ -273,12 +274,12 @@ def _reread(mechanism: Mechanism, text: str, settings: Settings = ()) -> Mechani
 
 
 def _better(mechanism: Mechanism, text: str, numbers: Dict[str, float]) -> Mechanism:
-    """The text with a design's numbers, and with the other changes by ``with_``."""
+    """The text with a design's numbers. Changes that the mechanism already has by ``with_`` stay."""
     settings = mechanism._core.settings()
     return _reread(mechanism, text, settings).with_(numbers) if settings else _reread(mechanism, text)
 
 
-# ---- measured ---------------------------------------------------------------------------------------------------------
+# ---- measured data ---------------------------------------------------------------------------------------------------
 
 
 def _csv(name: str, columns: abc.Mapping[str, ArrayLike]) -> bytes:
@@ -472,7 +473,7 @@ def plan(
 ) -> _values.Plan:
     """Plans the runs to measure in the given minutes, with their detection limits.
 
-    Its run files, without θ, are for ``simulate`` and ``calibrate``.
+    Its run files have no θ yet: ``simulate`` reads them as they are, ``calibrate`` with the measured θ.
 
     >>> import fusee
     >>> bench = fusee.plan(fusee.read(fusee.new("forearm")), minutes=1)
@@ -495,8 +496,8 @@ def _levels(name: str, values: abc.Sequence[float]) -> List[Any]:
     if isinstance(values, (str, bytes)) or not isinstance(values, abc.Iterable):
         raise input_error(name, "takes a list of numbers")
     listed = list(values)
-    if len(listed) > 12:
-        raise input_error(name, f"{len(listed)} values are more than the limit of 12")
+    if len(listed) > _MOST_LEVELS:
+        raise input_error(name, f"{len(listed)} values are more than the limit of {_MOST_LEVELS}")
     return listed
 
 

@@ -15,6 +15,8 @@ namespace {
 
 using ::testing::StartsWith;
 
+// Fields of a parameter: name, value, 95 % interval with other effects marginalised, 95 % interval if its effect is the
+// only cause, and its sign in words.
 TEST(ParameterWords, DescribeSign) {
   EXPECT_EQ(parameter_words({"scale_percent", -1.2, -1.3, -1.1, -1.3, -1.1, "both pulleys are too small"}, ""),
             "scale = −1.2 %: both pulleys are too small (95 %: −1.3 … −1.1)");
@@ -86,6 +88,7 @@ TEST(ResidualMap, CutsLongNamesBetweenCharacters) {
   EXPECT_EQ(label_of(40), std::pair(std::size_t{28}, true));
 }
 
+// An instruction ends at its first colon outside brackets.
 TEST(Headline, KeepsAnInstructionWhole) {
   CalibrationProduct product = joint_with_errors([](double) { return -0.6; });
   plan::NextMeasurement next;

@@ -17,16 +17,16 @@ TEST(MechanismFigures, AreToScale) {
   ASSERT_EQ(figures.size(), 1u);
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(inline_svg(figures[0]).c_str()));
-  const auto ends = [](const pugi::xml_node& path) {
+  const auto length_of = [](const pugi::xml_node& path) {
     Vec2 from, to;
     EXPECT_EQ(std::sscanf(path.attribute("d").as_string(), "M%lf %lfL%lf %lf", &from.x(), &from.y(), &to.x(), &to.y()),
               4);
     return (to - from).norm();
   };
-  const double link = ends(document.select_node("//g[@class='joint-link']/path").node());
-  const double bar = ends(document.select_node("/svg/path[@class='dimension']").node());
-  const double bar_length = document.select_node("/svg/text[contains(., ' mm')]").node().text().as_double();
-  EXPECT_NEAR(link / bar * bar_length, mechanism.joint.R, 0.1);
+  const double link = length_of(document.select_node("//g[@class='joint-link']/path").node());
+  const double bar = length_of(document.select_node("/svg/path[@class='dimension']").node());
+  const double bar_mm = document.select_node("/svg/text[contains(., ' mm')]").node().text().as_double();
+  EXPECT_NEAR(link / bar * bar_mm, mechanism.joint.R, 0.1);
 }
 
 TEST(MechanismFigures, HaveMovableGroups) {
@@ -40,7 +40,7 @@ TEST(MechanismFigures, HaveMovableGroups) {
   EXPECT_EQ(turn.rfind("rotate(90 ", 0), 0u) << "α > 0 is clockwise, as SVG turns: " << turn;
 }
 
-TEST(DimensionFigure, NamesEachLengthOfTheTable) {
+TEST(DimensionFigure, NamesEachLengthInsideItsFrame) {
   const auto names_in = [](const Mechanism& mechanism) {
     const auto figure = dimension_figure(mechanism, profile::synthesise(mechanism));
     std::vector<std::string> names;
@@ -49,6 +49,7 @@ TEST(DimensionFigure, NamesEachLengthOfTheTable) {
     EXPECT_TRUE(document.load_string(inline_svg(*figure).c_str()));
     for (const auto& words : document.select_nodes("//text")) {
       const double x = words.node().attribute("x").as_double(), y = words.node().attribute("y").as_double();
+      // A name begins inside the figure, with space for its letters: px.
       EXPECT_TRUE(x >= 10 && x <= figure->width - 20 && y >= 10 && y <= figure->height - 5) << x << " " << y;
       names.emplace_back(words.node().text().as_string());
     }
@@ -59,7 +60,7 @@ TEST(DimensionFigure, NamesEachLengthOfTheTable) {
   EXPECT_FALSE(dimension_figure(bare, profile::SynthesisResult()));
 }
 
-TEST(MovingFigures, GiveTheirOrigin) {
+TEST(MovingFigures, GiveTheirScaleAndOrigin) {
   const Mechanism mechanism = testing::forearm();
   const auto figures = moving_figures(mechanism, profile::synthesise(mechanism));
   ASSERT_EQ(figures.size(), 2u);
@@ -67,6 +68,7 @@ TEST(MovingFigures, GiveTheirOrigin) {
     pugi::xml_document document;
     ASSERT_TRUE(document.load_string(inline_svg(figure).c_str()));
     const auto scene = document.select_node("/svg/g[@class='scene']").node();
+    // data-view: px per mm, and the place of the joint axis O, px. The link is drawn from O to C, straight up at home.
     double scale = 0, x = 0, y = 0, to_x = 0, to_y = 0;
     ASSERT_EQ(std::sscanf(scene.attribute("data-view").as_string(), "%lf %lf %lf", &scale, &x, &y), 3);
     const char* link = scene.select_node("./g[@class='joint-link']/path").node().attribute("d").as_string();
@@ -79,7 +81,7 @@ TEST(MovingFigures, GiveTheirOrigin) {
 TEST(PolarFigure, ReportsErrorOfPolarDrawing) {
   const Mechanism mechanism = testing::forearm();
   const profile::SynthesisResult synthesis = profile::synthesise(mechanism);
-  EXPECT_FALSE(polar_figure(synthesis, transmission::Side::left)) << "P1 is round: both are one";
+  EXPECT_FALSE(polar_figure(synthesis, transmission::Side::left)) << "P1 is round: both drawings are equal";
   const auto figure = polar_figure(synthesis, transmission::Side::right);
   ASSERT_TRUE(figure);
   double stated = 0;
