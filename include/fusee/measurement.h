@@ -33,10 +33,11 @@ struct MeasurementOptions {
   std::map<std::string, std::string> units;  ///< role → unit: {"time", "ms"}
   /// alpha, theta → counts per turn; negative if counts fall while the angle grows
   std::map<std::string, double> ticks_per_turn;
-  std::map<std::string, double> zero_ticks;  ///< alpha, theta → counts at home
-  double alpha_span = 0;                     ///< range of α of the declared joint, rad; 0: unknown. See expecting()
-  double theta_span = 0;                     ///< range of θ of the declared joint, rad; 0: unknown
-  double tip_force = 0;                      ///< declared tip force, N: assumed for a run without a load
+  std::map<std::string, double> zero_ticks;     ///< alpha, theta → counts at home
+  std::map<std::string, double> home_readings;  ///< alpha, theta → reading at home, in the column's own unit
+  double alpha_span = 0;                        ///< range of α of the declared joint, rad; 0: unknown. See expecting()
+  double theta_span = 0;                        ///< range of θ of the declared joint, rad; 0: unknown
+  double tip_force = 0;                         ///< declared tip force, N: assumed for a run without a load
   double load_scale = 0;  ///< size of the declared load as a tip force, N; 0: unknown. See expecting()
 };
 

@@ -146,7 +146,7 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
     for (const Rival& rival : selection.rivals) {
       const bool in_group = std::count(found.group.begin(), found.group.end(), rival.rival->name) > 0;
       if (rival.accepted != effect || !in_group) continue;
-      const std::vector<ConfidenceInterval> own = intervals(rival.fit, selection.temperature);
+      const std::vector<ConfidenceInterval> own = intervals(rival.fit);
       found.alternatives.push_back(
           {rival.rival->name, fitted_parameters(evidence, rival.fit, {own, own}, *rival.rival)});
     }

@@ -29,10 +29,10 @@ std::vector<ConfidenceInterval> intervals(const Selection& selection, double Sel
 
 }  // namespace
 
-std::vector<ConfidenceInterval> intervals(const Fit& fit, double overstated) {
+std::vector<ConfidenceInterval> intervals(const Fit& fit) {
   std::vector<ConfidenceInterval> found;
   for (std::size_t k = 0; k < fit.parameters.size(); ++k)
-    found.push_back(about(fit.x[static_cast<Eigen::Index>(k)], overstated * variance_of(fit, k)));
+    found.push_back(about(fit.x[static_cast<Eigen::Index>(k)], variance_of(fit, k)));
   return found;
 }
 

@@ -16,11 +16,10 @@ struct ConfidenceInterval {
 };
 
 /// Interval of every fitted x, in their order, with the discrepancy marginalised, prior sizes and caliper readings.
-/// `overstated`: as Selection::temperature.
-std::vector<ConfidenceInterval> intervals(const Fit& fit, double overstated = 1.0);
-/// Intervals of `selection.best` with other effects marginalised, at the selection's temperature.
+std::vector<ConfidenceInterval> intervals(const Fit& fit);
+/// Intervals of `selection.best` with other effects marginalised, by the weight of their sets.
 std::vector<ConfidenceInterval> intervals(const Selection& selection);
-/// Intervals if the effects of `selection.best` are the only ones, at the selection's temperature.
+/// Intervals if the effects of `selection.best` are the only ones.
 std::vector<ConfidenceInterval> intervals_if_only(const Selection& selection);
 
 }  // namespace fusee::calibration

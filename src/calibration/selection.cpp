@@ -229,7 +229,6 @@ class Selector {
   std::map<Key, Fit> seen_;
   std::deque<Ranking> rankings_;            ///< the latest rankings
   std::deque<std::pair<Start, Fit>> fits_;  ///< the latest full fits
-  std::vector<Fit> companions_;             ///< `best` with one effect more that may be present too
   std::set<Key> tried_;                     ///< sets that were fitted beside the discrepancy
 };
 
@@ -909,7 +908,6 @@ void Selector::add_companions() {
     if (const std::optional<std::size_t> place = find_trading_member(fit)) {
       EffectSet& members = selection_.groups[*place].members;
       if (!contains(members, *effect)) members.push_back(effect);
-      companions_.push_back(fit);
     }
     record_tried(std::move(fit));
   }
@@ -923,11 +921,10 @@ std::optional<double> Selector::square_deviation(const Fit& fit, Eigen::Index pl
   if (own == fit.parameters.end()) return {};
   const Eigen::Index k = own - fit.parameters.begin();
   const double deviation = fit.x[k] - best.x[place];
-  return deviation * deviation + selection_.temperature * std::max(0.0, fit.posterior.covariance(k, k));
+  return deviation * deviation + std::max(0.0, fit.posterior.covariance(k, k));
 }
 
-/// Variance of each number: the weighted mean over all sets that contain it, and at least its variance with any
-/// companion. An unexplained residual enlarges it.
+/// Variance of each number: the weighted mean over all sets that contain it. An unexplained residual enlarges it.
 void Selector::estimate_variance() {
   const Fit& best = selection_.best;
   const double wider = leaves_unexplained(best) ? elementary::pow(k_thresholds.interval_factor, 2) : 1.0;
@@ -942,9 +939,8 @@ void Selector::estimate_variance() {
       weights += weight;
     }
     const double alone = *square_deviation(best, place);
-    double variance = std::max(alone, weights > 0 ? squares / weights : alone);
-    for (const Fit& companion : companions_) variance = std::max(variance, *square_deviation(companion, place));
-    selection_.variance[best.parameters[k]] = {wider * alone, wider * variance};
+    const double overall = std::max(alone, weights > 0 ? squares / weights : alone);
+    selection_.variance[best.parameters[k]] = {wider * alone, wider * overall};
   }
 }
 

@@ -28,12 +28,13 @@ struct Selection {
   std::vector<Fit> without;           ///< `best` without each of its effects, the others refitted, in their order
   std::vector<Rival> rivals;          ///< usable rivals of every accepted effect
   std::vector<CredibleGroup> groups;  ///< credible group of each accepted effect, in their order
-  /// factor by which evidence is overstated: log odds are divided by it, variances multiplied
+  /// Factor by which evidence is overstated: log odds are divided by it. It weighs sets; within a set it does not widen
+  /// intervals.
   double temperature = 1;
   /// Mean square deviation of a number from its value in `best`, in its steps².
   struct Variance {
     double if_only = 0;  ///< if the effects of `best` are the only ones
-    double overall = 0;  ///< over all sets that contain it by their weight, and with every possible companion
+    double overall = 0;  ///< over all sets that contain it, by their weight
   };
   std::map<const EffectParameter*, Variance> variance;
   std::vector<Candidate> tried;

@@ -9,7 +9,7 @@
 namespace fusee::cli {
 namespace {
 
-constexpr double k_most_counts_a_turn = 1e9, k_most_counts = 1e12;
+constexpr double k_most_counts_a_turn = 1e9, k_most_reading = 1e12;
 
 struct RoleValue {
   std::string role, value;
@@ -42,13 +42,13 @@ std::vector<RoleValue> role_values(const Arguments& arguments, const std::string
   return found;
 }
 
-/// The number of counts in "alpha=4096".
-double counts(const std::string& option, const RoleValue& given, double most) {
+/// The number in "alpha=4096". `quantity`: "counts".
+double number_in(const std::string& option, const RoleValue& given, const std::string& quantity, double most) {
   double value = 0;
   const char* const last = given.value.data() + given.value.size();
   const auto [end, error] = std::from_chars(given.value.data(), last, value);
   if (error != std::errc() || end != last || !(std::abs(value) <= most))
-    throw UsageError(option + " takes a number of counts; '" + given.value + "' is none",
+    throw UsageError(option + " takes a number of " + quantity + "; '" + given.value + "' is none",
                      "for example: " + option + " " + given.role + "=4096");
   return value;
 }
@@ -69,6 +69,8 @@ std::vector<Option> with_reading_options(std::vector<Option> options) {
                      "negative if they fall as the angle grows",
                      true});
   options.push_back({"--zero-ticks", "ROLE=N", "counts of that encoder at home (default 0)", true});
+  options.push_back({"--home-reading", "ROLE=X",
+                     "what the sensor of alpha or theta reads at home,\nin its column's unit (default 0)", true});
   return options;
 }
 
@@ -85,7 +87,7 @@ measurement::MeasurementOptions columns_from(const Arguments& arguments) {
   }
   const std::vector<std::string> angles = {"alpha", "theta"};
   for (const RoleValue& given : role_values(arguments, "--ticks-per-turn", "alpha=4096", angles)) {
-    const double ticks = counts("--ticks-per-turn", given, k_most_counts_a_turn);
+    const double ticks = number_in("--ticks-per-turn", given, "counts", k_most_counts_a_turn);
     if (std::abs(ticks) < 2)
       throw UsageError("--ticks-per-turn must be 2 or more, or -2 or less if counts fall as the angle grows");
     options.ticks_per_turn[given.role] = ticks;
@@ -96,7 +98,13 @@ measurement::MeasurementOptions columns_from(const Arguments& arguments) {
       throw UsageError("--zero-ticks " + given.role + " is the encoder's counts at home, and --unit " + given.role +
                            "=" + unit->second + " is another unit",
                        "give --ticks-per-turn " + given.role + "=N, or leave one of them out");
-    options.zero_ticks[given.role] = counts("--zero-ticks", given, k_most_counts);
+    options.zero_ticks[given.role] = number_in("--zero-ticks", given, "counts", k_most_reading);
+  }
+  for (const RoleValue& given : role_values(arguments, "--home-reading", "theta=153.2", angles)) {
+    if (options.zero_ticks.count(given.role) > 0)
+      throw UsageError("--zero-ticks " + given.role + " and --home-reading " + given.role + " are the same reading",
+                       "leave one of them out");
+    options.home_readings[given.role] = number_in("--home-reading", given, "its column's unit", k_most_reading);
   }
   return options;
 }

@@ -1,5 +1,6 @@
 /// \file
-/// Options for reading logs, common to all commands that read one: --column, --unit, --ticks-per-turn, --zero-ticks.
+/// Options for reading logs, common to all commands that read one: --column, --unit, --ticks-per-turn, --zero-ticks,
+/// --home-reading.
 #pragma once
 
 #include <vector>

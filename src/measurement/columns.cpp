@@ -216,7 +216,7 @@ class ColumnFinder {
     if (has_ticks || has_zero) {
       column.unit = find_unit(Quantity::angle, "counts");
       column.ticks_per_turn = has_ticks ? ticks->second : 0;  // 0: determined by settle_units()
-      column.zero_ticks = has_zero ? zero->second : 0;
+      column.home_reading = has_zero ? zero->second : 0;
       column.is_given = true;
     } else if (unit != options_.units.end()) {
       column.unit = find_unit(column.quantity, unit->second);
@@ -224,6 +224,8 @@ class ColumnFinder {
     } else if (column.quantity != Quantity::none) {
       take_unit_of_name(column, by_option);
     }
+    if (const auto home = options_.home_readings.find(role); home != options_.home_readings.end())
+      column.home_reading = home->second;
     if (column.unit != nullptr && column.unit->base != "N" && role.substr(0, 7) == "tension")
       add_problem(role + " in " + std::string(column.unit->name) + " is a torque", "a tension is a force: N, kg, lbf");
     header_.columns.push_back(std::move(column));

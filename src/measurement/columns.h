@@ -31,7 +31,7 @@ struct Column {
   bool is_given = false;       ///< by an option
   bool is_unit_stated = true;  ///< false: a load that is taken as N, because no unit is stated
   double ticks_per_turn = 0;   ///< for counts; 0: determined from the values
-  double zero_ticks = 0;       ///< counts at home
+  double home_reading = 0;     ///< of a sensor of an angle, in the column's own unit
   bool is_date = false;        ///< its cells are time stamps, read as s
 
   // Statistics of the values, in the column's own unit.

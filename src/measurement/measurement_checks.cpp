@@ -100,8 +100,8 @@ std::string wrong_zero_message(const transmission::TargetMotion& law, const Meas
     const double off = offset_from_declared(thinned(run), law, 0);
     if (std::abs(off) < radians(30.0)) continue;
     return run.name + ": theta is " + rounded(degrees(off), 3) +
-           " deg away from the declared angle at the same alpha: set both zeros at home (alpha = theta = 0), or "
-           "subtract them in the log (of counts: --zero-ticks alpha=N --zero-ticks theta=N, the counts at home)";
+           " deg away from the declared angle at the same alpha: set both zeros at home (alpha = theta = 0), or give "
+           "what the sensors read there, in the log's units: --home-reading alpha=X --home-reading theta=X";
   }
   return {};
 }

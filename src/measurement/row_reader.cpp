@@ -734,6 +734,12 @@ void check_roles(const MeasurementOptions& options) {
     if (member_of(role) == nullptr || quantity_of(role) != Quantity::angle || !std::isfinite(ticks))
       throw InputError("", "give counts at home for alpha or theta");
   }
+  for (const auto& [role, reading] : options.home_readings) {
+    if (member_of(role) == nullptr || quantity_of(role) != Quantity::angle || !std::isfinite(reading))
+      throw InputError("", "give readings at home for alpha or theta");
+    if (options.zero_ticks.count(role) > 0)
+      throw InputError("", "two readings of " + role + " at home: leave out the counts or the other");
+  }
 }
 
 struct CsvReader::Parts {

@@ -167,7 +167,7 @@ class UnitFinder {
     if (column.ticks_per_turn != 0) {
       return add_note(column.role + " in counts of " + rounded(std::abs(column.ticks_per_turn), 9) + " a turn" +
                       (column.ticks_per_turn < 0 ? ", falling" : "") +
-                      (column.zero_ticks != 0 ? ", " + rounded(column.zero_ticks, 9) + " at home" : ""));
+                      (column.home_reading != 0 ? ", " + rounded(column.home_reading, 9) + " at home" : ""));
     }
     column.ticks_per_turn = plausible_ticks(column, samples_);
     if (column.ticks_per_turn == 0 && column.least >= 0 && column.most < found_ticks_)
@@ -180,7 +180,7 @@ class UnitFinder {
     }
     found_ticks_ = column.ticks_per_turn;
     add_note(column.role + ": " + values_of(column) + ", taken as counts of " + rounded(column.ticks_per_turn, 9) +
-             " a turn" + (column.zero_ticks != 0 ? ", " + rounded(column.zero_ticks, 9) + " at home" : "") +
+             " a turn" + (column.home_reading != 0 ? ", " + rounded(column.home_reading, 9) + " at home" : "") +
              " (--ticks-per-turn " + column.role + "=N overrides this)");
   }
 
@@ -254,6 +254,10 @@ class UnitFinder {
     if (value == nullptr || column.unit == nullptr) return;
     if (column.unit->is_counts()) {
       convert_counts(column, value);
+    } else if (column.home_reading != 0) {
+      add_note(column.role + ": the sensor reads " + rounded(column.home_reading, 9) + " " +
+               std::string(column.unit->name) + " at home");
+      scale(value, column.unit->factor, -column.home_reading * column.unit->factor);
     } else {
       if (column.role == "load" && column.unit->factor != 1)
         add_note("load in " + std::string(column.unit->name) + ", converted to " + std::string(column.unit->base));
@@ -282,7 +286,7 @@ class UnitFinder {
       add_note("the counter of " + column.role + " overflowed " + std::to_string(wraps) +
                (wraps == 1 ? " time" : " times") + ", unwrapped");
     for (Sample& sample : samples_)
-      sample.*value = (sample.*value - column.zero_ticks) / column.ticks_per_turn * k_two_pi;
+      sample.*value = (sample.*value - column.home_reading) / column.ticks_per_turn * k_two_pi;
   }
 
   std::vector<Column>& columns_;

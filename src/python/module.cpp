@@ -300,13 +300,15 @@ std::vector<std::filesystem::path> paths_of(const std::vector<std::string>& name
   return {names.begin(), names.end()};
 }
 
-/// Options for reading logs by role: columns, units, counts per turn, counts at home.
-using ReadingOptions = std::tuple<std::map<std::string, std::string>, std::map<std::string, std::string>,
-                                  std::map<std::string, double>, std::map<std::string, double>>;
+/// Options for reading logs by role: columns, units, counts per turn, counts at home, readings at
+/// home.
+using ReadingOptions =
+    std::tuple<std::map<std::string, std::string>, std::map<std::string, std::string>, std::map<std::string, double>,
+               std::map<std::string, double>, std::map<std::string, double>>;
 
 measurement::MeasurementOptions measurement_options(const ReadingOptions& reading) {
   measurement::MeasurementOptions options;
-  std::tie(options.columns, options.units, options.ticks_per_turn, options.zero_ticks) = reading;
+  std::tie(options.columns, options.units, options.ticks_per_turn, options.zero_ticks, options.home_readings) = reading;
   return options;
 }
 

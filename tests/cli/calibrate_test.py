@@ -264,12 +264,19 @@ class Calibrate(harness.Scratch):
         counts = "counts.csv --ticks-per-turn alpha=65536 --zero-ticks alpha=100 --ticks-per-turn theta=-65536 --zero-ticks theta=7"
         self.assertAlmostEqual(lash(counts), expected, delta=0.01)
         self.expect(f"calibrate joint.toml {counts} --dry-run --no-audit", 0, err="alpha in counts of 65536 a turn, 100 at home; .*time in ms")
+        log("home.csv", "time_ms,alpha_deg,theta_rad", lambda a: f"{a + 200:.4f}", lambda t: f"{math.radians(t) - 2.5:.7f}")
+        self.expect("calibrate joint.toml home.csv --dry-run --no-audit", 3, err="--home-reading alpha=X --home-reading theta=X")
+        home = "home.csv --home-reading alpha=200 --home-reading theta=-2.5"
+        self.assertAlmostEqual(lash(home), expected, delta=1e-3)
+        self.expect(f"calibrate joint.toml {home} --dry-run --no-audit", 0, err="alpha: the sensor reads 200 deg at home; theta: the sensor reads -2.5 rad at home")
         self.expect("calibrate joint.toml rad.csv --column alpha=motor --column time=t --column 'theta=joint [mrad]'", 3, err="as s, the rows are 20 s apart")
 
     def test_rejects_reading_options(self):
         for option, message in (("--unit time=furlong", "units: s, ms, us"), ("--unit tim=ms", "did you mean 'time'"), ("--unit ms", "role=value"),
                              ("--ticks-per-turn load=4096", "no role 'load'"), ("--ticks-per-turn alpha=many", "'many' is none"),
-                             ("--ticks-per-turn alpha=1", "2 or more"), ("--zero-ticks theta=2048 --unit theta=rad", "give --ticks-per-turn theta=N, or")):  # fmt: skip
+                             ("--ticks-per-turn alpha=1", "2 or more"), ("--zero-ticks theta=2048 --unit theta=rad", "give --ticks-per-turn theta=N, or"),
+                             ("--home-reading load=3", "no role 'load'"), ("--home-reading theta=153,2", "'153,2' is none"),
+                             ("--zero-ticks theta=3 --ticks-per-turn theta=9 --home-reading theta=4", "are the same reading")):  # fmt: skip
             self.expect(f"calibrate joint.toml run_1.csv {option}", 2, err=message)
 
     def test_rejects_unreadable_runs(self):

@@ -39,7 +39,9 @@ inline std::string broken_law(std::string_view bytes) {
   measurement::MeasurementOptions options;
   const char first = bytes.empty() ? ' ' : bytes.front();
   if (first == '!') options.columns = {{"load", "x"}, {"alpha", "a_rad"}, {"time", "t_ms"}};
-  if (first == '?') options.columns = {{"load", "x"}, {"alpha", "a"}, {"theta", "b"}, {"time", "t"}};
+  if (first == '?')
+    options.columns = {{"load", "x"}, {"alpha", "a"}, {"theta", "b"}, {"time", "t"}},
+    options.home_readings = {{"theta", 153.2}};
   if (first == '&') {
     options.ticks_per_turn = {{"alpha", 4096}, {"theta", -2000}};
     options.zero_ticks = {{"theta", 100}};

@@ -546,7 +546,7 @@ TEST(Bags, WithoutAnglesNameTheirTopics) {
 
 TEST(Bags, OmitMalformedMessages) {
   Mcap mcap = one_topic(1);
-  mcap.add(1, 0, "\x00\x01\x00");
+  mcap.add(1, 0, std::string("\x00\x01\x00", 3));
   mcap.add(1, 0, joint_state(1, {"motor", "joint"}, {1, 2}).substr(0, 60));
   const LoggedRows rows = rows_of(mcap.finished());
   EXPECT_EQ(rows.samples.size(), 20u);

@@ -383,6 +383,27 @@ TEST(LoggedAngles, ReadCounts) {
   }
 }
 
+TEST(LoggedAngles, StartAtReadingOfHome) {
+  MeasurementOptions options;
+  options.home_readings = {{"alpha", 0.25}, {"theta", 153.2}};
+  const auto plus = [](double (*angle)(int), double factor, double zero) {
+    return [=](int row) { return fixed(angle(row) * factor + zero, 6); };
+  };
+  const ReadRun found = read(
+      table("time_s,alpha_turns,theta_deg", {seconds(), plus(alpha_of, 1.0 / 360, 0.25), plus(theta_of, 1, 153.2)}),
+      options);
+  ASSERT_THAT(found.run.samples, SizeIs(k_rows));
+  for (int row = 0; row < k_rows; ++row) {
+    const Sample& sample = found.run.samples[static_cast<std::size_t>(row)];
+    ASSERT_NEAR(degrees(sample.alpha), alpha_of(row), 4e-4) << row;
+    ASSERT_NEAR(degrees(sample.theta), theta_of(row), 1e-6) << row;
+  }
+  EXPECT_THAT(found.notes, HasSubstr("theta: the sensor reads 153.2 deg at home"));
+  MeasurementOptions both = options;
+  both.zero_ticks = {{"theta", 100}};
+  EXPECT_THAT(error_of("alpha_deg,theta_deg\n1,2\n", both), HasSubstr("two readings of theta at home"));
+}
+
 TEST(LoggedAngles, ReportUnitOfWholeNumbers) {
   const MeasurementOptions roles = with_columns({{"alpha", "motor"}, {"theta", "joint"}});
   const auto logged = [](double per_turn, double zero, double size = 0) {

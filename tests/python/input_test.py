@@ -135,6 +135,8 @@ class Input(unittest.TestCase):
         self.refused(fusee.calibrate, self.arm, [LOG], units={"alpha": "stone"})
         self.refused(fusee.calibrate, self.arm, [LOG], ticks_per_turn={"load": 4096})
         self.refused(fusee.simulate, self.arm, LOG, zero_ticks={"alpha": 4096})
+        self.refused(fusee.simulate, self.arm, LOG, home_readings={"load": 1})
+        self.refused(fusee.simulate, self.arm, LOG, home_readings={"alpha": float("nan")})
 
     def test_reports_unwritable_places(self):
         (self.folder / "taken").mkdir()

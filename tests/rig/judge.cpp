@@ -56,6 +56,10 @@ double detectable_size(const calibration::Calibration& found, const std::string&
   return 0;
 }
 
+Deviation deviation_from(double low, double high, double value) {
+  return {(value - 0.5 * (low + high)) / (0.5 * (high - low))};
+}
+
 /// Checks the intervals that `effect` reports for `fault`.
 void check_intervals(const std::string& fault, const calibration::FoundEffect& effect, const Case& made,
                      std::vector<IntervalCheck>& all) {
@@ -64,9 +68,9 @@ void check_intervals(const std::string& fault, const calibration::FoundEffect& e
   for (const auto& [name, value] : numbers(made.hidden, made.joint)) {
     for (const calibration::FittedParameter& found : effect.parameters) {
       // Integers, such as the order of a wave, have no interval.
-      if (found.name != name || !(found.high > found.low)) continue;
-      const double away = (value - 0.5 * (found.low + found.high)) / (0.5 * (found.high - found.low));
-      all.push_back({fault + " " + name, found.low <= value && value <= found.high, away});
+      if (found.name != name || !(found.high > found.low && found.high_if_only > found.low_if_only)) continue;
+      all.push_back({fault + " " + name, deviation_from(found.low, found.high, value),
+                     deviation_from(found.low_if_only, found.high_if_only, value)});
     }
   }
 }
@@ -113,7 +117,7 @@ std::string coverage_table(const std::vector<Judgement>& judgements) {
     for (const IntervalCheck& number : one.numbers) {
       auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& known) { return known.first == number.name; });
       if (row == rows.end()) row = rows.insert(rows.end(), {number.name, {}});
-      row->second.part += number.within ? 1 : 0;
+      row->second.part += number.overall.is_within() ? 1 : 0;
       ++row->second.all;
     }
   }
@@ -174,7 +178,8 @@ Judgement judge(const Case& made, const calibration::Calibration& found, const s
   one.words = made.truth + " #" + std::to_string(made.seed) + " (" + (seen.empty() ? "-" : seen) +
               " x noise): " + std::string(calibration::word(one.verdict)) + groups;
   for (const IntervalCheck& number : one.numbers)
-    one.words += "  <" + number.name + " " + rounded(number.away, 2) + ">";
+    one.words += "  <" + number.name + " " + rounded(number.overall.in_half_widths, 2) + "; " +
+                 rounded(number.if_only.in_half_widths, 2) + ">";
   one.words += lost;
   if (found.unexplained_rms > 0) one.words += "  residual " + rounded(found.unexplained_rms / found.noise.rms, 2);
   return one;
@@ -237,7 +242,10 @@ Rates rates(const std::vector<Judgement>& judgements) {
       count(all.false_groups_nothing, one.false_groups > 0);
       count(all.quiet, one.verdict == calibration::CalibrationVerdict::no_effect);
     }
-    for (const IntervalCheck& number : one.numbers) count(all.covered, number.within);
+    for (const IntervalCheck& number : one.numbers) {
+      count(all.covered, number.overall.is_within());
+      count(all.covered_if_only, number.if_only.is_within());
+    }
   }
   return all;
 }
@@ -263,6 +271,7 @@ std::string rate_table(const std::vector<Judgement>& judgements) {
       {"no effect, per joint as declared", found.quiet},
       {"not testable, per joint (its faults count as missed)", found.untestable},
       {"true value within its 95 % interval, per reported parameter of a true fault", found.covered},
+      {"the same, within the interval if the reported effects are the only causes", found.covered_if_only},
   };
   std::string text = "| rate | | of | 95 % bounds (Wilson) |\n|---|--:|--:|---|\n";
   for (const auto& [words, rate] : rows) {

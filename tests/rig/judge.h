@@ -4,6 +4,7 @@
 /// A group is *false* if it holds neither a fault of the joint nor a kin of an unmodelled one.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -14,11 +15,17 @@
 
 namespace fusee::rig {
 
-/// A reported interval of a parameter of a true fault.
+/// True value − centre of a 95 % interval, per half width. The interval contains the true value if it is −1 … 1.
+struct Deviation {
+  double in_half_widths = 0;
+  bool is_within() const { return std::abs(in_half_widths) <= 1.0; }
+};
+
+/// Both reported intervals of a parameter of a true fault.
 struct IntervalCheck {
-  std::string name;     ///< "backlash width_deg"
-  bool within = false;  ///< the true value lies in the 95 % interval
-  double away = 0;      ///< true value − centre, per half width
+  std::string name;   ///< "backlash width_deg"
+  Deviation overall;  ///< from `ci95`
+  Deviation if_only;  ///< from `ci95_if_only`
 };
 
 /// Counts for one joint. Faults that are hardly visible are not counted.
@@ -36,7 +43,7 @@ struct Judgement {
   std::vector<std::string> outside;  ///< unmodelled faults of the joint
   bool nothing = false;              ///< a joint as declared, except perhaps for the friction of its groove
   std::vector<IntervalCheck> numbers;
-  /// One line: !false {groups}evidence~lead over the unmodelled alternative[its words], <away of each number>, (missed
+  /// One line: !false {groups}evidence~lead over the unmodelled alternative[its words], <deviation of each number; that of `ci95_if_only`>, (missed
   /// faults, size per detectable size).
   std::string words;
 };
@@ -85,6 +92,7 @@ struct Rates {
   Rate quiet;                ///< joints as declared called no_effect
   Rate untestable;           ///< joints called not_testable; their faults count as missed
   Rate covered;              ///< parameters of true faults within their 95 % intervals
+  Rate covered_if_only;      ///< parameters of true faults within `ci95_if_only`
 };
 Rates rates(const std::vector<Judgement>& judgements);
 

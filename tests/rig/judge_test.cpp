@@ -156,11 +156,16 @@ TEST(Judge, ComparesNumbersWithIntervals) {
   Case lash = with({"backlash"});
   lash.hidden.backlash = radians(1.0);
   calibration::Calibration found = answer(calibration::CalibrationVerdict::explained, {{"backlash"}});
-  found.effects[0].parameters = {{.name = "width_deg", .value = 1.1, .low = 0.9, .high = 1.3}};
-  ASSERT_EQ(judge(lash, found).numbers.size(), 1u);
-  EXPECT_TRUE(judge(lash, found).numbers[0].within);
-  found.effects[0].parameters[0].low = 1.05;
-  EXPECT_FALSE(judge(lash, found).numbers[0].within);
+  found.effects[0].parameters = {
+      {.name = "width_deg", .value = 1.1, .low = 0.9, .high = 1.3, .low_if_only = 1.05, .high_if_only = 1.15}};
+  const Judgement judged = judge(lash, found);
+  ASSERT_EQ(judged.numbers.size(), 1u);
+  EXPECT_NEAR(judged.numbers[0].overall.in_half_widths, -0.5, 1e-12);
+  EXPECT_NEAR(judged.numbers[0].if_only.in_half_widths, -2, 1e-12);
+  const Rates counted = rates({judged});
+  EXPECT_EQ(counted.covered.part, 1u);
+  EXPECT_EQ(counted.covered_if_only.part, 0u);
+  EXPECT_EQ(counted.covered_if_only.all, 1u);
 }
 
 /// Wilson's interval as Newcombe (1998) prints it for his examples.

@@ -256,7 +256,7 @@ def optimize(
     numbers = (
         4 * math.ceil(whole("population", population, 8, 10000) / 4),  # a multiple of 4 is required
         whole("generations", generations, 1, 100000),
-        whole("seed", seed, 0, 4 * 10**9),
+        whole("seed", seed, 0, _MOST_SEED),
         whole("threads", threads, 0, 1024),
     )
     made = interruptible(lambda stop: _core.optimize(joint, search, second, *numbers, stop))
@@ -321,8 +321,8 @@ _Words = Optional[abc.Mapping[str, str]]
 _Counts = Optional[abc.Mapping[str, float]]
 
 
-def _reading(columns: _Words, units: _Words, ticks_per_turn: _Counts, zero_ticks: _Counts) -> Tuple[Any, ...]:
-    """Options for reading logs: columns, units and counts, by role."""
+def _reading(columns: _Words, units: _Words, ticks_per_turn: _Counts, zero_ticks: _Counts, home_readings: _Counts) -> Tuple[Any, ...]:
+    """Options for reading logs: columns, units, counts and readings at home, by role."""
 
     def words(name: str, given: _Words) -> Dict[bytes, bytes]:
         return {choice(name, role, _ROLES).encode(): text_bytes(name, str(word)) for role, word in (given or {}).items()}
@@ -330,7 +330,13 @@ def _reading(columns: _Words, units: _Words, ticks_per_turn: _Counts, zero_ticks
     def counts(name: str, given: _Counts) -> Dict[bytes, float]:
         return {choice(name, role, _ANGLES).encode(): number(name, count, -_MOST_COUNTS, _MOST_COUNTS) for role, count in (given or {}).items()}
 
-    return words("columns", columns), words("units", units), counts("ticks_per_turn", ticks_per_turn), counts("zero_ticks", zero_ticks)
+    return (
+        words("columns", columns),
+        words("units", units),
+        counts("ticks_per_turn", ticks_per_turn),
+        counts("zero_ticks", zero_ticks),
+        counts("home_readings", home_readings),
+    )
 
 
 def _list(name: str, logs: object) -> abc.Sequence[Any]:
@@ -349,6 +355,7 @@ def calibrate(
     units: _Words = None,
     ticks_per_turn: _Counts = None,
     zero_ticks: _Counts = None,
+    home_readings: _Counts = None,
     force: bool = False,
     audit: bool = True,
 ) -> _values.Calibration:
@@ -356,8 +363,8 @@ def calibrate(
 
     A run is a CSV file, a recording of ROS 2 (MCAP file or bag), or its columns (``alpha_deg``, ``theta_deg``, and if logged ``time_s``,
     ``load_N``, ``temperature_C`` …). `columns` assigns roles to other names: ``{"load": "tau_out_Nm"}``; `units` states units that names
-    omit: ``{"time": "ms"}``; `ticks_per_turn` and `zero_ticks` are for angles in encoder counts: ``{"alpha": 4096}``. Takes seconds to a
-    minute.
+    omit: ``{"time": "ms"}``; `ticks_per_turn` and `zero_ticks` are for angles in encoder counts: ``{"alpha": 4096}``; `home_readings` is
+    what a sensor reads at home, in its column's unit: ``{"theta": 153.2}``. Takes seconds to a minute.
 
     >>> import fusee, numpy
     >>> arm = fusee.read(fusee.new("forearm"))
@@ -373,7 +380,7 @@ def calibrate(
     if {os.path.normpath(name) for name in fitted} <= {os.path.normpath(name) for name in held_out}:
         raise input_error("hold_out", "every run is held out: no run remains for the fit")
     target = _target(folder, force)
-    reading = _reading(columns, units, ticks_per_turn, zero_ticks)
+    reading = _reading(columns, units, ticks_per_turn, zero_ticks, home_readings)
     logs = {**fitted_files, **held_out_files}
     made = interruptible(lambda stop: _core.calibrate(joint, fitted, held_out, logs, reading, target, bool(audit), stop))
     document = made.pop("document")
@@ -422,6 +429,7 @@ def compare(
     units: _Words = None,
     ticks_per_turn: _Counts = None,
     zero_ticks: _Counts = None,
+    home_readings: _Counts = None,
     force: bool = False,
 ) -> _values.Comparison:
     """Identifies changes between two measured states of one joint: retensioned, reprinted, warm, worn.
@@ -441,7 +449,7 @@ def compare(
         if not runs:
             raise input_error(name, "there is no run")
     target = _target(folder, force)
-    reading = _reading(columns, units, ticks_per_turn, zero_ticks)
+    reading = _reading(columns, units, ticks_per_turn, zero_ticks, home_readings)
     logs = {**earlier_files, **later_files}
     made = interruptible(lambda stop: _core.compare(joint, earlier, later, logs, reading, target, stop))
     document = made.pop("document")
@@ -516,6 +524,7 @@ def simulate(
     units: _Words = None,
     ticks_per_turn: _Counts = None,
     zero_ticks: _Counts = None,
+    home_readings: _Counts = None,
     corrected: bool = False,
     noise_deg: float = 0,
     seed: int = 1,
@@ -532,7 +541,7 @@ def simulate(
     names, column_files = _logs("log", [log], "columns")
     noise = math.radians(number("noise_deg", noise_deg, 0, 45, "deg"))
     seed_number = whole("seed", seed, 0, _MOST_SEED)
-    reading = _reading(columns, units, ticks_per_turn, zero_ticks)
+    reading = _reading(columns, units, ticks_per_turn, zero_ticks, home_readings)
     made = interruptible(lambda stop: _core.simulate(joint, names[0], column_files, reading, bool(corrected), noise, seed_number))
     made["columns"] = _values.Table(made["columns"])
     return _values.Simulation(**_with_values(made))

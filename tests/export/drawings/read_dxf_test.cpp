@@ -368,7 +368,7 @@ TEST(ReadDxf, AcceptsBlanksBeforeFirstTag) {
 
 TEST(ReadDxf, RejectsOtherFormats) {
   EXPECT_THAT(message_of("AutoCAD Binary DXF\r\n\x1a"), HasSubstr("binary DXF"));
-  EXPECT_THAT(message_of("AC1015\0\0\0"), HasSubstr("DWG"));
+  EXPECT_THAT(message_of(std::string("AC1015\0\0\0", 9)), HasSubstr("DWG"));
   for (const std::string& blank : {std::string(), std::string("\n"), std::string("\r\n \t\r\n"), std::string(100, ' ')})
     EXPECT_THAT(message_of(blank), HasSubstr("the file is empty"));
   EXPECT_THAT(message_of("solid cube\n facet normal 0 0 1\n"), HasSubstr("test.dxf:1: error"));
