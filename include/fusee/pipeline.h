@@ -39,6 +39,10 @@
 
 namespace fusee::pipeline {
 
+/// Throws InputError for a joint declared by its ratio, which has no tendons. `verb`: what would be done with them, such
+/// as "wind".
+void demand_tendons(const MechanismFile& file, const std::string& verb);
+
 // ---- Build ----------------------------------------------------------------------------------------------------------
 
 /// Largest deviations of the pulley as built that pass the checks.

@@ -164,9 +164,13 @@ measurement::Measurement about_declared(const Mechanism& declared, const measure
   return about;
 }
 
-/// Numbers that have no effect are reset to the declared value.
-Imperfections without_idle_numbers(const Fit& fit, const Imperfections& numbers) {
+/// Settled numbers; those that have no effect are reset to the declared value. The numbers of a difference between two
+/// states are not settled: they are no joint.
+Imperfections meaningful_numbers(const Evidence& evidence, const Fit& fit, const Imperfections& numbers) {
   Imperfections at = numbers;
+  for (const fusee::Effect* effect : fit.effects) {
+    if (effect->settle != nullptr && !evidence.earlier) effect->settle(at, *evidence.declared);
+  }
   for (const EffectParameter* parameter : fit.parameters) {
     if (is_idle(*parameter, numbers)) reset(at, *parameter);
   }
@@ -241,9 +245,10 @@ Calibration calibrate_by_catalogue(const DeclaredMechanism& declared, const meas
   calibration.null_combinations = null_combinations(evidence, selection);
   calibration.tried = selection.tried;
   calibration.detectable = detectable_sizes(evidence, pool, selection);
-  calibration.identified = without_idle_numbers(numbers, numbers.at);
+  calibration.identified = meaningful_numbers(evidence, numbers, numbers.at);
   calibration.left_out = left_out(evidence, answer.reported.estimate, options.hold_out, calibration.identified);
-  for (HeldOutFit& left : calibration.left_out) left.identified = without_idle_numbers(numbers, left.identified);
+  for (HeldOutFit& left : calibration.left_out)
+    left.identified = meaningful_numbers(evidence, numbers, left.identified);
   describe_errors(evidence, measurement, answer, calibration);
   name_held_out(evidence, calibration);
   validate(declared, kept, answer, calibration);

@@ -26,6 +26,30 @@ std::pair<double, double> range_of(const EffectParameter& own, const ConfidenceI
           std::clamp(range.high * own.step, own.least, own.most)};
 }
 
+/// The interval of a settled number: its value, and the deviations of all numbers of the effect, as independent ones,
+/// by their slopes. `fitted`: intervals of the parameters of `fit`.
+ConfidenceInterval settled_interval(const fusee::Effect& effect, const EffectParameter& own, const Fit& fit,
+                                    const std::vector<ConfidenceInterval>& fitted, const Mechanism& declared) {
+  constexpr double k_small_step = 1e-3;  // of a parameter's step
+  const auto settled_value = [&](Imperfections at) {
+    effect.settle(at, declared);
+    return value_of(at, own) / own.step;
+  };
+  const double x = settled_value(fit.at);
+  double variance = 0;
+  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+    const EffectParameter& moved = *fit.parameters[k];
+    if (std::none_of(effect.parameters.begin(), effect.parameters.end(),
+                     [&](const auto& one) { return &one == &moved; }))
+      continue;
+    Imperfections beside = fit.at;
+    set_value(beside, moved, value_of(fit.at, moved) + k_small_step * moved.step);
+    const double slope = (settled_value(beside) - x) / k_small_step;
+    variance += slope * slope * fitted[k].deviation * fitted[k].deviation;
+  }
+  return ConfidenceInterval::about(x, variance);
+}
+
 /// `ranges`: intervals of the parameters of `fit`.
 std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const Fit& fit, const Ranges& ranges,
                                                const fusee::Effect& effect) {
@@ -34,12 +58,18 @@ std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const F
     FittedParameter& number = fitted.emplace_back();
     number.name = own.name;
     if (is_idle(own, fit.at)) continue;
-    const double value = value_of(fit.at, own);
+    Imperfections at = fit.at;
+    if (effect.settle != nullptr && !evidence.earlier) effect.settle(at, *evidence.declared);
+    const bool is_settled = !(at == fit.at);
+    const double value = value_of(at, own);
     std::pair<double, double> overall{value, value}, if_only{value, value};
     for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
       if (fit.parameters[k] != &own) continue;
-      overall = range_of(own, ranges.overall[k]);
-      if_only = range_of(own, ranges.if_only[k]);
+      const auto interval = [&](const std::vector<ConfidenceInterval>& all) {
+        return is_settled ? settled_interval(effect, own, fit, all, *evidence.declared) : all[k];
+      };
+      overall = range_of(own, interval(ranges.overall));
+      if_only = range_of(own, interval(ranges.if_only));
     }
     // Least-squares numbers may be outside the intervals about the mode.
     for (std::pair<double, double>* range : {&overall, &if_only})

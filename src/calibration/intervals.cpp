@@ -11,28 +11,28 @@ double variance_of(const Fit& fit, std::size_t k) {
   return std::max(0.0, fit.posterior.covariance(i, i));
 }
 
-ConfidenceInterval about(double x, double variance) {
-  const double deviation = std::sqrt(variance);
-  return {x - 1.96 * deviation, x + 1.96 * deviation, deviation};
-}
-
 std::vector<ConfidenceInterval> intervals(const Selection& selection, double Selection::Variance::*of) {
   const Fit& best = selection.best;
   std::vector<ConfidenceInterval> found;
   for (std::size_t k = 0; k < best.parameters.size(); ++k) {
     const auto known = selection.variance.find(best.parameters[k]);
     const double variance = known == selection.variance.end() ? variance_of(best, k) : known->second.*of;
-    found.push_back(about(best.x[static_cast<Eigen::Index>(k)], variance));
+    found.push_back(ConfidenceInterval::about(best.x[static_cast<Eigen::Index>(k)], variance));
   }
   return found;
 }
 
 }  // namespace
 
+ConfidenceInterval ConfidenceInterval::about(double x, double variance) {
+  const double deviation = std::sqrt(variance);
+  return {x - 1.96 * deviation, x + 1.96 * deviation, deviation};
+}
+
 std::vector<ConfidenceInterval> intervals(const Fit& fit) {
   std::vector<ConfidenceInterval> found;
   for (std::size_t k = 0; k < fit.parameters.size(); ++k)
-    found.push_back(about(fit.x[static_cast<Eigen::Index>(k)], variance_of(fit, k)));
+    found.push_back(ConfidenceInterval::about(fit.x[static_cast<Eigen::Index>(k)], variance_of(fit, k)));
   return found;
 }
 

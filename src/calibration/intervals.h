@@ -10,6 +10,8 @@ namespace fusee::calibration {
 
 /// Interval of a fitted x, in its steps.
 struct ConfidenceInterval {
+  static ConfidenceInterval about(double x, double variance);
+
   double low = 0;  ///< 95 %
   double high = 0;
   double deviation = 0;  ///< standard deviation

@@ -870,8 +870,17 @@ double rms_by(const Eigen::MatrixXd& J, const Eigen::MatrixXd& C) {
                    static_cast<double>(std::max<Eigen::Index>(1, J.rows())));
 }
 
+/// Root mean square over the rows in use, rad, of the contribution of `effect` to the fitted angles.
+double rms_contribution(const Evidence& evidence, const Fit& fit, const fusee::Effect& effect) {
+  const std::vector<Eigen::Index> places = places_of(fit, effect);
+  const Eigen::VectorXd moved = fit.J(evidence.rows(), places) * fit.x(places);
+  return std::sqrt(moved.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, moved.size())));
+}
+
 /// Index of the member that is correlated most with the last effect of `wider`, by the amount that they trade: the
-/// regression of the member's contribution on the effect's. None if that is small.
+/// regression of the member's contribution on the effect's, a standard deviation. None if that is small, or if two
+/// standard deviations would replace less than half of the member: the effect may be present beside it then, but is no
+/// alternative to it.
 std::optional<std::size_t> Selector::find_trading_member(const Fit& wider) const {
   const Fit& best = selection_.best;
   const Tangent tangent = tangent_of(evidence_, wider);
@@ -886,7 +895,8 @@ std::optional<std::size_t> Selector::find_trading_member(const Fit& wider) const
     if (others.empty()) continue;
     const double shared =
         rms_by(tangent.J(Eigen::all, others), C(others, own) * solved(C(own, own), Eigen::MatrixXd(C(own, others))));
-    if (shared > most_shared) most_shared = shared, most = i;
+    const bool can_replace = 2 * shared > 0.5 * rms_contribution(evidence_, best, *best.effects[i]);
+    if (can_replace && shared > most_shared) most_shared = shared, most = i;
   }
   return most;
 }

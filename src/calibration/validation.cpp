@@ -215,13 +215,14 @@ HeldOutErrors held_out_errors_of_mode(const Evidence& evidence, const Estimate& 
   return {mean_square(evidence.run_folds), mean_square(evidence.factor_folds)};
 }
 
-/// Members of groups beside the found set that a table can correct.
-EffectSet table_members(const Selection& selection) {
+/// Members of groups beside the found set that a table or the sensor can correct.
+EffectSet members_without_pulley(const Selection& selection) {
   EffectSet all;
   for (const CredibleGroup& group : selection.groups) {
     for (const fusee::Effect* member : group.members) {
-      if (member->correctable_by == CorrectableBy::table && !contains(selection.best.effects, *member) &&
-          !contains(all, *member))
+      const bool is_correctable =
+          member->correctable_by == CorrectableBy::table || member->place == ChainPlace::joint_sensor;
+      if (is_correctable && !contains(selection.best.effects, *member) && !contains(all, *member))
         all.push_back(member);
     }
   }
@@ -256,7 +257,8 @@ struct LeastSquaresFits {
 };
 
 LeastSquaresFits fit_best_least_squares(const Evidence& evidence, FitterPool& pool, const Selection& selection) {
-  Fit named = add_best_predicting(pool, pool.one().fit_least_squares(selection.best), table_members(selection));
+  Fit named =
+      add_best_predicting(pool, pool.one().fit_least_squares(selection.best), members_without_pulley(selection));
   Fit with_curve = add_best_predicting(pool, named, unmodelled_curves(evidence));
   return {std::move(named), std::move(with_curve)};
 }

@@ -41,6 +41,9 @@ std::string_view remedy_words(const FoundEffect& effect) {
     case CorrectableBy::table:
       return "The table can correct it.";
     case CorrectableBy::nothing:
+      if (effect.place == ChainPlace::joint_sensor)
+        return "It is an error of the joint sensor: correct the sensor. Pulley and table would move a joint that is "
+               "right.";
       return "Neither a pulley nor a table can correct it.";
   }
   return "";

@@ -106,6 +106,7 @@ void add_room(const Arguments& arguments, const pipeline::Part& part, const RunC
   const std::optional<std::string> path = arguments.text("--mechanism");
   if (!path) return;
   const MechanismFile spec = read_mechanism(*path, arguments.settings(), *context.files);
+  pipeline::demand_tendons(spec, "make this part for");
   reply.diagnostics = spec.warnings;
   reply.fields["mechanism"] = *path;
   if (all_ok(checks)) add_scale_warning(spec.mechanism, arguments.positionals().front(), part, reply);

@@ -42,6 +42,15 @@ std::string colored(std::string text, Severity severity) {
   return text;
 }
 
+int percent_of(double share) { return static_cast<int>(100 * std::clamp(share, 0.0, 1.0)); }
+
+/// A bar such as "[########............] " for 40 %.
+std::string progress_bar(int percent) {
+  constexpr std::size_t k_width = 20;
+  const auto full = static_cast<std::size_t>(percent) * k_width / 100;
+  return "[" + std::string(full, '#') + std::string(k_width - full, '.') + "] ";
+}
+
 bool wants_color() {
   const char* no_color = std::getenv("NO_COLOR");
   const char* terminal = std::getenv("TERM");
@@ -63,13 +72,19 @@ void Console::report(const Diagnostic& diagnostic) {
   write_all(STDERR_FILENO, text + "\n");
 }
 
-void Console::progress(std::string_view step) {
+void Console::progress(std::string_view step, std::optional<double> share) {
   if (options_.quiet) return;
+  std::string line;
+  if (share) {
+    const int percent = percent_of(*share);
+    line = (terminal_ ? progress_bar(percent) : "") + std::to_string(percent) + " %" + (step.empty() ? "" : ", ");
+  }
+  line += step;
   if (options_.verbose) {
-    show("fusee: " + std::string(step) + "\n");
+    show("fusee: " + line + "\n");
   } else if (terminal_) {
     write_all(STDERR_FILENO, "\r\x1b[K");
-    show(std::string(step) + " …");
+    show(line + " …");
     progress_shown_ = true;
   }
 }
@@ -103,13 +118,6 @@ void Console::write(std::string_view text) {
 void Console::end_progress() {
   if (progress_shown_) write_all(STDERR_FILENO, "\r\x1b[K");
   progress_shown_ = false;
-}
-
-std::string progress_bar(double share) {
-  constexpr std::size_t k_width = 20;
-  const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
-  const auto full = static_cast<std::size_t>(percent) * k_width / 100;
-  return "[" + std::string(full, '#') + std::string(k_width - full, '.') + "] " + std::to_string(percent) + " %";
 }
 
 bool write_result(std::string_view text) { return write_all(STDOUT_FILENO, cleaned(text)); }

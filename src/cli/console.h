@@ -27,9 +27,9 @@ class Console {
   bool verbose() const { return options_.verbose; }
   /// Writes a diagnostic to stderr; with --quiet only errors.
   void report(const Diagnostic& diagnostic);
-  /// Shows the present step: a line that is overwritten on a terminal, elsewhere a plain line with --verbose, else
-  /// nothing.
-  void progress(std::string_view step);
+  /// Shows the present step and its share: on a terminal a bar that is overwritten, elsewhere a plain line with
+  /// --verbose, else nothing.
+  void progress(std::string_view step, std::optional<double> share = std::nullopt);
   /// Writes a question to stderr, also with --quiet, and reads a line from stdin; empty at the end of the input. Lines
   /// longer than any answer are cut.
   std::optional<std::string> ask(std::string_view question);
@@ -44,9 +44,6 @@ class Console {
   bool color_;     ///< as terminal and environment allow
   bool progress_shown_ = false;
 };
-
-/// A bar such as "[########............] 40 %" for a share 0 … 1.
-std::string progress_bar(double share);
 
 /// Writes text to stdout after cleaned(). False if it could not be delivered (full disk, closed or broken pipe); errno
 /// has the reason.

@@ -34,12 +34,12 @@ std::optional<optimize::Objective> second_objective_from(const Arguments& argume
                    nearest.empty() ? "fusee explain optimize.objective lists them" : "did you mean " + nearest + "?");
 }
 
-/// A progress bar that is redrawn only when it has changed.
+/// Progress that is shown again only when its percentage has changed.
 RunContext::Progress search_bar(Console& console) {
-  return [&console, shown = std::string()](std::string_view best, std::optional<double> share) mutable {
-    const std::string bar = progress_bar(share.value_or(0));
-    if (bar != shown) console.progress(best.empty() ? bar : bar + ", " + std::string(best));
-    shown = bar;
+  return [&console, shown = -1](std::string_view best, std::optional<double> share) mutable {
+    const int percent = static_cast<int>(100 * share.value_or(0));
+    if (percent != shown) console.progress(best, share.value_or(0));
+    shown = percent;
   };
 }
 

@@ -163,6 +163,7 @@ std::string result_text(const pipeline::RewoundPart& part) {
 Reply run_rewind(const Arguments& arguments, Console& console, const RunContext& context) {
   const pipeline::AsBuiltLimits limits = limits_from(arguments);
   const MechanismFile spec = read_mechanism(arguments.positionals()[0], arguments.settings(), *context.files);
+  pipeline::demand_tendons(spec, "wind");
   const std::string& file = arguments.positionals()[1];
   const joint::IdentifiedJoint joint = joint::identified_joint(spec.mechanism);
   const pipeline::RewoundPart part = rewind_file(joint, file, arguments.has("--as-is"), context);

@@ -171,9 +171,7 @@ const std::vector<Command>& commands() {
 
 CommandOutcome run_command(const std::vector<std::string>& words, Console& console, RunContext context) {
   CommandOutcome outcome;
-  context.progress = [&console](std::string_view step, std::optional<double> share) {
-    console.progress(share ? progress_bar(*share) + ", " + std::string(step) : step);
-  };
+  context.progress = [&console](std::string_view step, std::optional<double> share) { console.progress(step, share); };
   outcome.reply = dispatch_safely(words, outcome.command, console, context);
   outcome.json = has_switch(words, "--json");
   return outcome;

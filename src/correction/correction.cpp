@@ -13,7 +13,9 @@
 
 // Errors are simulated with predict(), for the identified joint with its present pulley and with the pulley of
 // corrected.toml. Errors on held-out rows are measured, and only their change by the pulley is simulated. The error is
-// the deviation from the declared θ(α). The table corrects the residual error with the corrected pulley.
+// the deviation of the joint from the declared θ(α), without errors of the joint sensor's reading: a correction that
+// followed a wrong reading would move a joint that is right. The table corrects the residual error with the corrected
+// pulley.
 
 namespace fusee::correction {
 namespace {
@@ -54,6 +56,13 @@ Imperfections combined(const DeclaredMechanism& declared, const Imperfections& f
   Imperfections total = merge_findings(declared.identified, found, kind_of(declared));
   total.joint.mean_load = declared.identified.joint.mean_load;
   return total;
+}
+
+/// The identified joint with a joint sensor that reads right. The zero of a joint declared by a ratio is arbitrary, and
+/// stays.
+Imperfections with_right_reading(Imperfections found, const Mechanism& declared) {
+  found.sensor = {.zero = declared.transmission ? found.sensor.zero : 0.0};
+  return found;
 }
 
 /// True if both sheaths end at the same places. Their other properties act through the law for which the pulley is
@@ -363,19 +372,20 @@ HeldOutSquares held_out_squares(const CorrectedJoint& joint, const measurement::
   for (const calibration::HeldOutFit& fit : fits) {
     const measurement::Measurement held_out = some_runs(thinned, fit.runs, /*others=*/false),
                                    others = some_runs(thinned, fit.runs, /*others=*/true);
-    const DirectionalCurves table = table_of(joint, others.runs.empty() ? held_out : others, law, fit.identified);
     const joint::BenchLog log = measurement::bench_log(held_out);
-    Angles theta, change = joint.with_corrected_pulley(fit.identified, log);
-    const Angles present = joint.with_present_pulley(fit.identified, log);
+    const Imperfections found = with_right_reading(fit.identified, joint.declared);
+    Angles theta, change = joint.with_corrected_pulley(found, log);
+    const Angles present = joint.with_present_pulley(found, log),
+                 reading = found == fit.identified ? present : joint.with_present_pulley(fit.identified, log);
     for (std::size_t r = 0; r < held_out.runs.size(); ++r) {
       theta.emplace_back();
       for (std::size_t i = 0; i < held_out.runs[r].samples.size(); ++i) {
-        theta[r].push_back(held_out.runs[r].samples[i].theta);
+        theta[r].push_back(held_out.runs[r].samples[i].theta - (reading[r][i] - present[r][i]));
         change[r][i] -= present[r][i];
       }
     }
-    const double zero = joint.declared.transmission ? fit.identified.sensor.zero : 0.0;
-    all.add(held_out, errors(held_out, law, std::move(theta)), change, table, zero);
+    const DirectionalCurves table = table_of(joint, others.runs.empty() ? held_out : others, law, found);
+    all.add(held_out, errors(held_out, law, std::move(theta)), change, table, found.sensor.zero);
   }
   return all;
 }
@@ -387,8 +397,14 @@ void fill_reasons(const calibration::Calibration& calibration, Correction& corre
   } else if (!(calibration.after.held_out_rms < calibration.before.held_out_rms)) {
     correction.why_no_pulley_file = k_no_better;
   }
+  const bool is_reading_alone =
+      !calibration.effects.empty() &&
+      std::all_of(calibration.effects.begin(), calibration.effects.end(),
+                  [](const auto& effect) { return effect.place == ChainPlace::joint_sensor; });
   if (correction.table.empty()) {
     correction.why_no_table = "no range of the joint was measured in both directions";
+  } else if (is_reading_alone && correction.by_curve == 0) {
+    correction.why_no_table = "the joint sensor reads wrong, and the joint is right";
   } else if (!(correction.by_table > 0)) {
     correction.why_no_table = k_no_better;
   }
@@ -436,12 +452,13 @@ Correction correct(const DeclaredMechanism& declared, const measurement::Measure
 
   const CorrectedJoint joint{declared, corrected, correction.has_pulley};
   const joint::BenchLog log = measurement::bench_log(measurement);
-  const Angles present_error = errors(measurement, law, joint.with_present_pulley(found, log)),
-               corrected_error = errors(measurement, law, joint.with_corrected_pulley(found, log));
+  const Imperfections right = with_right_reading(found, declared);
+  const Angles present_error = errors(measurement, law, joint.with_present_pulley(right, log)),
+               corrected_error = errors(measurement, law, joint.with_corrected_pulley(right, log));
   const DirectionalCurves table =
       directional_curves(measurement, corrected_error, lost_motion(found, declared, mean_load(measurement, declared)));
   // The zero of a joint declared by a ratio is arbitrary, so its offset is not an error.
-  const double zero = declared.transmission ? found.sensor.zero : 0.0;
+  const double zero = right.sensor.zero;
   correction.error_now = rms(measurement, present_error, zero);
   correction.error_with_pulley = rms(measurement, corrected_error, zero);
   correction.error_with_table = rms(measurement, with_table(measurement, corrected_error, table), 0.0);

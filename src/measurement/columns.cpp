@@ -186,11 +186,12 @@ class ColumnFinder {
     return role == "time" ? clock_index() : std::nullopt;
   }
 
-  /// The first column that is called by a unit of time alone, "millis()" or "us", or "t" with its unit.
+  /// The first column that is called by a unit of time alone, "millis()" or "us", or "t"; "T" is a temperature.
   std::optional<std::size_t> clock_index() const {
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const ColumnName name = parse_column_name(names_[i], Quantity::time);
-      if (clock_unit(names_[i]) != nullptr || (name.base == "t" && name.unit != nullptr)) return i;
+      const bool is_t = trimmed(names_[i]) == "t" || (name.base == "t" && name.unit != nullptr);
+      if (clock_unit(names_[i]) != nullptr || is_t) return i;
     }
     return std::nullopt;
   }
@@ -231,6 +232,11 @@ class ColumnFinder {
     header_.columns.push_back(std::move(column));
   }
 
+  static bool is_voltage(const std::string& unit) {
+    const std::string word = lower(unit);
+    return word == "v" || word == "mv" || word == "volt" || word == "volts";
+  }
+
   void take_unit_of_name(Column& column, bool by_option) {
     column.unit = ros_unit(column.name, column.quantity);
     if (column.unit == nullptr && column.quantity == Quantity::time) column.unit = clock_unit(column.name);
@@ -242,6 +248,13 @@ class ColumnFinder {
     const bool is_mounting = column.quantity == Quantity::angle && member_of(column.role) == nullptr;
     if (is_mounting && (name.unit == nullptr || name.unit->is_counts())) column.unit = usual_unit(Quantity::angle);
     if (column.unit != nullptr) return;
+    if (column.quantity == Quantity::angle && is_voltage(name.unknown_unit)) {
+      add_problem(shown(column.name) + " is a voltage, and " + column.role + " an angle",
+                  "give the volts of a whole turn of the sensor and the volts at home: --ticks-per-turn " +
+                      column.role + "=4.4 --home-reading " + column.role +
+                      "=1.65 for 3.3 V over 270 deg and half of it at home");
+      return;
+    }
     const bool is_load = column.role == "load";
     const bool is_unknown = name.states_unit || (is_load && by_option && !name.unknown_unit.empty());
     if (is_unknown) {

@@ -149,6 +149,8 @@ struct Effect {
   /// Combines `before` (an earlier calibration) with `joint` (the present one) into `joint`, where MergeRule does not
   /// suffice; null: it does.
   void (*merge)(const Imperfections& before, Imperfections& joint) = nullptr;
+  /// Replaces fitted numbers by equivalent ones in which each means what its name says; null: they do.
+  void (*settle)(Imperfections& joint, const Mechanism& declared) = nullptr;
 };
 
 /// All effects of a kind of joint, in the order of the chain. They live as long as the program.

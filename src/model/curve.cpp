@@ -182,8 +182,9 @@ std::optional<JointCurves> joint_curves(const DeclaredMechanism& declared) {
   // twice the backlash, and 3 % of the range for the compliance.
   const double beyond = 2 * declared.identified.shaft.backlash + 0.03 * (law.alpha_max() - law.alpha_min());
   const joint::BenchRun run = sweep(law.alpha_min() - beyond, law.alpha_max() + beyond);
-  const std::vector<joint::JointState> states =
-      joint::simulate(joint, beyond_mechanism(declared.identified, kind_of(declared)), {run}).front();
+  Imperfections imperfections = beyond_mechanism(declared.identified, kind_of(declared));
+  imperfections.sensor.lag = 0;  // a motion at rest has no lag
+  const std::vector<joint::JointState> states = joint::simulate(joint, imperfections, {run}).front();
   const std::vector<TwoWayRow> physical = two_way_rows(run, states, declared.joint, &joint::JointState::theta),
                                sensed = two_way_rows(run, states, declared.joint, &joint::JointState::shown);
   if (physical.empty() || sensed.empty()) return std::nullopt;

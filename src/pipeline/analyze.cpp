@@ -32,10 +32,7 @@ profile::Advice advice_on_motor(const MechanismFile& file, const RunContext& con
 
 analysis::AnalysisResult analyze(const MechanismFile& file, const analysis::AnalysisOptions& options,
                                  const RunContext& context) {
-  if (file.mechanism.transmission) {
-    throw InputError(file.path, "a joint with [transmission] has no tendons to analyze",
-                     "[transmission] is for 'fusee calibrate'");
-  }
+  demand_tendons(file, "analyze");
   context.begin_step("moving the joint through its range");
   analysis::AnalysisResult result =
       analysis::analyse(joint::identified_joint(file.mechanism).mechanism, options, context);

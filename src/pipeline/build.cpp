@@ -582,6 +582,7 @@ const std::vector<std::string>& output_names() {
 }
 
 BuildResult build(const MechanismFile& file, const BuildOptions& options, const RunContext& context) {
+  demand_tendons(file, "make a pulley for");
   BuildResult result;
   result.product.file = file;
   auto plausibility = run_async([&file] { return analysis::plausibility_warnings(file); });

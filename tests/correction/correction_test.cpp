@@ -285,6 +285,31 @@ TEST(Correct, HysteresisGoesIntoTable) {
   EXPECT_THAT(compensation_csv(correction), Not(HasSubstr("nan")));
 }
 
+/// The joint is right, and its sensor reads wrong: a table would move it away from where it should be.
+TEST(Correct, ErrorsOfJointSensorAreNotFollowed) {
+  HysteresisRun data = hysteresis_run(frictionless(), 0);
+  Imperfections& found = data.calibration.identified;
+  found = {};
+  found.sensor.zero = radians(1.0);
+  found.sensor.gain = 0.02;
+  log_as_identified(frictionless(), data);
+  data.calibration.effects[0].place = ChainPlace::joint_sensor;
+  const Correction sensor = correct(frictionless(), data.measurement, data.calibration);
+  EXPECT_LT(degrees(sensor.error_now), 1e-3);
+  EXPECT_TRUE(sensor.table.empty());
+  EXPECT_EQ(sensor.why_no_table, "the joint sensor reads wrong, and the joint is right");
+  // Beside play, the table is that of the play alone.
+  found.shaft.backlash = radians(1.0);
+  log_as_identified(frictionless(), data);
+  const Correction both = correct(frictionless(), data.measurement, data.calibration);
+  const transmission::Transmission law(frictionless());
+  ASSERT_FALSE(both.table.empty());
+  for (const CompensationRow& row : both.table) {
+    EXPECT_NEAR(row.alpha_up, law.alpha(row.theta) + radians(0.5), 1e-3);
+    EXPECT_NEAR(row.alpha_down, law.alpha(row.theta) - radians(0.5), 1e-3);
+  }
+}
+
 TEST(Correct, GuideRadiusGoesIntoPulley) {
   HysteresisRun data = hysteresis_run(frictionless(), 0);
   data.calibration.identified = {};

@@ -124,6 +124,28 @@ TEST(Simulate, SlackExcludesPretension) {
   EXPECT_NE(predict(joint, errors, swept(10)), predict(joint, {}, swept(10))) << "taut, 7 N more";
 }
 
+// A fit may end between a taut and a slack tendon, where a share of the pretension remains. As numbers of the joint these
+// are a smaller pretension and no slack.
+TEST(Simulate, SettledSlackIsSmallerPretension) {
+  const Effect& slack = *find_effect("slack", JointKind::tendons);
+  const DeclaredMechanism joint = testing::forearm();
+  Imperfections errors;
+  errors.tendon.slack = 0.75e-3;
+  errors.tendon.pretension = 2;
+  Imperfections settled = errors;
+  slack.settle(settled, joint);
+  EXPECT_EQ(settled.tendon.slack, 0);
+  EXPECT_NEAR(joint.tendon.pretension + settled.tendon.pretension, 0.25 * (joint.tendon.pretension + 2), 1e-12);
+  const Readings of_fit = predict(joint, errors, swept(10)), of_settled = predict(joint, settled, swept(10));
+  for (std::size_t i = 0; i < of_fit[0].size(); ++i) EXPECT_NEAR(of_fit[0][i], of_settled[0][i], 2e-5) << i;
+  for (const double length : {0.0, 0.3}) {
+    errors.tendon.slack = length;
+    settled = errors;
+    slack.settle(settled, joint);
+    EXPECT_EQ(settled, errors);
+  }
+}
+
 DeclaredMechanism geared(double ratio) {
   DeclaredMechanism joint;
   joint.transmission = RatioTransmission{ratio};

@@ -404,6 +404,22 @@ TEST(LoggedAngles, StartAtReadingOfHome) {
   EXPECT_THAT(error_of("alpha_deg,theta_deg\n1,2\n", both), HasSubstr("two readings of theta at home"));
 }
 
+/// 3.3 V over 270°, half of it at home.
+TEST(LoggedAngles, ReadVoltsOfTurn) {
+  const auto volts = [](int row) { return fixed(1.65 + theta_of(row) / 270 * 3.3, 6); };
+  for (const char* const name : {"pot_V", "joint [V]", "theta (volts)"}) {
+    const std::string text = table(std::string("t,motor_deg,") + name, {seconds(), alpha(), volts});
+    MeasurementOptions options = with_columns({{"theta", name}});
+    EXPECT_THAT(error_of(text, options), HasSubstr("is a voltage, and theta an angle"));
+    options.ticks_per_turn = {{"theta", 4.4}};
+    options.home_readings = {{"theta", 1.65}};
+    const ReadRun found = read(text, options);
+    EXPECT_TRUE(found.run.has_time);
+    for (int row = 0; row < k_rows; ++row)
+      ASSERT_NEAR(degrees(found.run.samples[static_cast<std::size_t>(row)].theta), theta_of(row), 1e-3) << row;
+  }
+}
+
 TEST(LoggedAngles, ReportUnitOfWholeNumbers) {
   const MeasurementOptions roles = with_columns({{"alpha", "motor"}, {"theta", "joint"}});
   const auto logged = [](double per_turn, double zero, double size = 0) {

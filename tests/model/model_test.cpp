@@ -257,6 +257,16 @@ TEST(JointCurve, SensorGainAffectsFirmwareOnly) {
     EXPECT_NEAR(curves.sensed.middle.theta(alpha), 1.02 * curves.physical.middle.theta(alpha), radians(0.002));
 }
 
+/// A lag of the joint sensor acts on a moving joint only.
+TEST(JointCurve, HasNoLag) {
+  const MechanismFile still = profile("forearm", {{"identified.gain_percent", "2"}}),
+                      late = profile("forearm", {{"identified.gain_percent", "2"}, {"identified.lag_s", "0.15"}});
+  const auto curves = model::joint_curves(late.mechanism);
+  ASSERT_TRUE(curves);
+  for (const double alpha : {-1.5, 0.3, 1.0})
+    EXPECT_EQ(curves->sensed.middle.theta(alpha), model::joint_curves(still.mechanism)->sensed.middle.theta(alpha));
+}
+
 TEST(Compensation, KeepsShapeOfLawBetweenRows) {
   const MechanismFile file = profile("forearm");
   const transmission::Transmission law(file.mechanism);

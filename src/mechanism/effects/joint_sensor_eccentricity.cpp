@@ -9,7 +9,6 @@ Effect joint_sensor_eccentricity(JointKind) {
   effect.rank = 3;
   effect.signature = "once per turn of the joint sensor, independent of direction and load";
   effect.separating_run = "turn the joint's encoder on its axis by a quarter turn and repeat the slow unloaded run";
-  effect.correctable_by = CorrectableBy::table;
   effect.needs = {.tendons = true};
   effect.parameters = {{.name = "sin_deg",
                         .number = [](Imperfections& at) -> double& { return at.sensor.eccentricity_sin; },

@@ -38,7 +38,6 @@ Effect joint_sensor_gain(JointKind) {
   effect.rank = 2;
   effect.signature = "proportional to theta, independent of direction and load";
   effect.separating_run = "hold the joint at both ends of its range against a protractor";
-  effect.correctable_by = CorrectableBy::table;
   effect.needs = {};
   effect.parameters = {
       {.name = "gain_percent",

@@ -11,7 +11,6 @@ Effect joint_sensor_harmonic(JointKind) {
   effect.signature = "two, three or four times per turn of the joint sensor, independent of direction and load";
   effect.separating_run =
       "turn the joint's encoder on its axis by an eighth of a turn and repeat the slow unloaded run";
-  effect.correctable_by = CorrectableBy::table;
   effect.needs = {.tendons = true};
   effect.parameters = {
       wave_part(

@@ -10,7 +10,6 @@ Effect sensor_lag(JointKind) {
   effect.signature = "hysteresis that grows with speed; it decays in time after a stop";
   effect.separating_run =
       "repeat one run at a tenth of its speed, and dwell at several angles: hysteresis by a delay vanishes";
-  effect.correctable_by = CorrectableBy::table;
   effect.needs = {.time = true};
   effect.parameters = {
       {.name = "lag_ms",

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "mechanism/effect.h"
 
 namespace fusee {
@@ -5,6 +7,15 @@ namespace {
 
 double total_pretension(double added, const Mechanism& declared) {
   return declared.tendon.pretension + added > 0 ? declared.tendon.pretension + added : 0.0;
+}
+
+/// Within the ramp of pretension_share() there is no slack: the tendons keep a share of the pretension.
+void without_ramp(Imperfections& joint, const Mechanism& declared) {
+  const double share = joint.tendon.pretension_share();
+  if (joint.tendon.slack == 0 || share == 0) return;
+  const double total = share * std::max(0.0, declared.tendon.pretension + joint.tendon.pretension);
+  joint.tendon.pretension = total - declared.tendon.pretension;
+  joint.tendon.slack = 0;
 }
 
 bool has_no_pretension(const Imperfections& joint) { return joint.tendon.pretension_share() == 0; }
@@ -76,6 +87,7 @@ Effect slack(JointKind kind) {
        .merge_rule = MergeRule::add,
        .idle = has_no_pretension}};
   effect.loosens = true;
+  effect.settle = without_ramp;
   effect.starts = {{0.1, 0}, {0.5, 0}, {2.0, 0}};
   return effect;
 }

@@ -19,7 +19,6 @@ Effect zero_offset(JointKind) {
   effect.rank = 1;
   effect.signature = "one constant";
   effect.separating_run = "drive the joint to a mechanical stop or mark at home and read both sensors there";
-  effect.correctable_by = CorrectableBy::table;
   effect.needs = {.tendons = true};
   effect.parameters = {
       {.name = "offset_deg",
