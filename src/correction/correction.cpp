@@ -404,7 +404,10 @@ void fill_reasons(const calibration::Calibration& calibration, Correction& corre
   if (correction.table.empty()) {
     correction.why_no_table = "no range of the joint was measured in both directions";
   } else if (is_reading_alone && correction.by_curve == 0) {
-    correction.why_no_table = "the joint sensor reads wrong, and the joint is right";
+    const bool is_certain = std::all_of(calibration.effects.begin(), calibration.effects.end(),
+                                        [](const auto& effect) { return effect.group.size() <= 1; });
+    correction.why_no_table = is_certain ? "the joint sensor reads wrong, and the joint is right"
+                                         : "the joint sensor may read wrong, which a table would follow";
   } else if (!(correction.by_table > 0)) {
     correction.why_no_table = k_no_better;
   }

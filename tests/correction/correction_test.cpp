@@ -301,6 +301,7 @@ TEST(Correct, ErrorsOfJointSensorAreNotFollowed) {
   // Beside play, the table is that of the play alone.
   found.shaft.backlash = radians(1.0);
   log_as_identified(frictionless(), data);
+  data.calibration.effects[0].place = ChainPlace::shaft;
   const Correction both = correct(frictionless(), data.measurement, data.calibration);
   const transmission::Transmission law(frictionless());
   ASSERT_FALSE(both.table.empty());
