@@ -288,6 +288,10 @@ std::vector<CauseRow> cause_rows(const CalibrationProduct& product) {
       const std::vector<calibration::FittedParameter> none;
       add_rows("or " + (member == calibration::k_unmodelled ? "an unmodelled cause" : open_words(member)),
                fitted == effect.alternatives.end() ? none : fitted->parameters, load_unit, rows);
+  // Whatever else was found assumes that the runs were made and logged as the file says.
+  if (!product.input_errors.empty() && !product.input_errors.front().remedy.empty())
+    return {first_upper(calibration::input_error_words(product.input_errors.front())) + ".", "",
+            "Calibrate again first: the results below assume the file and the log as they are."};
     }
   }
   return rows;

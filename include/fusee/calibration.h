@@ -211,10 +211,11 @@ void reject_curve(const measurement::Measurement& measurement, const std::string
 
 /// Likely input error: the data are explained once it is corrected.
 struct LikelyInputError {
-  /// "guides.OE_mm"; "guides.EB_mm, guides.ED_mm" where two are exchanged; "theta", "alpha" or both of the data.
+  /// "guides.OE_mm"; "guides.EB_mm, guides.ED_mm" where two are exchanged; "load.tip_force_N" where nothing hung;
+  /// "theta", "alpha" or both of the data; "alpha and theta at home" where neither sensor reads zero there.
   std::string key;
   std::vector<double> declared;  ///< values in the file, in its unit; 1 for a column of data
-  std::vector<double> would_be;  ///< corrected values; for a column of data the factor on the logged angle
+  std::vector<double> would_be;  ///< corrected values; for a column of data the factor on the logged angle, or degrees
   std::string question;          ///< question to the user: "is the sign right?"
   /// true if the pulley was made from the file as declared, and the joint is as corrected
   bool pulley_as_declared = false;
@@ -223,6 +224,8 @@ struct LikelyInputError {
 };
 
 /// Input errors whose correction explains the data, best first, equally likely ones after it. Empty if `found` explains
+  /// Options of the same command that correct it, in a sentence; "" if the file or the log must be changed.
+  std::string remedy = {};
 /// the data, or if no hypothesis does. `as_read`: runs before compare_with_declared().
 std::vector<LikelyInputError> find_input_errors(const DeclaredMechanism& declared,
                                                 const measurement::Measurement& as_read, const Calibration& found);

@@ -67,15 +67,14 @@ void read_and_calibrate(const CalibrationContext& context, const RunFiles& runs)
   product.calibration = calibration::calibrate(expected, product.measurement, options);
   context.run.begin_step("checking for input errors");
   product.input_errors = calibration::find_input_errors(declared, as_read, product.calibration);
-  if (!product.input_errors.empty()) {
-    calibration::reject_curve(product.measurement,
-                              "an input error in the file or the log may explain the data: check it first",
-                              product.calibration);
-  }
+  const std::string check_first = "an input error in the file or the log may explain the data: check it first";
+  const bool is_clean = product.input_errors.empty();
+  if (!is_clean) calibration::reject_curve(product.measurement, check_first, product.calibration);
   context.run.begin_step("computing the correction");
   product.correction.identified = declared.identified;
-  product.correction.why_no_pulley_file = product.correction.why_no_table = "the data are inconclusive";
-  if (product.calibration.verdict != calibration::CalibrationVerdict::not_testable)
+  product.correction.why_no_pulley_file = product.correction.why_no_table =
+      is_clean ? "the data are inconclusive" : check_first;
+  if (is_clean && product.calibration.verdict != calibration::CalibrationVerdict::not_testable)
     product.correction = correction::correct(declared, product.measurement, product.calibration);
   product.rehearsal = correction::rehearse(expected, product.measurement, product.calibration);
 }
