@@ -48,6 +48,8 @@ struct FittedParameter {
   double high_if_only = 0;
   /// Its sign in words ("both pulleys are too small") if the narrower interval has one sign; empty if it has no words.
   std::string sense = {};
+  double rms = 0;              ///< its effect on the joint in these runs, rad; 0 if it was not fitted
+  bool excludes_zero = false;  ///< true if the narrower interval of its effect does
 };
 
 /// Synthetic data sets without an effect, and in how many of them the effect would be reported.
