@@ -184,9 +184,11 @@ struct Calibration {
   ErrorFigures after;          ///< corrected by the effects, and by the empirical curve if it is used
   ErrorFigures after_effects;  ///< corrected by the effects alone
   StateDifference difference;  ///< given if CalibrationOptions::earlier is
-  std::vector<std::vector<double>> residuals_before;  ///< rad, run by run, sample by sample
+  /// rad, run by run, sample by sample; NaN in rows that are left out
+  std::vector<std::vector<double>> residuals_before;
   std::vector<std::vector<double>> residuals_after;
   std::vector<std::string> held_out_factors;  ///< "load", "speed"
+  std::size_t rows_left_out = 0;  ///< rows far from their neighbours, which neither fits nor figures contain
   std::vector<std::string> held_out_runs;
   double residual_autocorrelation = 0;  ///< lag-1 autocorrelation of the residual after all effects; 0: white
   double unexplained_rms = 0;

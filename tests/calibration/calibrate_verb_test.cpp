@@ -257,6 +257,42 @@ TEST(CalibrateVerb, RightFileListsNoInputError) {
 
 /// The rig's runs with the tip force given as a torque.
 TEST(CalibrateVerb, ConvertsTorqueToTipForce) {
+/// The text of a run with θ moved by 50° in one row of 30. That is too often for outliers of a sensor.
+std::string with_wild_rows(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line, wild;
+  for (int row = 0; std::getline(lines, line); ++row) {
+    std::istringstream cells(line);
+    std::string time, alpha, theta, rest;
+    std::getline(cells, time, ',') && std::getline(cells, alpha, ',') && std::getline(cells, theta, ',') &&
+        std::getline(cells, rest);
+    if (row % 30 == 17) theta = std::to_string(std::stod(theta) + 50);
+    wild += time + "," + alpha + "," + theta + "," + rest + "\n";
+  }
+  return wild;
+}
+
+TEST(CalibrateVerb, LeavesWildRowsOutOfEveryFigure) {
+  const std::filesystem::path folder = scratch("wild"), made = k_rig / "a_declared_right";
+  std::vector<std::filesystem::path> wild;
+  for (const auto& run : runs_in(made)) {
+    wild.push_back(folder / run.filename());
+    write_text(wild.back(), with_wild_rows(read_file(run, 1 << 22)));
+  }
+  pipeline::CalibrateOptions options = into(folder / "out");
+  options.dry_run = true;
+  options.audit = false;
+  const MechanismFile file = read_mechanism(made / "spec.toml");
+  const Calibration found = pipeline::calibrate(file, wild, options).product.calibration;
+  EXPECT_EQ(found.verdict, CalibrationVerdict::no_effect);
+  EXPECT_GT(found.rows_left_out, 10u);
+  EXPECT_THAT(found.summary,
+              HasSubstr(" " + std::to_string(found.rows_left_out) + " rows are far from the neighbouring"));
+  EXPECT_LT(found.before.rms, 1.2 * found.noise.rms);
+  EXPECT_LT(found.before.max, 6 * found.noise.rms);
+  EXPECT_LT(found.iso_before.A, 20 * found.noise.rms);
+}
+
   const std::filesystem::path folder = scratch("torque");
   const MechanismFile file = read_mechanism(k_rig / "b_stretch/spec.toml");
   std::vector<std::filesystem::path> torques;
