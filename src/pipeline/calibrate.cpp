@@ -13,7 +13,7 @@ constexpr int k_most_next_runs = 9;
 /// Run files that an earlier calibration may have written.
 constexpr int k_most_earlier_runs = 99;
 
-/// Files to read, each once: the fitted runs, then the held-out ones.
+/// Files to read: the fitted runs, then the held-out ones. A run that is given twice is read twice, and refused.
 struct RunFiles {
   std::vector<std::filesystem::path> all;
   std::size_t fitted = 0;  ///< number of fitted runs
@@ -21,13 +21,12 @@ struct RunFiles {
 
 RunFiles run_files(const std::vector<std::filesystem::path>& runs, const std::vector<std::filesystem::path>& hold_out) {
   RunFiles files;
-  std::set<std::filesystem::path> seen;
-  for (const auto& run : hold_out) seen.insert(run.lexically_normal());
+  std::set<std::filesystem::path> held_out, seen;
+  for (const auto& run : hold_out) held_out.insert(run.lexically_normal());
   for (const auto& run : runs) {
-    if (seen.insert(run.lexically_normal()).second) files.all.push_back(run);
+    if (held_out.count(run.lexically_normal()) == 0) files.all.push_back(run);
   }
   files.fitted = files.all.size();
-  seen.clear();
   for (const auto& run : hold_out) {
     if (seen.insert(run.lexically_normal()).second) files.all.push_back(run);
   }
