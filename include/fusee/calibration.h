@@ -91,7 +91,8 @@ struct FoundEffect {
   /// True if effects whose response is below the noise replaced it equally well. An unmodelled cause may then do so,
   /// too.
   bool idle_did_as_well = false;
-  double share = 0;     ///< share of the declared joint's held-out mean square that it removes, 0 … 1
+  /// Share of the declared joint's held-out mean square that it removes, 0 … 1; of a change: StateChange::share.
+  double share = 0;
   double evidence = 0;  ///< log Bayes factor of the set with it to the set without
   Audit audit;
   UnmodelledAlternative unmodelled;
@@ -187,8 +188,8 @@ struct Calibration {
   /// rad, run by run, sample by sample; NaN in rows that are left out
   std::vector<std::vector<double>> residuals_before;
   std::vector<std::vector<double>> residuals_after;
-  std::vector<std::string> held_out_factors;  ///< "load", "speed"
   std::size_t rows_left_out = 0;  ///< rows far from their neighbours, which neither fits nor figures contain
+  std::vector<std::string> held_out_factors;  ///< "load", "speed"
   std::vector<std::string> held_out_runs;
   double residual_autocorrelation = 0;  ///< lag-1 autocorrelation of the residual after all effects; 0: white
   double unexplained_rms = 0;
@@ -223,13 +224,13 @@ struct LikelyInputError {
   std::string question;          ///< question to the user: "is the sign right?"
   /// true if the pulley was made from the file as declared, and the joint is as corrected
   bool pulley_as_declared = false;
+  /// Options of the same command that correct it, in a sentence; "" if the file or the log must be changed.
+  std::string remedy = {};
   std::vector<std::string> beside = {};  ///< names of effects found in addition to it
   double rms = 0;                        ///< held-out rms after the correction, rad
 };
 
 /// Input errors whose correction explains the data, best first, equally likely ones after it. Empty if `found` explains
-  /// Options of the same command that correct it, in a sentence; "" if the file or the log must be changed.
-  std::string remedy = {};
 /// the data, or if no hypothesis does. `as_read`: runs before compare_with_declared().
 std::vector<LikelyInputError> find_input_errors(const DeclaredMechanism& declared,
                                                 const measurement::Measurement& as_read, const Calibration& found);
@@ -269,6 +270,7 @@ struct StateChange {
   std::vector<ChangedParameter> parameters;
   double rms_drop = 0;  ///< reduction of the held-out residual, rad
   double by_runs = 0;   ///< its size in standard errors, by the scatter from run to run
+  double share = 0;     ///< share of the mean square of StateDifference::before that it removes, 0 … 1
 };
 
 /// Result of compare_states().

@@ -190,7 +190,15 @@ Imperfections meaningful_numbers(const Evidence& evidence, const Fit& fit, const
 void describe_changes(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
   calibration.difference = state_difference(evidence, selection.none, selection.best);
   const std::vector<double> sizes = sizes_by_scatter(evidence, selection.best);
-  for (std::size_t i = 0; i < sizes.size(); ++i) calibration.effects[i].by_runs = sizes[i];
+  const double before = elementary::pow(calibration.difference.before, 2);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    FoundEffect& effect = calibration.effects[i];
+    effect.by_runs = sizes[i];
+    const Fit& others = selection.without[i].usable ? selection.without[i] : selection.none;
+    const StateDifference own = state_difference(evidence, others, selection.best);
+    const double removed = elementary::pow(own.before, 2) - elementary::pow(own.after, 2);
+    effect.share = before > 0 ? std::clamp(removed / before, 0.0, 1.0) : 0.0;
+  }
 }
 
 /// Held-out rows for the validation of a correction: the runs kept for validation, or whole runs left out in turn. A
