@@ -128,13 +128,37 @@ struct CandidateWords {
   std::vector<std::string> numbers;
 };
 
+/// True if the number is shown as 0.
+bool is_shown_as_zero(const calibration::FittedParameter& number) { return readable_rounded(number.value, 3) == "0"; }
+
+/// The numbers of an effect that matter, the largest effect on the joint first: those whose interval excludes zero, two
+/// at most. If none does: the first one. None if that is zero.
+std::vector<calibration::FittedParameter> leading_numbers(std::vector<calibration::FittedParameter> numbers) {
+  constexpr std::size_t k_most_numbers = 2;
+  constexpr double k_least_share = 0.1;  // of the largest effect on the joint
+  std::stable_sort(numbers.begin(), numbers.end(), [](const auto& one, const auto& other) {
+    return std::pair(one.excludes_zero, one.excludes_zero ? one.rms : 0) >
+           std::pair(other.excludes_zero, other.excludes_zero ? other.rms : 0);
+  });
+  std::vector<calibration::FittedParameter> leading;
+  for (const calibration::FittedParameter& number : numbers) {
+    const bool is_first = leading.empty();
+    const bool matters = number.excludes_zero && number.rms >= k_least_share * numbers.front().rms;
+    if (!is_shown_as_zero(number) && (is_first || matters) && leading.size() < k_most_numbers)
+      leading.push_back(number);
+  }
+  return leading;
+}
+
 /// "both pulleys are too small" and "scale −1.2 %". The cause is the effect's name if the number's sign has
 /// no meaning in words.
 CandidateWords candidate_words(const std::string& name, const std::vector<calibration::FittedParameter>& numbers,
                                const std::string& load_unit) {
-  if (numbers.empty()) return {open_words(name), {}};
-  const calibration::FittedParameter& first = numbers.front();
-  return {first.sense.empty() ? open_words(name) : first.sense, {number_words(first, load_unit)}};
+  const std::vector<calibration::FittedParameter> leading = leading_numbers(numbers);
+  if (leading.empty()) return {open_words(name), {}};
+  std::vector<std::string> words;
+  for (const calibration::FittedParameter& number : leading) words.push_back(number_words(number, load_unit));
+  return {leading.front().sense.empty() ? open_words(name) : leading.front().sense, {joined(words, ", ")}};
 }
 
 bool may_be_unmodelled(const calibration::FoundEffect& effect) {
@@ -223,6 +247,7 @@ std::string repair_words(const calibration::FoundEffect& effect, const std::stri
       std::find_if(k_repairs.begin(), k_repairs.end(), [&](const auto& one) { return effect.name == one.first; });
   if (known == k_repairs.end() || effect.parameters.empty()) return "";
   const calibration::FittedParameter& number = effect.parameters.front();
+  if (is_shown_as_zero(number)) return std::string(known->second) + ".";
   if (effect.name != "zero_offset") return std::string(known->second) + ": " + number_words(number, load_unit) + ".";
   return std::string(known->second) + ": it reads " + readable_rounded(std::abs(number.value), 3) + "° " +
          (number.value > 0 ? "high." : "low.");
@@ -243,9 +268,8 @@ std::string action_words(const CalibrationProduct& product) {
   return calibration.next.empty() ? "" : first_clause(calibration.next.front().words);
 }
 
-std::string share_words(double share) {
-  return share > 0.995 ? "all" : share < 0.005 ? "< 1 %" : readable_rounded(std::round(100 * share), 2) + " %";
-}
+/// Size of a member of a group that was not fitted in the effect's place.
+constexpr const char* k_no_size = "not determined";
 
 void add_rows(const std::string& cause, const std::vector<calibration::FittedParameter>& numbers,
               const std::string& load_unit, std::vector<CauseRow>& rows) {
@@ -257,13 +281,17 @@ void add_rows(const std::string& cause, const std::vector<calibration::FittedPar
     const std::string interval = interval_words(number.low_if_only, number.high_if_only, 3) + unit;
     rows.push_back({i == 0 ? cause : "", number_words(number, load_unit), has_interval ? interval : "–", "", ""});
   }
-  if (numbers.empty()) rows.push_back({cause, "", "", "", ""});
+  if (numbers.empty()) rows.push_back({cause, k_no_size, "–", "", ""});
 }
 
 }  // namespace
 
 Headline headline(const CalibrationProduct& product) {
   const calibration::Calibration& calibration = product.calibration;
+  // Whatever else was found assumes that the runs were made and logged as the file says.
+  if (!product.input_errors.empty() && !product.input_errors.front().remedy.empty())
+    return {first_upper(calibration::input_error_words(product.input_errors.front())) + ".", "",
+            "Calibrate again first: the results below assume the file and the log as they are."};
   if (calibration.verdict == calibration::CalibrationVerdict::not_testable)
     return {"These runs decide nothing.", calibration.summary,
             calibration.next.empty() ? "" : first_clause(calibration.next.front().words)};
@@ -288,6 +316,7 @@ std::vector<CauseRow> cause_rows(const CalibrationProduct& product) {
       const std::vector<calibration::FittedParameter> none;
       add_rows("or " + (member == calibration::k_unmodelled ? "an unmodelled cause" : open_words(member)),
                fitted == effect.alternatives.end() ? none : fitted->parameters, load_unit, rows);
+      if (member == calibration::k_unmodelled) rows.back().size = "–";
     }
   }
   return rows;

@@ -86,7 +86,7 @@ std::string input_error_section(const CalibrationProduct& product) {
   if (product.input_errors.empty()) return "";
   return html_section(
       "slips", "Likely input error",
-      "<p class=\"lead\">No effect explains these data, but these errors of the file or log do. Check them first.</p>" +
+      "<p class=\"lead\">These errors of the file or log would explain the data. Check them first.</p>" +
           html_list(input_error_texts(product)));
 }
 

@@ -92,6 +92,10 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
   return text;
 }
 
+std::string share_words(double share) {
+  return share > 0.995 ? "all" : share < 0.005 ? "< 1 %" : readable_rounded(std::round(100 * share), 2) + " %";
+}
+
 NameAndUnit name_and_unit(const std::string& parameter, const std::string& load_unit) {
   for (const NamedUnit& known : k_units) {
     if (!ends_with(parameter, known.ending)) continue;

@@ -17,6 +17,7 @@ struct NameAndUnit {
 };
 NameAndUnit name_and_unit(const std::string& parameter, const std::string& load_unit);
 std::string joined(const std::vector<std::string>& words, const std::string& between);
+std::string share_words(double share);  ///< "85 %", "all", "< 1 %"
 
 /// "In 200 simulated joints without backlash, these runs would have reported it in 1."; "" if none were simulated.
 std::string audit_words(const calibration::FoundEffect& effect);

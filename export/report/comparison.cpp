@@ -186,7 +186,8 @@ Json change_json(const calibration::StateChange& change) {
           {"place", fusee::word(change.place)},
           {"parameters", parameters},
           {"rms_drop_deg", angle_json(change.rms_drop)},
-          {"by_runs", result_json(change.by_runs)}};
+          {"by_runs", result_json(change.by_runs)},
+          {"share", result_json(change.share)}};
 }
 
 /// Names of the runs of each state.
@@ -284,9 +285,7 @@ std::vector<ChangeRow> change_rows(const ComparisonProduct& product) {
   const calibration::Comparison& comparison = product.comparison;
   std::vector<ChangeRow> rows;
   for (const calibration::StateChange& change : by_size(comparison.found)) {
-    std::string share = degree_words(change.rms_drop), as_likely = joined(others_of(change), ", ");
-    if (comparison.difference.before > 0)
-      share += " (" + rounded(100 * change.rms_drop / comparison.difference.before, 2) + " %)";
+    std::string share = share_words(change.share), as_likely = joined(others_of(change), ", ");
     for (const calibration::ChangedParameter& parameter : change.parameters) {
       const auto [name, unit] = name_and_unit(parameter.name, product.measurement.load_unit);
       const ChangeWords* words = find_words(change.name, parameter.name);

@@ -48,6 +48,8 @@ struct FittedParameter {
   double high_if_only = 0;
   /// Its sign in words ("both pulleys are too small") if the narrower interval has one sign; empty if it has no words.
   std::string sense = {};
+  double rms = 0;              ///< its effect on the joint in these runs, rad; 0 if it was not fitted
+  bool excludes_zero = false;  ///< true if the narrower interval of its effect does
 };
 
 /// Synthetic data sets without an effect, and in how many of them the effect would be reported.
@@ -89,7 +91,8 @@ struct FoundEffect {
   /// True if effects whose response is below the noise replaced it equally well. An unmodelled cause may then do so,
   /// too.
   bool idle_did_as_well = false;
-  double share = 0;     ///< share of the declared joint's held-out mean square that it removes, 0 … 1
+  /// Share of the declared joint's held-out mean square that it removes, 0 … 1; of a change: StateChange::share.
+  double share = 0;
   double evidence = 0;  ///< log Bayes factor of the set with it to the set without
   Audit audit;
   UnmodelledAlternative unmodelled;
@@ -182,8 +185,10 @@ struct Calibration {
   ErrorFigures after;          ///< corrected by the effects, and by the empirical curve if it is used
   ErrorFigures after_effects;  ///< corrected by the effects alone
   StateDifference difference;  ///< given if CalibrationOptions::earlier is
-  std::vector<std::vector<double>> residuals_before;  ///< rad, run by run, sample by sample
+  /// rad, run by run, sample by sample; NaN in rows that are left out
+  std::vector<std::vector<double>> residuals_before;
   std::vector<std::vector<double>> residuals_after;
+  std::size_t rows_left_out = 0;  ///< rows far from their neighbours, which neither fits nor figures contain
   std::vector<std::string> held_out_factors;  ///< "load", "speed"
   std::vector<std::string> held_out_runs;
   double residual_autocorrelation = 0;  ///< lag-1 autocorrelation of the residual after all effects; 0: white
@@ -211,13 +216,16 @@ void reject_curve(const measurement::Measurement& measurement, const std::string
 
 /// Likely input error: the data are explained once it is corrected.
 struct LikelyInputError {
-  /// "guides.OE_mm"; "guides.EB_mm, guides.ED_mm" where two are exchanged; "theta", "alpha" or both of the data.
+  /// "guides.OE_mm"; "guides.EB_mm, guides.ED_mm" where two are exchanged; "load.tip_force_N" where nothing hung;
+  /// "theta", "alpha" or both of the data; "alpha and theta at home" where neither sensor reads zero there.
   std::string key;
   std::vector<double> declared;  ///< values in the file, in its unit; 1 for a column of data
-  std::vector<double> would_be;  ///< corrected values; for a column of data the factor on the logged angle
+  std::vector<double> would_be;  ///< corrected values; for a column of data the factor on the logged angle, or degrees
   std::string question;          ///< question to the user: "is the sign right?"
   /// true if the pulley was made from the file as declared, and the joint is as corrected
   bool pulley_as_declared = false;
+  /// Options of the same command that correct it, in a sentence; "" if the file or the log must be changed.
+  std::string remedy = {};
   std::vector<std::string> beside = {};  ///< names of effects found in addition to it
   double rms = 0;                        ///< held-out rms after the correction, rad
 };
@@ -262,6 +270,7 @@ struct StateChange {
   std::vector<ChangedParameter> parameters;
   double rms_drop = 0;  ///< reduction of the held-out residual, rad
   double by_runs = 0;   ///< its size in standard errors, by the scatter from run to run
+  double share = 0;     ///< share of the mean square of StateDifference::before that it removes, 0 … 1
 };
 
 /// Result of compare_states().

@@ -352,7 +352,7 @@ struct ChangeRow {
   std::string change;     ///< "−4.20 N"
   std::string states;     ///< "20.0 → 15.8"
   std::string interval;   ///< "−4.60 … −3.80 N"
-  std::string share;      ///< share of the difference between the states; only in an effect's first row
+  std::string share;      ///< "98 %": StateChange::share; only in an effect's first row
   std::string as_likely;  ///< the other members of its group; only in an effect's first row
 };
 /// The table of changes, the largest first.

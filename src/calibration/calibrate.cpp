@@ -85,8 +85,14 @@ measurement::Measurement select_runs(const measurement::Measurement& measurement
 void validate(const Mechanism& declared, const measurement::Measurement& kept, const ValidatedAnswer& answer,
               Calibration& calibration) {
   if (kept.runs.empty()) return;
+  const auto residuals_at = [&](const Imperfections& at) {
+    return residuals(kept, joint::predict(declared, at, measurement::bench_log(kept)));
+  };
+  const std::vector<std::vector<double>> about_declared = residuals_at(answer.declared.fit.at);
   const auto rms = [&](const Imperfections& at) {
-    return figures(kept, residuals(kept, joint::predict(declared, at, measurement::bench_log(kept))), 0).rms;
+    std::vector<std::vector<double>> all = residuals_at(at);
+    leave_out_outliers(kept, calibration.noise.rms, about_declared, all);
+    return figures(kept, all, 0).rms;
   };
   calibration.before.held_out_rms = rms(answer.declared.fit.at);
   calibration.after.held_out_rms = rms(answer.reported.estimate.fit.at);
@@ -143,6 +149,10 @@ void describe_errors(const Evidence& evidence, const measurement::Measurement& m
   const Estimate &before = answer.declared, &after = answer.reported.estimate;
   calibration.residuals_before = residuals_of(before);
   calibration.residuals_after = residuals_of(after);
+  const std::vector<std::vector<double>> about_declared = calibration.residuals_before;
+  leave_out_outliers(measurement, evidence.floor, about_declared, calibration.residuals_after);
+  calibration.rows_left_out =
+      leave_out_outliers(measurement, evidence.floor, about_declared, calibration.residuals_before);
   calibration.before = figures(measurement, calibration.residuals_before, held_out_rms(before));
   calibration.after = figures(measurement, calibration.residuals_after, held_out_rms(after));
   calibration.iso_before = measurement::iso230(measurement, calibration.residuals_before);
@@ -180,7 +190,15 @@ Imperfections meaningful_numbers(const Evidence& evidence, const Fit& fit, const
 void describe_changes(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
   calibration.difference = state_difference(evidence, selection.none, selection.best);
   const std::vector<double> sizes = sizes_by_scatter(evidence, selection.best);
-  for (std::size_t i = 0; i < sizes.size(); ++i) calibration.effects[i].by_runs = sizes[i];
+  const double before = elementary::pow(calibration.difference.before, 2);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    FoundEffect& effect = calibration.effects[i];
+    effect.by_runs = sizes[i];
+    const Fit& others = selection.without[i].usable ? selection.without[i] : selection.none;
+    const StateDifference own = state_difference(evidence, others, selection.best);
+    const double removed = elementary::pow(own.before, 2) - elementary::pow(own.after, 2);
+    effect.share = before > 0 ? std::clamp(removed / before, 0.0, 1.0) : 0.0;
+  }
 }
 
 /// Held-out rows for the validation of a correction: the runs kept for validation, or whole runs left out in turn. A

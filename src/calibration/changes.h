@@ -19,7 +19,7 @@ std::vector<fusee::Effect> changes_from(const Imperfections& before, JointKind k
 /// its blocks. A contribution that does not repeat from run to run is no change, however small the noise within a run.
 std::vector<double> sizes_by_scatter(const Evidence& evidence, const Fit& fit);
 
-/// `none`: fit of the earlier joint, `changed`: fit with the changes.
+/// `none`: fit of the earlier joint, or with fewer changes. `changed`: fit with the changes.
 StateDifference state_difference(const Evidence& evidence, const Fit& none, const Fit& changed);
 
 }  // namespace fusee::calibration

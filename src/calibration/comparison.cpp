@@ -41,7 +41,7 @@ StateChange change_of(const FoundEffect& effect, const DeclaredMechanism& declar
   const JointKind kind = kind_of(declared);
   const Imperfections& before = comparison.before.identified;
   const Imperfections after = changed(before, comparison.changes.identified, kind);
-  StateChange change{effect.name, effect.group, effect.place, {}, effect.rms_drop, effect.by_runs};
+  StateChange change{effect.name, effect.group, effect.place, {}, effect.rms_drop, effect.by_runs, effect.share};
   for (const FittedParameter& fitted : effect.parameters) {
     const EffectParameter* number = find_parameter(effect.name, fitted.name, kind);
     if (number == nullptr) continue;

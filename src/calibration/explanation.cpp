@@ -50,6 +50,13 @@ ConfidenceInterval settled_interval(const fusee::Effect& effect, const EffectPar
   return ConfidenceInterval::about(x, variance);
 }
 
+/// Rms effect of parameter `k` of a fit over the rows in use, rad.
+double effect_on_joint(const Evidence& evidence, const Fit& fit, Eigen::Index k) {
+  if (k >= fit.J.cols() || k >= fit.x.size()) return 0;
+  const Eigen::VectorXd slope = fit.J(evidence.rows(), k);
+  return std::abs(fit.x[k]) * slope.norm() / std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, slope.size())));
+}
+
 /// `ranges`: intervals of the parameters of `fit`.
 std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const Fit& fit, const Ranges& ranges,
                                                const fusee::Effect& effect) {
@@ -70,6 +77,8 @@ std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const F
       };
       overall = range_of(own, interval(ranges.overall));
       if_only = range_of(own, interval(ranges.if_only));
+      number.rms = effect_on_joint(evidence, fit, static_cast<Eigen::Index>(k));
+      number.excludes_zero = if_only.first < if_only.second && (if_only.first > 0 || if_only.second < 0);
     }
     // Least-squares numbers may be outside the intervals about the mode.
     for (std::pair<double, double>* range : {&overall, &if_only})

@@ -157,9 +157,16 @@ std::string finding(const Calibration& calibration, const StrokeScatter& scatter
   return "";
 }
 
+std::string left_out_words(std::size_t rows) {
+  if (rows == 0) return "";
+  return (rows == 1 ? " One row is" : " " + std::to_string(rows) + " rows are") +
+         std::string(" far from the neighbouring rows: no fit and no figure contains ") + (rows == 1 ? "it." : "them.");
+}
+
 std::string figures(const Calibration& calibration, double floor) {
   return "Held-out error " + in_degrees(calibration.before.held_out_rms) + " before, " +
-         in_degrees(calibration.after.held_out_rms) + " after, noise floor " + in_degrees(floor) + ".";
+         in_degrees(calibration.after.held_out_rms) + " after, noise floor " + in_degrees(floor) + "." +
+         left_out_words(calibration.rows_left_out);
 }
 
 }  // namespace

@@ -64,8 +64,9 @@ void add_dwells(const Run& run, const std::vector<double>& residuals, const Exte
   for (const Segment& segment : run.segments) {
     const Stroke& stroke = run.strokes[segment.stroke];
     if (!segment.is_dwell || stroke.partial) continue;
-    const std::vector<double> rows(residuals.begin() + static_cast<std::ptrdiff_t>(segment.first),
-                                   residuals.begin() + static_cast<std::ptrdiff_t>(segment.last) + 1);
+    std::vector<double> rows(residuals.begin() + static_cast<std::ptrdiff_t>(segment.first),
+                             residuals.begin() + static_cast<std::ptrdiff_t>(segment.last) + 1);
+    std::erase_if(rows, [](double value) { return !std::isfinite(value); });
     const double mean = spread_of(rows).mean;
     const double share = (run.samples[segment.first].alpha - alphas.least) / alphas.range();
     const long nearest = std::lround((share - share_of(0)) / (share_of(1) - share_of(0)));

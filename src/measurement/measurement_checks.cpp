@@ -221,6 +221,39 @@ void compare_with_law(const Mechanism& declared, Measurement& measurement) {
 
 // ---- loads ----------------------------------------------------------------------------------------------------------
 
+/// Names of the runs without a load column, three at most.
+std::string runs_without_load(const Measurement& measurement) {
+  constexpr std::size_t k_most = 3;
+  std::vector<std::string> names;
+  for (const Run& run : measurement.runs) {
+    if (!run.has_load) names.push_back(run.name);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), k_most); ++i) text += (i == 0 ? "" : ", ") + names[i];
+  return text + (names.size() > k_most ? " and " + std::to_string(names.size() - k_most) + " more" : "");
+}
+
+/// Adds a note on the load that is assumed in runs without a load column.
+void note_assumed_load(const Mechanism& declared, Measurement& measurement) {
+  const std::string runs = runs_without_load(measurement);
+  if (declared.transmission || runs.empty()) return;
+  std::string load, options;
+  const auto add = [&](const std::string& key, double value) {
+    if (value == 0) return;
+    load += (load.empty() ? "" : ", ") + key + " = " + rounded(value, 4);
+    options += (options.empty() ? "--set " : " --set ") + key + "=0";
+  };
+  add("load.tip_force_N", declared.load.tip_force);
+  add("load.torque_Nmm", declared.load.torque);
+  if (load.empty()) return;
+  // With law = "torque" the load defines the pulley, and must stay in the file.
+  const std::string remedy =
+      declared.pulley.law == Law::torque
+          ? "log the load as load_N (0 if nothing hung on the joint)"
+          : "if nothing hung on the joint, give " + options + "; otherwise log the load as load_N";
+  measurement.notes.push_back(runs + ": no load column, so the load of the file is assumed, " + load + ": " + remedy);
+}
+
 /// Tip force across OC for one unit of the load column, N; 0 if it is not a torque. `length`: OC, mm.
 double force_of_unit(const std::string& unit, double length) {
   return unit == "Nm" ? 1000.0 / length : unit == "Nmm" ? 1.0 / length : 0.0;
@@ -255,6 +288,7 @@ void take_torques_as_forces(const Mechanism& declared, Measurement& measurement)
 }
 
 void compare_with_declared(const Mechanism& declared, Measurement& measurement) {
+  note_assumed_load(declared, measurement);
   compare_with_law(declared, measurement);
   take_torques_as_forces(declared, measurement);
 }

@@ -72,7 +72,8 @@ void drop_rows(std::vector<Sample>& samples, const Outliers& outliers, const std
   if (outliers.rows.empty()) return;
   const std::string words = rows_text(outliers.rows.size()) + " with " + name + " more than " +
                             rounded(degrees(outliers.limit), 2) + " deg off their neighbours: ";
-  if (outliers.rows.size() > samples.size() / 50 + 1) return add_note(words + "too many to be outliers, kept");
+  if (outliers.rows.size() > samples.size() / 50 + 1)
+    return add_note(words + "too many to be outliers, kept in the log. A calibration leaves them out");
   std::vector<Sample> kept;
   kept.reserve(samples.size());
   auto next = outliers.rows.begin();

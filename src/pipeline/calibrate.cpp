@@ -13,7 +13,7 @@ constexpr int k_most_next_runs = 9;
 /// Run files that an earlier calibration may have written.
 constexpr int k_most_earlier_runs = 99;
 
-/// Files to read, each once: the fitted runs, then the held-out ones.
+/// Files to read: the fitted runs, then the held-out ones. A run that is given twice is read twice, and refused.
 struct RunFiles {
   std::vector<std::filesystem::path> all;
   std::size_t fitted = 0;  ///< number of fitted runs
@@ -21,13 +21,12 @@ struct RunFiles {
 
 RunFiles run_files(const std::vector<std::filesystem::path>& runs, const std::vector<std::filesystem::path>& hold_out) {
   RunFiles files;
-  std::set<std::filesystem::path> seen;
-  for (const auto& run : hold_out) seen.insert(run.lexically_normal());
+  std::set<std::filesystem::path> held_out, seen;
+  for (const auto& run : hold_out) held_out.insert(run.lexically_normal());
   for (const auto& run : runs) {
-    if (seen.insert(run.lexically_normal()).second) files.all.push_back(run);
+    if (held_out.count(run.lexically_normal()) == 0) files.all.push_back(run);
   }
   files.fitted = files.all.size();
-  seen.clear();
   for (const auto& run : hold_out) {
     if (seen.insert(run.lexically_normal()).second) files.all.push_back(run);
   }
@@ -67,15 +66,14 @@ void read_and_calibrate(const CalibrationContext& context, const RunFiles& runs)
   product.calibration = calibration::calibrate(expected, product.measurement, options);
   context.run.begin_step("checking for input errors");
   product.input_errors = calibration::find_input_errors(declared, as_read, product.calibration);
-  if (!product.input_errors.empty()) {
-    calibration::reject_curve(product.measurement,
-                              "an input error in the file or the log may explain the data: check it first",
-                              product.calibration);
-  }
+  const std::string check_first = "an input error in the file or the log may explain the data: check it first";
+  const bool is_clean = product.input_errors.empty();
+  if (!is_clean) calibration::reject_curve(product.measurement, check_first, product.calibration);
   context.run.begin_step("computing the correction");
   product.correction.identified = declared.identified;
-  product.correction.why_no_pulley_file = product.correction.why_no_table = "the data are inconclusive";
-  if (product.calibration.verdict != calibration::CalibrationVerdict::not_testable)
+  product.correction.why_no_pulley_file = product.correction.why_no_table =
+      is_clean ? "the data are inconclusive" : check_first;
+  if (is_clean && product.calibration.verdict != calibration::CalibrationVerdict::not_testable)
     product.correction = correction::correct(declared, product.measurement, product.calibration);
   product.rehearsal = correction::rehearse(expected, product.measurement, product.calibration);
 }

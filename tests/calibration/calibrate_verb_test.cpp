@@ -217,13 +217,25 @@ TEST(CalibrateVerb, HeldOutRunIsNotFitted) {
   options.dry_run = true;
   const std::vector<std::filesystem::path> runs = runs_in(k_rig / "c_backlash");
   options.hold_out = {runs.back(), runs.back().parent_path() / "." / runs.back().filename()};
-  std::vector<std::filesystem::path> twice = runs;
-  twice.push_back(runs.front());
   const pipeline::CalibrateResult result =
-      pipeline::calibrate(read_mechanism(k_rig / "c_backlash/spec.toml"), twice, options);
+      pipeline::calibrate(read_mechanism(k_rig / "c_backlash/spec.toml"), runs, options);
   EXPECT_EQ(result.product.measurement.runs.size(), runs.size());
   EXPECT_THAT(result.product.calibration.held_out_runs, ElementsAre(runs.back().filename().string()));
   EXPECT_FALSE(result.published);
+}
+
+// compare() refuses it in the same words: a run that is given twice would confirm itself.
+TEST(CalibrateVerb, RefusesRunGivenTwice) {
+  const std::vector<std::filesystem::path> runs = runs_in(k_rig / "c_backlash");
+  for (const std::filesystem::path& again : {runs[0], runs[0].parent_path() / "." / runs[0].filename()}) {
+    try {
+      pipeline::calibrate(read_mechanism(k_rig / "c_backlash/spec.toml"), {runs[0], runs[1], again},
+                          into(scratch("twice")));
+      FAIL() << again;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.diagnostics().front().message, "has the same rows as " + runs[0].string());
+    }
+  }
 }
 
 TEST(CalibrateVerb, InputErrorChangesNoOtherResult) {
@@ -243,6 +255,42 @@ TEST(CalibrateVerb, InputErrorChangesNoOtherResult) {
   EXPECT_THAT(outputs["corrected.toml"], Not(HasSubstr("OE_mm = -14")));
   ASSERT_FALSE(result.product.file.warnings.empty());  // the same error was found in the file alone
   EXPECT_THAT(result.product.file.warnings.front().message, HasSubstr("guides.OE_mm = 14"));
+}
+
+/// The text of a run with θ moved by 50° in one row of 30. That is too often for outliers of a sensor.
+std::string with_wild_rows(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line, wild;
+  for (int row = 0; std::getline(lines, line); ++row) {
+    std::istringstream cells(line);
+    std::string time, alpha, theta, rest;
+    std::getline(cells, time, ',') && std::getline(cells, alpha, ',') && std::getline(cells, theta, ',') &&
+        std::getline(cells, rest);
+    if (row % 30 == 17) theta = std::to_string(std::stod(theta) + 50);
+    wild += time + "," + alpha + "," + theta + "," + rest + "\n";
+  }
+  return wild;
+}
+
+TEST(CalibrateVerb, LeavesWildRowsOutOfEveryFigure) {
+  const std::filesystem::path folder = scratch("wild"), made = k_rig / "a_declared_right";
+  std::vector<std::filesystem::path> wild;
+  for (const auto& run : runs_in(made)) {
+    wild.push_back(folder / run.filename());
+    write_text(wild.back(), with_wild_rows(read_file(run, 1 << 22)));
+  }
+  pipeline::CalibrateOptions options = into(folder / "out");
+  options.dry_run = true;
+  options.audit = false;
+  const MechanismFile file = read_mechanism(made / "spec.toml");
+  const Calibration found = pipeline::calibrate(file, wild, options).product.calibration;
+  EXPECT_EQ(found.verdict, CalibrationVerdict::no_effect);
+  EXPECT_GT(found.rows_left_out, 10u);
+  EXPECT_THAT(found.summary,
+              HasSubstr(" " + std::to_string(found.rows_left_out) + " rows are far from the neighbouring"));
+  EXPECT_LT(found.before.rms, 1.2 * found.noise.rms);
+  EXPECT_LT(found.before.max, 6 * found.noise.rms);
+  EXPECT_LT(found.iso_before.A, 20 * found.noise.rms);
 }
 
 TEST(CalibrateVerb, RightFileListsNoInputError) {

@@ -175,6 +175,10 @@ TEST(Comparison, KeepsUncertaintyOfPlayThatIsGone) {
   EXPECT_NEAR(width.change(), -2, 0.1);
   EXPECT_LT(width.high, -1.8);
   EXPECT_GT(width.low, -2.2);
+  // The only change removes what the difference loses.
+  const StateDifference& difference = comparison.difference;
+  EXPECT_NEAR(play->share, 1 - std::pow(difference.after / difference.before, 2), 0.01);
+  EXPECT_GT(play->share, 0.95);
 }
 
 TEST(Comparison, FindsMovedZeroOfJointDeclaredByRatio) {

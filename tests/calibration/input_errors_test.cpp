@@ -8,6 +8,7 @@
 #include "fusee/base.h"
 #include "fusee/calibration.h"
 #include "fusee/mechanism_file.h"
+#include "fusee/transmission.h"
 #include "rig/random.h"
 #include "rig/truths.h"
 
@@ -174,6 +175,78 @@ TEST(InputErrors, ConsiderPulleyMadeFromWrongFile) {
   EXPECT_THAT(error_words_if_unexplained(file, data),
               ElementsAre(AllOf(HasSubstr("guides.OE_mm = -52.7 in place of 52.7"),
                                 HasSubstr("the pulley that was made from this file"))));
+}
+
+// ---- conditions of the runs -----------------------------------------------------------------------------------------
+
+/// Runs in which nothing hung on the joint, without their load column.
+measurement::Measurement unloaded_runs(const Bench& bench) {
+  measurement::Measurement data = bench.data;
+  std::erase_if(data.runs, [](const measurement::Run& run) { return std::abs(run.mean_load) > 1e-6; });
+  for (measurement::Run& run : data.runs) run.has_load = false;
+  data.load_unit.clear();
+  return data;
+}
+
+TEST(InputErrors, ReportThatNothingHungOnJoint) {
+  Bench bench = compensating();
+  bench.joint.load.tip_force = 0.5 * bench.joint.joint.R;
+  bench.joint.load.torque = 10;
+  bench.joint.load.mass_kg = 0;
+  const measurement::Measurement data = unloaded_runs(bench);
+  ASSERT_FALSE(data.runs.empty());
+  const std::vector<LikelyInputError> errors = errors_of(bench.joint, data);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].key, "load.tip_force_N, load.torque_Nmm");
+  EXPECT_EQ(errors[0].would_be, (std::vector<double>{0, 0}));
+  EXPECT_THAT(errors[0].remedy, HasSubstr("--set load.tip_force_N=0 --set load.torque_Nmm=0"));
+  EXPECT_LT(errors[0].rms, 1.1 * measurement::noise_floor(data).rms);
+}
+
+TEST(InputErrors, LeaveLoggedLoadAsItIs) {
+  Bench bench = compensating();
+  bench.joint.load.tip_force = 0.5 * bench.joint.joint.R;
+  EXPECT_THAT(error_words(bench.joint, bench.data), IsEmpty());
+}
+
+/// The data of sensors whose zeros are at these angles, rad.
+measurement::Measurement with_zeros_at(measurement::Measurement data, double alpha, double theta) {
+  for (measurement::Run& run : data.runs) {
+    for (measurement::Sample& sample : run.samples) {
+      sample.alpha -= alpha;
+      sample.theta -= theta;
+    }
+  }
+  return data;
+}
+
+TEST(InputErrors, ReportBothZerosAtAnEnd) {
+  const Bench bench = rig_data("a_declared_right");
+  const transmission::Transmission law(bench.joint);
+  for (const auto& [theta, end] :
+       {std::pair(bench.joint.joint.theta_min, "lower"), std::pair(bench.joint.joint.theta_max, "upper")}) {
+    const double alpha = law.alpha(theta);
+    const std::vector<LikelyInputError> errors = errors_of(bench.joint, with_zeros_at(bench.data, alpha, theta));
+    ASSERT_EQ(errors.size(), 1u) << end;
+    ASSERT_EQ(errors[0].would_be.size(), 2u) << end;
+    EXPECT_NEAR(errors[0].would_be[0], -degrees(alpha), 0.2) << end;
+    EXPECT_NEAR(errors[0].would_be[1], -degrees(theta), 0.2) << end;
+    EXPECT_THAT(errors[0].question, HasSubstr(end));
+    EXPECT_THAT(errors[0].remedy, HasSubstr("--home-reading alpha=" + rounded(errors[0].would_be[0], 4) +
+                                            " --home-reading theta=" + rounded(errors[0].would_be[1], 4)));
+    EXPECT_LT(errors[0].rms, 1.5 * measurement::noise_floor(bench.data).rms) << end;
+  }
+}
+
+// Beyond the range of zero_offset and motor_offset.
+TEST(InputErrors, ReportBothZerosAnywhere) {
+  const Bench bench = rig_data("a_declared_right");
+  const transmission::Transmission law(bench.joint);
+  const double theta = 0.6 * bench.joint.joint.theta_max, alpha = law.alpha(theta);
+  const std::vector<LikelyInputError> errors = errors_of(bench.joint, with_zeros_at(bench.data, alpha, theta));
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].question, "is that what the sensors read at home?");
+  EXPECT_NEAR(errors[0].would_be[0], -degrees(alpha), 0.2);
 }
 
 // ---- the whole way --------------------------------------------------------------------------------------------------

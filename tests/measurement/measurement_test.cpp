@@ -636,6 +636,26 @@ Measurement of_joint(double alpha_factor, double theta_factor, bool exchanged = 
   return measurement;
 }
 
+TEST(MeasurementAgainstDeclared, NotesLoadAssumedWithoutColumn) {
+  const auto notes_with = [](double tip_force, double torque, bool has_load) {
+    DeclaredMechanism joint = testing::forearm();
+    joint.load = {};
+    joint.load.tip_force = tip_force;
+    joint.load.torque = torque;
+    Measurement measurement = of_joint(1, 1);
+    measurement.notes.clear();
+    measurement.runs.front().has_load = has_load;
+    compare_with_declared(joint, measurement);
+    return notes_of(measurement);
+  };
+  EXPECT_THAT(notes_with(6, 0, false),
+              HasSubstr("run.csv: no load column, so the load of the file is assumed, load.tip_force_N = 6: if nothing "
+                        "hung on the joint, give --set load.tip_force_N=0; otherwise log the load as load_N"));
+  EXPECT_THAT(notes_with(6, 20, false), HasSubstr("--set load.tip_force_N=0 --set load.torque_Nmm=0"));
+  EXPECT_THAT(notes_with(6, 0, true), Not(HasSubstr("no load column")));
+  EXPECT_THAT(notes_with(0, 0, false), Not(HasSubstr("no load column")));
+}
+
 TEST(MeasurementAgainstDeclared, ReportsSwappedSignedOrRadianColumns) {
   EXPECT_EQ(reasons_of(of_joint(1, 1)), "");
   EXPECT_EQ(reasons_of(of_joint(1, 1.2)), "");

@@ -100,5 +100,57 @@ TEST(Headline, KeepsAnInstructionWhole) {
   EXPECT_EQ(headline(product).action, "Drive slowly.");
 }
 
+calibration::FittedParameter number(const char* name, double value, double rms_deg, bool excludes_zero) {
+  calibration::FittedParameter made;
+  made.name = name;
+  made.value = value;
+  made.rms = radians(rms_deg);
+  made.excludes_zero = excludes_zero;
+  return made;
+}
+
+TEST(Headline, NamesTheNumbersThatMatter) {
+  CalibrationProduct product = joint_with_errors([](double theta) { return 0.01 * theta; });
+  calibration::FoundEffect effect;
+  effect.name = "guide_position";
+  effect.group = {"guide_position"};
+  effect.parameters = {number("outward1_mm", 0.0306, 0.5, false), number("down1_mm", 0.2, 0.1, true),
+                       number("down2_mm", 0.999, 0.4, true)};
+  product.calibration.effects = {effect};
+  EXPECT_EQ(headline(product).cause, "Guide position (down2 0.999 mm, down1 0.2 mm).");
+}
+
+TEST(Headline, GivesNoSizeOfZero) {
+  CalibrationProduct product = joint_with_errors([](double theta) { return 0.01 * theta; });
+  calibration::FoundEffect effect;
+  effect.name = "zero_offset";
+  effect.group = {"zero_offset", "slack", "motor_offset", "unmodelled"};
+  effect.parameters = {number("offset_deg", 2, 2, true)};
+  effect.alternatives = {{"slack", {number("slack_mm", 0, 0, false)}}};
+  product.calibration.effects = {effect};
+  EXPECT_EQ(headline(product).cause,
+            "Either zero offset (offset 2°), or slack, or motor offset, or an unmodelled cause.");
+  const std::vector<CauseRow> rows = cause_rows(product);
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[2].size, "not determined");
+  EXPECT_EQ(rows[3].size, "–");
+}
+
+TEST(Headline, BeginsWithConditionOfRuns) {
+  CalibrationProduct product = joint_with_errors([](double) { return 0.3; });
+  calibration::LikelyInputError error;
+  error.key = "load.tip_force_N";
+  error.declared = {6};
+  error.would_be = {0};
+  error.question = "did nothing hang on the joint?";
+  error.remedy = "If so, give --set load.tip_force_N=0; otherwise log the load as load_N";
+  error.rms = radians(0.03);
+  product.input_errors = {error};
+  EXPECT_EQ(headline(product).problem,
+            "No load in the runs without a load column, in place of load.tip_force_N = 6, would explain the data to "
+            "0.03°: did nothing hang on the joint? If so, give --set load.tip_force_N=0; otherwise log the load as "
+            "load_N.");
+}
+
 }  // namespace
 }  // namespace fusee::formats
