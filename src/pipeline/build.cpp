@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cmath>
 #include <memory>
+#include <mutex>
 
 #include "analysis/plausibility.h"
 #include "base/thread_pool.h"
@@ -509,12 +510,13 @@ std::optional<std::array<kit::KitTendon, 2>> rig_of(const formats::Product& prod
 std::vector<std::string> advised_notes(const formats::Product& product, const BuildOptions& options,
                                        const RunContext& context) {
   if (!options.advice) return product.pulley.layout.notes;
-  const BuildOmissions build = [&](const Mechanism& changed) -> std::optional<std::vector<std::string>> {
+  const BuildOmissions build = [&](const Mechanism& changed) -> std::optional<BuiltTrial> {
     const auto trial = passing_product(with_declared(product.file, changed), options, context);
     if (!trial) return std::nullopt;
-    std::vector<std::string> features;
-    for (const solid::Omission& omission : trial->pulley.layout.omissions) features.push_back(omission.feature);
-    return features;
+    BuiltTrial built;
+    for (const solid::Omission& omission : trial->pulley.layout.omissions) built.omitted.push_back(omission.feature);
+    built.cost = costs(*trial, product);
+    return built;
   };
   return notes_with_advice(product, build, context);
 }
@@ -565,12 +567,27 @@ profile::Advice motor_advice(const formats::Product& product, const BuildOptions
     };
   else
     judge.obstacles = [&check](const Mechanism& changed) { return check(changed); };
+  // What each trial that passed loses, in words. The oracle is called by two threads.
+  std::vector<std::pair<Mechanism, std::string>> passed;
+  std::mutex guard;
   judge.made = [&](const Mechanism& changed) {
-    const MechanismFile trial = with_declared(file, changed);
-    return is_made(trial, options, context) && motor_suffices(trial);
+    const auto trial = passing_product(with_declared(file, changed), options, context);
+    if (!trial || !motor_suffices(trial->file)) return false;
+    const std::string lost = lost_with(*trial, product);
+    const std::lock_guard lock(guard);
+    passed.emplace_back(changed, lost);
+    return true;
   };
   judge.is_expensive = true;
-  return profile::find_advice(file.mechanism, judge);
+  profile::Advice advice = profile::find_advice(file.mechanism, judge);
+  for (profile::Change& change : advice.alone) {
+    const Field* field = find_field(change.key);
+    if (field == nullptr || field->kind != FieldKind::number) continue;
+    for (const auto& [trial, lost] : passed) {
+      if (std::abs(number_of(trial, *field) - change.to) < 1e-9 * std::abs(change.to)) change.cost = lost;
+    }
+  }
+  return advice;
 }
 
 const std::vector<std::string>& output_names() {
