@@ -278,6 +278,7 @@ std::vector<std::string> keys_to_write(const DeclaredMechanism& mechanism) {
   else
     keys += mechanism.body.bore == Bore::horn ? "body.bore body.horn" : "body.bore body.bore_diameter_mm";
   if (mechanism.body.set_screw != default_mechanism().body.set_screw) keys += " body.set_screw body.nut_trap";
+  if (mechanism.body.hub_height != default_mechanism().body.hub_height) keys += " body.hub_height_mm";
   if (mechanism.motor.model != Motor{}.model) keys += " motor.model";
   if (mechanism.motor.travel > 0) keys += " motor.travel_deg";
   if (mechanism.motor.gear_ratio != 1) keys += " motor.gear_ratio";

@@ -20,6 +20,7 @@
 #include "pipeline/motor_advice.h"
 #include "pipeline/multi_turn.h"
 #include "pipeline/omissions.h"
+#include "pipeline/shaft_reach.h"
 #include "pipeline/thin_walls.h"
 #include "pipeline/wide_parts.h"
 #include "solid/print.h"
@@ -528,16 +529,25 @@ std::vector<Diagnostic> parts_in_the_way(const formats::Product& product, const 
   });
 }
 
+std::optional<Diagnostic> screw_beyond_shaft(const formats::Product& product, const BuildOptions& options,
+                                             const RunContext& context) {
+  return shaft_reach_warning(product, 0, [&](const Mechanism& changed) {
+    return options.advice ? passing_product(with_declared(product.file, changed), options, context) : std::nullopt;
+  });
+}
+
 void write_and_check(BuildContext& context) {
   formats::Product& product = context.result.product;
   product.rig = rig_of(product);
   const RunContext trials = context.run.without_progress();
   auto notes = run_async([&] { return advised_notes(product, context.options, trials); });
   auto in_the_way = run_async([&] { return parts_in_the_way(product, context.options, trials); });
+  auto beyond_shaft = run_async([&] { return screw_beyond_shaft(product, context.options, trials); });
   auto loaded = run_async([&joint = product.joint] { return analysis::under_load(joint.mechanism); });
   Tables tables = write_and_check_parts(context);
   product.pulley.layout.notes = notes.get();
   for (Diagnostic& part : in_the_way.get()) product.file.warnings.push_back(std::move(part));
+  if (auto missed = beyond_shaft.get()) product.file.warnings.push_back(std::move(*missed));
   product.under_load = loaded.get();
   if (auto lost = analysis::no_equilibrium(product.under_load)) {
     lost->severity = Severity::warning;

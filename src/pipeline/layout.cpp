@@ -17,6 +17,7 @@
 #include "mechanism/catalogue.h"
 #include "pipeline/design.h"
 #include "pipeline/multi_turn.h"
+#include "pipeline/shaft_reach.h"
 #include "solid/plan.h"
 #include "transmission/load.h"
 
@@ -331,11 +332,24 @@ bool is_loose(const Mechanism& mechanism, const solid::BodyLayout& layout) {
   return body.bore != Bore::horn && body.set_screw != "none" && body.hub_height > 0 && !layout.set_screw.present;
 }
 
+/// True if the motor's shaft does not reach the set screw.
+bool is_beyond_shaft(const Mechanism& mechanism, const solid::BodyLayout& layout) {
+  const std::optional<ShaftReach> reach = shaft_reach(mechanism, layout);
+  return reach && !reach->suffices();
+}
+
+/// 0: a set screw or a horn holds the pulley, or the file wants none. 1: the shaft is too short for the set screw; another
+/// motor or a coupling helps. 2: nothing holds it.
+std::size_t looseness(const Mechanism& mechanism, const solid::BodyLayout& layout) {
+  if (is_loose(mechanism, layout)) return 2;
+  return is_beyond_shaft(mechanism, layout) ? 1 : 0;
+}
+
 /// Fewer are better, in this order.
 struct Rank {
   std::size_t stalls = 0;        ///< 1: the motor cannot hold the load
-  std::size_t warnings = 0;      ///< of the build, without those on the motor
-  std::size_t loose = 0;         ///< 1: nothing holds the pulley on its shaft
+  std::size_t warnings = 0;      ///< of the build, without those on the motor and its shaft
+  std::size_t loose = 0;         ///< looseness()
   std::size_t weakness = 0;      ///< missing share of the motor's advised margin, in quarters
   std::size_t shortcomings = 0;  ///< of a pulley of one turn; several turns always have the same notes
 
@@ -365,7 +379,7 @@ Rank planned_rank(const DeclaredMechanism& declared, double torque) {
   if (!curves.obstacles.empty()) return rank;
   const solid::BodyPlan plan = solid::plan_body(curves.joint.mechanism, curves.synthesis);
   if (!plan.is_possible()) return rank;
-  rank.loose = is_loose(declared, plan.layout) ? 1 : 0;
+  rank.loose = looseness(declared, plan.layout);
   rank.shortcomings = shortcomings(plan.layout);
   return rank;
 }
@@ -377,21 +391,34 @@ Rank rank_of(const formats::Product& product) {
                                                ? analysis::motor_warnings(*product.under_load.motor, product.file)
                                                : std::vector<Diagnostic>{};
   rank.warnings = product.file.warnings.size() + product.synthesis.warnings.size() + product.holding.warnings.size();
-  rank.warnings -= std::min(rank.warnings, of_motor.size());
-  rank.loose = is_loose(product.file.mechanism, product.pulley.layout) ? 1 : 0;
+  const bool misses_shaft = is_beyond_shaft(product.joint.mechanism, product.pulley.layout);
+  rank.warnings -= std::min(rank.warnings, of_motor.size() + (misses_shaft ? 1 : 0));
+  rank.loose = looseness(product.file.mechanism, product.pulley.layout);
   rank.shortcomings = product.helix ? 0 : shortcomings(product.pulley.layout);
   return rank;
 }
 
 /// Declares the smallest set screw, in a thread of the hub. The hub that a declared screw requires has precedence over
-/// marks and slots. Empty if the pulley has a set screw or must not have one, or if that hub does not fit.
-std::optional<DeclaredMechanism> with_small_screw(const DeclaredMechanism& declared, const Rank& planned) {
-  if (planned.loose == 0 || declared.body.set_screw != "auto" || declared.body.hub_diameter > 0) return std::nullopt;
+/// marks and slots. Empty if the file names a set screw or must not have one, or if that hub does not fit.
+std::optional<DeclaredMechanism> with_small_screw(const DeclaredMechanism& declared) {
+  if (declared.body.set_screw != "auto" || declared.body.hub_diameter > 0) return std::nullopt;
   DeclaredMechanism changed = declared;
   changed.body.set_screw = declared.units == LengthUnit::inch ? "#2-56" : "M2";
   changed.body.nut_trap = false;
-  if (quick_obstacle(changed)) return std::nullopt;
-  return planned_rank(changed, 0).loose == 0 ? std::optional(changed) : std::nullopt;
+  return quick_obstacle(changed) ? std::nullopt : std::optional(changed);
+}
+
+/// A variant that holds the pulley better on its shaft, with a lower hub, the smallest set screw, or both. Empty if the
+/// plan is held already, or if there is none.
+std::optional<DeclaredMechanism> held_variant(const DeclaredMechanism& declared, const Rank& planned) {
+  if (planned.loose == 0) return std::nullopt;
+  if (auto lower = with_lower_hub(declared)) return lower;
+  const std::optional<DeclaredMechanism> small = with_small_screw(declared);
+  if (!small) return std::nullopt;
+  const std::size_t loose = planned_rank(*small, 0).loose;
+  if (loose == 0) return small;
+  if (auto lower = with_lower_hub(*small)) return lower;
+  return loose < planned.loose ? small : std::nullopt;
 }
 
 /// The tendons' moment arm at home, mm.
@@ -552,10 +579,11 @@ class LayoutChoice {
     }
     if (requirements_.any) return try_build(candidate.mechanism, candidate, /*is_last=*/true);
     const Rank planned = planned_rank(file.mechanism, candidate.torque);
-    if (const auto with_screw = with_small_screw(file.mechanism, planned)) {
+    if (const auto held = held_variant(file.mechanism, planned)) {
       Candidate screwed = candidate;
-      screwed.mechanism.body.set_screw = with_screw->body.set_screw;
-      screwed.mechanism.body.nut_trap = false;
+      screwed.mechanism.body.set_screw = held->body.set_screw;
+      screwed.mechanism.body.nut_trap = held->body.nut_trap;
+      screwed.mechanism.body.hub_height = held->body.hub_height;
       if (may_be_better(screwed, planned_rank(file_of_(screwed.mechanism).mechanism, candidate.torque))) {
         if (!try_build(screwed.mechanism, screwed, /*is_last=*/false)) return false;
         if (chosen_ && best_.loose == 0) return true;
@@ -566,8 +594,9 @@ class LayoutChoice {
 
   bool may_be_better(const Candidate& candidate, Rank planned) const {
     if (!chosen_ || best_.warnings > 0) return true;
-    // Several turns are not planned. A pulley that is no larger than a loose one is loose, too.
-    if (candidate.mechanism.pulley.r1 <= largest_loose_) planned.loose = 1;
+    // Several turns are not planned. A pulley that is no larger than a loose one is at least as loose.
+    for (std::size_t loose = 1; loose < largest_loose_.size(); ++loose)
+      if (candidate.mechanism.pulley.r1 <= largest_loose_[loose]) planned.loose = loose;
     return planned < best_;
   }
 
@@ -593,9 +622,11 @@ class LayoutChoice {
     }
     const formats::Product& product = layout.built.product;
     const Rank rank = rank_of(product);
-    if (product.helix && rank.loose > 0) largest_loose_ = std::max(largest_loose_, layout.file.mechanism.pulley.r1);
+    if (product.helix)
+      largest_loose_[rank.loose] = std::max(largest_loose_[rank.loose], layout.file.mechanism.pulley.r1);
     const double torque = product.under_load.largest_torque.value;
-    if (rank.loose > 0 && torque > 0) least_loose_torque_ = std::min(least_loose_torque_, torque);
+    const bool has_no_screw = is_loose(product.file.mechanism, product.pulley.layout);
+    if (has_no_screw && torque > 0) least_loose_torque_ = std::min(least_loose_torque_, torque);
     if (chosen_ && !(rank < best_)) return true;
     best_ = rank;
     layout.stalls = rank.stalls > 0;
@@ -612,6 +643,8 @@ class LayoutChoice {
   void add_price() {
     const double share = least_loose_torque_ / chosen_->built.product.under_load.largest_torque.value;
     chosen_->is_held = best_.loose == 0;
+    // A warning of the build tells that the shaft does not reach the set screw.
+    if (chosen_->built.product.pulley.layout.set_screw.present && !chosen_->is_held) return;
     if (!chosen_->is_held) {
       chosen_->price_words =
           "nothing holds the pulley on its shaft, as there is no space for a hub with a set screw: glue it, or take a "
@@ -630,7 +663,8 @@ class LayoutChoice {
   Rank best_;            ///< of the choice
   Obstacles obstacles_;  ///< of candidates that fail
   int builds_ = 0;
-  double largest_loose_ = 0;  ///< r1 of the largest pulley of several turns that nothing holds on its shaft, mm
+  /// r1 of the largest pulley of several turns by its looseness(), mm.
+  std::array<double, 3> largest_loose_{};
   /// Least torque of the motor with a pulley that nothing holds on its shaft, N·mm.
   double least_loose_torque_ = std::numeric_limits<double>::infinity();
 };

@@ -232,6 +232,32 @@ class Questions(harness.Scratch):
         asked = self.ask(answers(room="9 mm", load="0.5 N"))[1]
         self.assertIn("warning: nothing holds the pulley on its shaft", asked)
 
+    def test_set_screw_reaches_the_shaft(self):
+        # An N20 has 10 mm of shaft: the hub of 8 mm, with the screw in its middle, is too high for it.
+        text, asked = self.ask(answers("my finger", "38 mm", "0..75", "25 mm", "6 N", "N20", "braid 0.5"))
+        self.assertNotIn("does not reach", asked)
+        self.assertLess(tomllib.loads(text)["body"]["hub_height_mm"], 8)
+        self.builds(text, 25)
+        self.assertNotIn("does not reach", self.expect("build asked.toml --dry-run", 0).stderr.decode())
+        found = re.search(r"asked.toml:\d+:\d+: warning: the shaft does not reach the set screw: M[\d.]+ at ([\d.]+) mm above the pulley's lower face "
+                          r"requires ([\d.]+) mm of shaft, and the shaft of N20 is 10 mm long\n  hint: try body.hub_height_mm = ([\d.]+) \(now 8\)",
+                          self.expect("build asked.toml --set body.hub_height_mm=8 -o high", 0).stderr.decode())
+        self.assertTrue(found)
+        self.assertGreater(float(found[2]), float(found[1]))
+        self.assertGreater(float(found[2]), 10)
+        self.assertIn("the shaft of N20 is 10 mm long", (self.folder / "high/report.html").read_text())
+        self.assertNotIn("does not reach", self.expect(f"build asked.toml --dry-run --set body.hub_height_mm={found[3]}", 0).stderr.decode())
+        # The plate of a kit takes 4 mm of it.
+        words = "the shaft does not reach the set screw: .* mm above the motor's face \\(4 mm of it below the pulley\\).*coupling"
+        self.expect("kit asked.toml -o kit", 0, "", "warning: " + words)
+        self.assertRegex((self.folder / "kit/kit.html").read_text().replace("&#39;", "'"), words)
+
+    def test_several_turns_are_too_high_for_a_shaft(self):
+        text, asked = self.ask(answers("elbow", "250 mm", "±60", "240 mm", "2 kg", "NEMA17-48mm", "1 mm"))
+        found = re.search(r"warning: the shaft does not reach the set screw: .* at ([\d.]+) mm above the pulley's lower face .* NEMA 17 is 24 mm long", asked)
+        self.assertTrue(found, asked)
+        self.assertGreater(float(found[1]), 24)
+
     def test_refusal_names_least_torque_of_layouts(self):
         out, err = self.ask(answers(load="20 N", motor="N20-298-LP"), 4, "new --ask --set motor.enforce=true")
         self.assertEqual(out, "")
