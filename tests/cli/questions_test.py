@@ -292,6 +292,28 @@ class Questions(harness.Scratch):
         read = tomllib.loads(text)
         self.assertEqual((read["motor"], read["body"]["shaft"]), ({"model": "NEMA17-40mm"}, "nema17-d5"))
 
+    def test_every_model_is_accepted_or_has_a_remedy(self):
+        begun = ("a", "45", "0 80", "30", "10 N")
+        listed = self.expect("explain motor.model", 0).stdout.decode().split("default")[0]
+        models = [name for name in re.findall(r'"([^"]+)"', listed) if name != "none"]
+        self.assertIn("STS3032", models)
+        for model in models:
+            answered, err = self.understood(*begun, model)
+            if f", motor: {model}, " in answered:
+                continue
+            if several := re.search(r'" fits several entries: (\S+), .* Which one\?', err):  # a servo with several horns
+                self.assertIn(", motor: ", self.understood(*begun, f"{model}, {several[1]}")[0])
+                continue
+            self.assertIn(f"the catalogue has neither horn nor shaft of {model}: type its shaft behind it, such as {model}, 5 mm D, "
+                          f"or a horn of the list, such as {model}, disc-25T-M3", err)
+            self.assertIn(f", motor: {model}, a D shaft of 5 mm", self.understood(*begun, f"{model}, 5 mm D")[0])
+        for typed, words in (("STS3032, disc-25T-M3", "STS3032, aluminium disc"), ("N20 with encoder", "N20 gear motor"), ("N20 298:1", "N20-298-LP, "),
+                             ("MG90S micro servo, 4 mm", "MG90S, a round shaft of 4 mm")):
+            self.assertIn(f"motor: {words}", self.understood(*begun, typed)[0], typed)
+        text, _ = self.ask(answers(load="1 N", motor="STS3032, 5 mm D"))
+        self.assertEqual(tomllib.loads(text)["motor"], {"model": "STS3032"})
+        self.builds(text, 30)
+
     def test_motor_of_the_answers_has_a_margin(self):
         for typed, limit in (("NEMA17-48mm 5:1, 8 mm D", "NEMA17-48mm 5:1 holds 2655 Nmm"), ("NEMA17-48mm", "NEMA17-48mm holds 590 Nmm")):
             _, asked = self.ask(answers("elbow", "250", "±60", "80", "0.1 kg", typed, "1"))
