@@ -135,9 +135,9 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
     reply.diagnostics.push_back(
         make_diagnostic(layout.is_held ? Severity::note : Severity::warning, layout.price_words));
   if (asked.room)
-    reply.diagnostics.push_back(make_diagnostic(
-        Severity::note, lengths_in(asked.units, "the motor holds the load with a larger drum and pulley: " +
-                                                    other_answer_words(*asked.room))));
+    reply.diagnostics.push_back(
+        make_diagnostic(Severity::note, lengths_in(asked.units, "the motor holds the load with " + asked.room_words +
+                                                                    ": " + other_answer_words(*asked.room))));
   if (!product.file.mechanism.motor.is_there())
     reply.diagnostics.push_back(motor_note(layout));
   else if (const auto& motor = product.under_load.motor; motor && motor->torque_limit >= motor->torque.value)
