@@ -123,6 +123,17 @@ class Build(harness.Scratch):
         self.assertEqual(self.files("one")["pulley.stl"], self.files("two")["pulley.stl"])
         self.assertEqual(self.files("one")["gripper_law.csv"], self.files("two")["gripper_law.csv"])
 
+    def test_template_is_written_with_its_table(self):
+        done = self.expect("new gripper", 0, 'table = "gripper_law.csv"', "note: its law needs the table gripper_law.csv beside it.*fusee new gripper -o gripper.toml")
+        (self.folder / "gripper.toml").write_bytes(done.stdout)
+        self.expect("build gripper.toml --dry-run", 3, "^$", "gripper_law.csv: cannot be read.*'fusee new gripper -o gripper.toml' writes the template's table")
+        (self.folder / "new").mkdir()
+        self.expect("new gripper -o new/jaw.toml", 0, "", "^$")
+        self.assertEqual(self.files("new")["gripper_law.csv"], (harness.SOURCE / "profiles/gripper_law.csv").read_bytes())
+        self.expect("build new/jaw.toml --dry-run", 0)
+        self.expect("new gripper --set joint.length_mm=90", 0, "length_mm = 90")
+        self.expect("new forearm", 0, "", "^$")
+
     def test_writes_step_on_request(self):
         done = self.fusee("build arm.toml -o out/cad --step")
         if b"built without STEP" in done.stderr:
