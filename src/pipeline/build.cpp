@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <mutex>
 
@@ -522,6 +523,15 @@ std::vector<std::string> advised_notes(const formats::Product& product, const Bu
   return notes_with_advice(product, build, context);
 }
 
+/// Notes about omissions of the plates, for a file that declares a cutter. Others are printed.
+std::vector<std::string> plate_notes(const formats::Product& product) {
+  const auto is_of_cut = [](const auto& entry) { return entry.first.starts_with("cut."); };
+  std::vector<std::string> notes;
+  if (product.helix || std::none_of(product.file.places.begin(), product.file.places.end(), is_of_cut)) return notes;
+  for (const std::string& omission : formats::plate_omissions(product)) notes.push_back("plates.dxf: " + omission);
+  return notes;
+}
+
 std::vector<Diagnostic> parts_in_the_way(const formats::Product& product, const BuildOptions& options,
                                          const RunContext& context) {
   return axle_clearance_warnings(product, [&](const Mechanism& changed) {
@@ -541,11 +551,14 @@ void write_and_check(BuildContext& context) {
   product.rig = rig_of(product);
   const RunContext trials = context.run.without_progress();
   auto notes = run_async([&] { return advised_notes(product, context.options, trials); });
+  auto of_plates = run_async([&] { return plate_notes(product); });
   auto in_the_way = run_async([&] { return parts_in_the_way(product, context.options, trials); });
   auto beyond_shaft = run_async([&] { return screw_beyond_shaft(product, context.options, trials); });
   auto loaded = run_async([&joint = product.joint] { return analysis::under_load(joint.mechanism); });
   Tables tables = write_and_check_parts(context);
+  std::vector<std::string> omissions = of_plates.get();
   product.pulley.layout.notes = notes.get();
+  std::move(omissions.begin(), omissions.end(), std::back_inserter(product.pulley.layout.notes));
   for (Diagnostic& part : in_the_way.get()) product.file.warnings.push_back(std::move(part));
   if (auto missed = beyond_shaft.get()) product.file.warnings.push_back(std::move(*missed));
   product.under_load = loaded.get();

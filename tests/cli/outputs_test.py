@@ -147,6 +147,14 @@ class Build(harness.Scratch):
         self.expect("build arm.toml -o out/cad", 0, "pulley.scad")
         self.assertFalse((self.folder / "out/cad/pulley.step").exists())
 
+    def test_plates_report_what_they_lack(self):
+        for settings, words in (("cut.kerf_mm=6", "plates.dxf: the bore is omitted: a kerf of 6 mm is wider"),
+                                ("cut.kerf_mm=6", "plates.dxf: a tendon channel is omitted"),
+                                ("cut.dowel_mm=20", "plates.dxf: no dowels: there is no space for two of 20 mm"),
+                                ("cut.sheet_width_mm=20", "plates.dxf: a sheet of 20 x ")):
+            self.expect(f"build arm.toml --dry-run --set {settings}", 0, "", "note: " + words)
+        self.assertNotIn("plates.dxf", self.expect("build arm.toml --dry-run", 0).stderr.decode())
+
     def test_is_reproducible(self):
         first = self.build("one")
         os.environ["TZ"] = "Pacific/Chatham"
