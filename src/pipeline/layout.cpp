@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <compare>
+#include <iterator>
 #include <limits>
 
 #include "base/text.h"
@@ -716,29 +717,57 @@ double mean_ratio(const Mechanism& mechanism) {
   return (rows.back().alpha - rows.front().alpha) / (rows.back().theta - rows.front().theta);
 }
 
-/// Drums for the pulley of the file, then for larger and smaller ones.
-std::vector<DeclaredMechanism> drums_for(const DeclaredMechanism& declared) {
+/// A drum for a file, with the largest error of the joint angle under the declared load.
+struct Drum {
+  DeclaredMechanism mechanism;
+  bool stalls = false;  ///< the motor of the file cannot hold the load
+  double error = 0;     ///< rad
+};
+
+/// A drum with this pitch radius (mm) and a pulley that reaches this far; empty if it is infeasible.
+std::optional<Drum> drum_of(DeclaredMechanism declared, double rho, double reach) {
+  if (declared.body.room > 0) rho = std::min(rho, widest_drum(declared.body.room, declared.tendon.diameter));
+  if (!is_drum(rho, declared.tendon.diameter)) return std::nullopt;
+  put_drum(declared, rho, reach);
+  if (quick_obstacle(declared)) return std::nullopt;
+  const Mechanism joint = joint::identified_joint(declared, joint::LawSearch::brief).mechanism;
+  const analysis::UnderLoad load = analysis::under_load(joint);
+  if (load.lost_at) return std::nullopt;
+  Drum drum{std::move(declared), false, load.theta_error.value};
+  drum.stalls = load.motor && !load.motor->ok();
+  return drum;
+}
+
+/// Pitch radii of drums over the link length: the usual one and wider ones, which are stiffer.
+constexpr std::array k_drum_shares{0.15, 0.2, 0.27, 0.36};
+
+/// Drums for the pulley of the file, then for larger and smaller ones. For one pulley the drum with the least error under
+/// the load comes first, among those with which the motor holds the load.
+std::vector<Drum> drums_for(const DeclaredMechanism& declared, const RunContext& context) {
   const double span = declared.joint.theta_max - declared.joint.theta_min;
   const bool has_r1 = declared.pulley.law == Law::compensate;
   const double ratio = has_r1 ? 0 : mean_ratio(declared);
-  std::vector<DeclaredMechanism> all;
+  std::vector<Drum> all;
   if (!has_r1 && !(ratio > 0)) return all;
-  const double usual = 0.15 * declared.joint.R, bend = 0.5 * declared.tendon.bend_ratio * declared.tendon.diameter;
-  for (const double factor : {1.0, 1.4, 2.0, 0.7}) {
-    DeclaredMechanism changed = declared;
-    double reach = 0, rho = 0;
-    if (has_r1) {
-      changed.pulley.r1 = factor == 1.0 ? declared.pulley.r1 : in_three_digits(factor * declared.pulley.r1);
-      reach = changed.pulley.r1;
-      rho = std::min(std::max(usual, bend), reach * k_one_turn / span);
-    } else {
-      rho = std::max(usual, bend) * factor;
-      reach = rho / ratio;
+  const double bend = 0.5 * declared.tendon.bend_ratio * declared.tendon.diameter;
+  const std::vector<double> factors = has_r1 ? std::vector{1.0, 1.4, 2.0, 0.7} : std::vector{1.0};
+  for (const double factor : factors) {
+    std::vector<Drum> of_pulley;
+    for (const double share : k_drum_shares) {
+      context.throw_if_stopped();
+      DeclaredMechanism changed = declared;
+      double rho = std::max(share * declared.joint.R, bend), reach = rho / ratio;
+      if (has_r1) {
+        if (factor != 1.0) changed.pulley.r1 = in_three_digits(factor * declared.pulley.r1);
+        reach = changed.pulley.r1;
+        rho = std::min(rho, reach * k_one_turn / span);
+      }
+      if (auto drum = drum_of(std::move(changed), rho, reach)) of_pulley.push_back(std::move(*drum));
     }
-    if (declared.body.room > 0) rho = std::min(rho, widest_drum(declared.body.room, declared.tendon.diameter));
-    if (!is_drum(rho, declared.tendon.diameter)) continue;
-    put_drum(changed, rho, reach);
-    all.push_back(std::move(changed));
+    std::stable_sort(of_pulley.begin(), of_pulley.end(), [](const Drum& one, const Drum& other) {
+      return one.stalls != other.stalls ? other.stalls : one.error < other.error;
+    });
+    std::move(of_pulley.begin(), of_pulley.end(), std::back_inserter(all));
   }
   return all;
 }
@@ -752,14 +781,13 @@ std::optional<profile::LayoutAdvice> drum_advice(const MechanismFile& file, cons
   dry.dry_run = dry.force = true;
   dry.advice = dry.step = false;
   dry.folder = temporary_folder() / "fusee-layout";
-  for (const DeclaredMechanism& changed : drums_for(file.mechanism)) {
+  for (const Drum& drum : drums_for(file.mechanism, context)) {
     context.throw_if_stopped();
-    if (quick_obstacle(changed)) continue;
     MechanismFile with_drum = file;
-    with_drum.mechanism = changed;
+    with_drum.mechanism = drum.mechanism;
     if (build(with_drum, dry, context.without_progress()).status != BuildStatus::done) continue;
     return profile::LayoutAdvice{"put a drum on the joint, on which both tendons stay over the whole range",
-                                 "finger_mcp", settings_of(changed, file.mechanism)};
+                                 "finger_mcp", settings_of(drum.mechanism, file.mechanism)};
   }
   return std::nullopt;
 }

@@ -467,6 +467,15 @@ class Refusals(harness.Scratch):
             settings = [word for one in layout["settings"] for word in ("--set", f"{one['key']}={one['value']}")]
             self.expect_json(["build", "forearm.toml", "--dry-run", "--set", "joint.range_deg=[-60, 60]", *settings], 0)
 
+    def test_drum_of_the_advice_is_stiff(self):
+        for r1 in (5.6, 15):
+            (self.folder / "finger.toml").write_bytes(self.fusee("new finger").stdout)
+            words = ["build", "finger.toml", "--dry-run", "--set", "joint.range_deg=[-15, 60]", "--set", f"pulley.r1_mm={r1}"]
+            layout = self.expect_json(words, 4)["advice_layout"]
+            settings = [word for one in layout["settings"] for word in ("--set", f"{one['key']}={one['value']}")]
+            load = self.expect_json([*words, *settings], 0)["under_load"]
+            self.assertLess(load["max_theta_error_deg"], 1.0)
+
     def test_other_obstacles_name_no_drum(self):
         self.assertNotIn("advice_layout", self.expect_json("build forearm.toml --dry-run --set pulley.r1_mm=25", 4))
 
