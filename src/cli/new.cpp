@@ -116,6 +116,10 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
   const formats::Product& product = layout.built.product;
   reply.text = asked.text;
   reply.diagnostics = product.file.warnings;
+  for (Diagnostic& diagnostic : reply.diagnostics) {
+    diagnostic.message = lengths_in(asked.units, diagnostic.message);
+    diagnostic.hint = lengths_in(asked.units, diagnostic.hint);
+  }
   for (const std::vector<std::string>* warnings : {&product.synthesis.warnings, &product.holding.warnings}) {
     for (const std::string& warning : *warnings)
       reply.diagnostics.push_back(make_diagnostic(Severity::warning, warning));

@@ -590,7 +590,7 @@ profile::Advice motor_advice(const formats::Product& product, const BuildOptions
     };
   else
     judge.obstacles = [&check](const Mechanism& changed) { return check(changed); };
-  // What each trial that passed loses, in words. The oracle is called by two threads.
+  // Trials that passed, with their disadvantages in words. The oracle is called by two threads.
   std::vector<std::pair<Mechanism, std::string>> passed;
   std::mutex guard;
   judge.made = [&](const Mechanism& changed) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "fusee/mechanism_file.h"
 #include "mechanism/catalogue.h"
 #include "pipeline/design.h"
 #include "pipeline/omissions.h"
@@ -42,6 +43,12 @@ const MotorType* motor_in_bore(const Mechanism& mechanism, const solid::BodyLayo
 /// Step of a hub's height, mm: half a millimetre, or 0.02 in.
 double step_of(LengthUnit units) { return units == LengthUnit::inch ? 0.508 : 0.5; }
 
+/// The length, mm, that the file states with the digits of its unit.
+double in_file_digits(double length, LengthUnit units) {
+  constexpr double k_inch = 25.4;  // mm
+  return units == LengthUnit::inch ? k_inch * number_of(rounded(length / k_inch)) : number_of(rounded(length));
+}
+
 }  // namespace
 
 std::optional<ShaftReach> shaft_reach(const Mechanism& mechanism, const solid::BodyLayout& layout, double below) {
@@ -61,7 +68,7 @@ std::optional<DeclaredMechanism> with_lower_hub(const DeclaredMechanism& declare
   DeclaredMechanism lower = declared;
   const auto try_height = [&](double height) {
     Mechanism changed = curves.joint.mechanism;
-    changed.body.hub_height = lower.body.hub_height = number_of(rounded(height));
+    changed.body.hub_height = lower.body.hub_height = in_file_digits(height, declared.units);
     const solid::BodyPlan plan = solid::plan_body(changed, curves.synthesis);
     if (!plan.is_possible()) return Outcome::no_screw;
     const std::optional<ShaftReach> reach = shaft_reach(changed, plan.layout, below);
@@ -102,10 +109,11 @@ std::optional<Diagnostic> shaft_reach_warning(
     if (const auto made = build(*lower)) {
       const std::optional<ShaftReach> new_reach = shaft_reach(made->joint.mechanism, made->pulley.layout, below);
       if (new_reach && new_reach->suffices()) {
+        const Field& field = *find_field("body.hub_height_mm");
         const std::string lost = lost_features(made->pulley.layout, product.pulley.layout);
         warning.hint =
-            fmt::format("try body.hub_height_mm = {} (now {}){}", rounded(lower->body.hub_height),
-                        rounded(product.file.mechanism.body.hub_height), lost.empty() ? "" : ", which omits " + lost);
+            fmt::format("try body.hub_height_mm = {} (now {}){}", rounded(number_of(*lower, field)),
+                        rounded(number_of(product.file.mechanism, field)), lost.empty() ? "" : ", which omits " + lost);
         return warning;
       }
     }
