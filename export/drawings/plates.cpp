@@ -66,6 +66,13 @@ struct CutFeatures {
   }
 };
 
+/// Adds a note about something that is not as declared, once.
+void note_omission(Plates& plates, const std::string& note) {
+  if (std::find(plates.notes.begin(), plates.notes.end(), note) != plates.notes.end()) return;
+  plates.notes.push_back(note);
+  plates.omissions.push_back(note);
+}
+
 // ---- Dowels ---------------------------------------------------------------------------------------------------------
 
 /// The material common to all plates: within both floors, clear of all cuts.
@@ -104,21 +111,17 @@ void place_dowels(Plates& plates, const CutFeatures& features) {
     plates.dowels = {places->first, places->second};
     plates.dowel_diameter = diameter;
     if (share < 1)
-      plates.notes.push_back(
-          fmt::format("dowels of {} mm: there is no space for {} mm", rounded(diameter), rounded(declared)));
+      note_omission(plates,
+                    fmt::format("dowels of {} mm: there is no space for {} mm", rounded(diameter), rounded(declared)));
     return;
   }
   const char* why =
       declared - features.mechanism.cut.kerf < k_least_feature ? "the cut would be too narrow" : "there is no space";
-  plates.notes.push_back(
-      fmt::format("no dowels: {} for two of {} mm; align the plates on the shaft", why, rounded(declared)));
+  note_omission(plates,
+                fmt::format("no dowels: {} for two of {} mm; align the plates on the shaft", why, rounded(declared)));
 }
 
 // ---- Shapes ---------------------------------------------------------------------------------------------------------
-
-void note_once(Plates& plates, const std::string& note) {
-  if (std::find(plates.notes.begin(), plates.notes.end(), note) == plates.notes.end()) plates.notes.push_back(note);
-}
 
 class LayerMaker {
  public:
@@ -146,13 +149,14 @@ class LayerMaker {
   void add_hole(PlateLayer& layer, const Contour& hole, const char* name) {
     const auto path = cut_hole(hole, kerf_);
     if (!path) {
-      note_once(plates_, fmt::format("the {} is omitted: a kerf of {} mm is wider", name, rounded(kerf_)));
+      note_omission(plates_, fmt::format("the {} is omitted: a kerf of {} mm is wider", name, rounded(kerf_)));
       return;
     }
     if (bounding_box(path->points).size().minCoeff() < k_least_feature) {
-      note_once(plates_, fmt::format("{}: the {} of {} mm is omitted, the cut would be narrower than {} mm: drill it",
-                                     layer.name, name, rounded(bounding_box(hole.points).size().minCoeff(), 3),
-                                     rounded(k_least_feature)));
+      note_omission(
+          plates_,
+          fmt::format("{}: the {} of {} mm is omitted, the cut would be narrower than {} mm: drill it", layer.name,
+                      name, rounded(bounding_box(hole.points).size().minCoeff(), 3), rounded(k_least_feature)));
       return;
     }
     layer.holes.push_back(hole);
@@ -167,7 +171,7 @@ class LayerMaker {
     for (const Polygon& part : features_.edge_cuts(anchor)) {
       const auto inner = part.size() > 2 && is_simple(part) ? cut_hole({part, {}, 0}, kerf_) : std::nullopt;
       if (!inner) {
-        note_once(plates_, fmt::format("a tendon channel is omitted: a kerf of {} mm is wider", rounded(kerf_)));
+        note_omission(plates_, fmt::format("a tendon channel is omitted: a kerf of {} mm is wider", rounded(kerf_)));
         return;
       }
       finished.push_back(part);
@@ -176,7 +180,7 @@ class LayerMaker {
     const std::vector<Polygon> outer = difference(layer.outer.front(), finished);
     const std::vector<Polygon> cut_outer = difference(layer.cut_outer.front(), path);
     if (!is_one_plate(outer) || !is_one_plate(cut_outer)) {
-      note_once(plates_, fmt::format("{}: a tendon channel is omitted, it would cut the plate in two", layer.name));
+      note_omission(plates_, fmt::format("{}: a tendon channel is omitted, it would cut the plate in two", layer.name));
       return;
     }
     layer.outer = {outer.front()};
@@ -356,9 +360,10 @@ void choose_sheet(Plates& plates, const Cut& cut, const std::vector<Vec2>& sizes
                           rounded(needed.x()), rounded(needed.y()));
   }
   if (larger.empty()) return;
-  plates.notes.push_back(fmt::format(
-      "a sheet of {} x {} mm (cut.sheet_width_mm, cut.sheet_height_mm) is too small: drawn on {} x {} mm, because {}",
-      rounded(declared.x()), rounded(declared.y()), rounded(plates.sheet.x()), rounded(plates.sheet.y()), larger));
+  note_omission(plates, fmt::format("a sheet of {} x {} mm (cut.sheet_width_mm, cut.sheet_height_mm) is too small: "
+                                    "drawn on {} x {} mm, because {}",
+                                    rounded(declared.x()), rounded(declared.y()), rounded(plates.sheet.x()),
+                                    rounded(plates.sheet.y()), larger));
 }
 
 void lay_on_sheets(Plates& plates, const Cut& cut) {
@@ -393,6 +398,8 @@ std::string plate_label(const Plates& plates, const PlacedPlate& plate) {
   const PlateLayer& layer = plates.layers[plate.layer];
   return label_text(layer, layer.label_kind, plate.number, static_cast<int>(plates.placed.size()));
 }
+
+std::vector<std::string> plate_omissions(const Product& product) { return make_plates(product).omissions; }
 
 Plates make_plates(const Product& product) {
   const CutFeatures features(product);

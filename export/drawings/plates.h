@@ -41,10 +41,11 @@ struct Plates {
   /// Centres, on different radii and not in line with the axis, so that plates fit in one orientation only.
   std::vector<Vec2> dowels;
   double dowel_diameter = 0;
-  Vec2 sheet = Vec2::Zero();         ///< the sheet of [cut], or a larger one if a plate requires it
-  Vec2 check_square = Vec2::Zero();  ///< position of its lower left corner on the drawing
-  int sheets = 1;                    ///< side by side from x = 0, k_sheet_gap between them
-  std::vector<std::string> notes;    ///< the order of the stack, and features that are narrow, changed or omitted
+  Vec2 sheet = Vec2::Zero();           ///< the sheet of [cut], or a larger one if a plate requires it
+  Vec2 check_square = Vec2::Zero();    ///< position of its lower left corner on the drawing
+  int sheets = 1;                      ///< side by side from x = 0, k_sheet_gap between them
+  std::vector<std::string> notes;      ///< the order of the stack, and features that are narrow, changed or omitted
+  std::vector<std::string> omissions;  ///< those of `notes` about features or sizes of [cut] that are not as declared
 };
 
 /// Number of plates of this thickness that make at least `height`, at least one.

@@ -340,8 +340,9 @@ std::string template_sections(const KitProduct& product) {
 
 std::string kit_html(const KitProduct& product) {
   std::string notes;
-  if (!product.plan.notes.empty())
-    notes = "<section class=\"warnings\">" + html_list(product.plan.notes) + "</section>";
+  std::vector<std::string> lines = product.plan.warnings;
+  lines.insert(lines.end(), product.plan.notes.begin(), product.plan.notes.end());
+  if (!lines.empty()) notes = "<section class=\"warnings\">" + html_list(lines) + "</section>";
   const bool drilled = product.plan.drilled;
   const LengthUnit units = product.pulley.joint.mechanism.units;
   const std::string body =

@@ -108,13 +108,15 @@ struct MotorCheck {
   double joint_speed_needed = 0;  ///< rad/s; 0: none is required
   /// "motor_travel", "motor_torque", "motor_speed": those with a known limit.
   std::vector<profile::Condition> conditions;
-  /// Models of the catalogue behind the file's gearbox, "NEMA17-48mm 5:1": those that fit the bore first, the weakest
-  /// first.
+  /// Models of the catalogue behind the file's gearbox, "NEMA17-48mm 5:1": those that fit the bore first, or the input
+  /// of the gearbox; the weakest first. Behind a gearbox the model of the file is the first, and no other has a horn.
   std::vector<std::string> sufficient_models;
   std::vector<double> sufficient_torques;  ///< their stall torques behind the gearbox, N·mm
-  std::size_t fitting_models = 0;          ///< number of sufficient_models that fit the bore
-  std::string strongest_model;             ///< of the catalogue, of those that fit the bore; "" without one
-  std::string misfit;                      ///< why the model does not fit the bore; "" if it does
+  std::size_t fitting_models = 0;          ///< number of sufficient_models that fit the bore, or the gearbox
+  bool is_fit_known = false;               ///< the file states a shaft, a horn, or a model behind its gearbox
+  bool has_gearbox = false;
+  std::string strongest_model;  ///< of the catalogue, of those that fit the bore; "" without one
+  std::string misfit;           ///< why the model does not fit the bore; "" if it does
   std::string misfit_hint;
   /// Set by the caller: changes with which every condition holds and the pulley passes every check of a full build.
   profile::Advice advice;
@@ -124,7 +126,7 @@ struct MotorCheck {
   /// the catalogue has none that fits.
   std::string strongest_text() const;
   /// "suitable: XL330-M288 (margin 2.4) or 12 more", "suitable with another bore: …", "no motor of the catalogue
-  /// suffices". Models with another bore are a text of their own. The margin is that of the torque.
+  /// suffices". Models with another bore or gearbox are a text of their own. The margin is that of the torque.
   std::vector<std::string> models_texts() const;
   /// models_texts() in one line.
   std::string models_text() const;

@@ -75,6 +75,8 @@ solid::BodyLayout layout_to_cut(Mechanism mechanism, const profile::SynthesisRes
 std::string profile_dxf(const Product& product, DxfVersion version);
 /// The part as a stack of plates to cut, nested on sheets.
 std::string plates_dxf(const Product& product, DxfVersion version);
+/// Features of the plates that are omitted or smaller than [cut] declares, with the reason, and a sheet that is larger.
+std::vector<std::string> plate_omissions(const Product& product);
 
 /// One closed or open path of a drawing. Arcs and circles are points within 0.001 mm.
 struct DrawingPath {

@@ -213,6 +213,7 @@ struct KitPlan {
   std::vector<KitItem> items;
   std::array<KitTendon, 2> tendons;
   std::vector<std::string> notes;
+  std::vector<std::string> warnings;
   /// True for a joint with a drum, separate attachments, idlers or sheaths, or a multi-turn pulley. The kit then
   /// consists of plates to drill instead of a rig, and `sizes`, `feet` and `legs` are empty.
   bool drilled = false;
@@ -223,6 +224,8 @@ struct KitPlan {
 
 /// The thinnest pin radius of a kit, mm: rods below 1 mm diameter are not sold.
 inline constexpr double k_least_pin = 0.5;
+/// Thickness of a drilling template, mm.
+inline constexpr double k_template_plate = 4;
 
 /// Requires a feasible one-turn pulley.
 KitPlan plan_kit(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,

@@ -72,6 +72,7 @@ struct Change {
   std::string from_word = {};  ///< for a key that is not a number: "M3"
   std::string to_word = {};
   std::optional<double> until = {};  ///< the last value that suffices, if a value not far beyond `to` no longer does
+  std::string cost = {};             ///< ", which omits the hub"; "" if it is unknown or nothing
 };
 
 /// Feasibility test of changed mechanisms during the search for advice.

@@ -59,33 +59,6 @@ bool suffices(const MotorModel& model, const MotorCheck& need, const std::vector
          (model.speed > 0 && lowest_joint_speed(model, all, true).value >= need.joint_speed_needed * (1 - k_rounding));
 }
 
-/// Sets the models of the catalogue that suffice behind the file's gearbox, and the strongest that fits the bore.
-/// Models that fit the bore come first; within both groups, the weaker ones. A gearbox has a shaft of its own: with one,
-/// the model of the file comes first, and no model is said to fit the bore.
-void add_models(MotorCheck& need, const Mechanism& mechanism, const std::vector<Demand>& all) {
-  struct Found {
-    MotorModel model;
-    bool is_first = false;
-  };
-  const bool has_gearbox = mechanism.motor.gear_ratio != 1;
-  std::vector<Found> found;
-  for (const MotorModel& model : motor_models()) {
-    const MotorModel geared = behind_gearbox(model, mechanism.motor);
-    const bool is_first = has_gearbox ? model.name == mechanism.motor.model : fits_bore(model, mechanism.body);
-    if (suffices(geared, need, all)) found.push_back({geared, is_first});
-  }
-  std::stable_sort(found.begin(), found.end(), [](const Found& one, const Found& other) {
-    return one.is_first != other.is_first ? one.is_first : one.model.stall_torque < other.model.stall_torque;
-  });
-  for (const Found& one : found) {
-    need.sufficient_models.push_back(one.model.name);
-    need.sufficient_torques.push_back(one.model.stall_torque);
-    need.fitting_models += !has_gearbox && one.is_first ? 1 : 0;
-  }
-  if (has_gearbox) return;
-  if (const MotorModel* strongest = strongest_motor_that_fits(mechanism.body)) need.strongest_model = strongest->name;
-}
-
 /// True if a bore that names no shaft has the diameter of one of the model's shafts.
 bool has_diameter_of_shaft(const Body& body, const MotorModel& model) {
   constexpr double k_usual_bore = 5.0, k_same = 0.01;  // mm; k_usual_bore: if the file states no diameter
@@ -95,6 +68,64 @@ bool has_diameter_of_shaft(const Body& body, const MotorModel& model) {
     const ShaftType* shaft = find_shaft(name);
     return shaft != nullptr && std::abs(shaft->diameter - bore) < k_same;
   });
+}
+
+/// True if both models have a shaft or horn in common.
+bool have_same_fitting(const MotorModel& one, const MotorModel& other) {
+  return std::any_of(one.fits.begin(), one.fits.end(), [&other](const std::string& name) {
+    return std::find(other.fits.begin(), other.fits.end(), name) != other.fits.end();
+  });
+}
+
+bool has_shaft(const MotorModel& model) {
+  return std::any_of(model.fits.begin(), model.fits.end(),
+                     [](const std::string& name) { return find_shaft(name) != nullptr; });
+}
+
+/// True if the file states the motor's shaft or horn. A horn of one's own may be that of any motor, and so may a bore
+/// without a diameter.
+bool states_fitting(const Body& body) {
+  if (find_shaft(body.shaft) != nullptr) return true;
+  return body.bore == Bore::horn ? body.horn != k_own_horn : body.bore_diameter > 0;
+}
+
+/// Sets the models of the catalogue that suffice behind the file's gearbox, and the strongest that fits the bore.
+/// Models that fit the bore come first; within both groups, the weaker ones. Behind a gearbox, whose own shaft is in the
+/// bore, the model of the file comes first, then those with the same shaft. Of the others it takes those with a shaft.
+void add_models(MotorCheck& need, const Mechanism& mechanism, const std::vector<Demand>& all) {
+  enum class Fit { named, fitting, other };
+  struct Found {
+    MotorModel model;
+    Fit fit = Fit::other;
+  };
+  const MotorModel* named = find_motor_model(mechanism.motor.model);
+  need.has_gearbox = mechanism.motor.gear_ratio != 1;
+  need.is_fit_known = need.has_gearbox ? named != nullptr : states_fitting(mechanism.body);
+  const auto fit_of = [&](const MotorModel& model) {
+    if (!need.has_gearbox) {
+      const bool fits = fits_bore(model, mechanism.body) || has_diameter_of_shaft(mechanism.body, model);
+      return fits && need.is_fit_known ? Fit::fitting : Fit::other;
+    }
+    if (&model == named) return Fit::named;
+    return named != nullptr && have_same_fitting(model, *named) ? Fit::fitting : Fit::other;
+  };
+  std::vector<Found> found;
+  for (const MotorModel& model : motor_models()) {
+    const Fit fit = fit_of(model);
+    if (need.has_gearbox && fit == Fit::other && !has_shaft(model)) continue;
+    const MotorModel geared = behind_gearbox(model, mechanism.motor);
+    if (suffices(geared, need, all)) found.push_back({geared, fit});
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Found& one, const Found& other) {
+    return one.fit != other.fit ? one.fit < other.fit : one.model.stall_torque < other.model.stall_torque;
+  });
+  for (const Found& one : found) {
+    need.sufficient_models.push_back(one.model.name);
+    need.sufficient_torques.push_back(one.model.stall_torque);
+    need.fitting_models += one.fit != Fit::other ? 1 : 0;
+  }
+  if (need.has_gearbox) return;
+  if (const MotorModel* strongest = strongest_motor_that_fits(mechanism.body)) need.strongest_model = strongest->name;
 }
 
 /// "the bore is for the shaft n20-d3".
@@ -192,8 +223,7 @@ std::vector<std::string> MotorCheck::models_texts() const {
   constexpr std::size_t k_shown = 3;
   if (sufficient_models.empty()) return {"no motor of the catalogue suffices"};
   const std::size_t shown = std::min(sufficient_models.size(), k_shown);
-  // If no model of the catalogue fits the bore, the list is not divided by the bore.
-  const std::size_t fitting = strongest_model.empty() ? shown : std::min(fitting_models, shown);
+  const std::size_t fitting = is_fit_known ? std::min(fitting_models, shown) : shown;
   const auto list = [this](std::size_t begin, std::size_t end) {
     std::string text;
     for (std::size_t i = begin; i < end; ++i) {
@@ -205,7 +235,8 @@ std::vector<std::string> MotorCheck::models_texts() const {
   std::vector<std::string> texts;
   if (fitting > 0) texts.push_back("suitable: " + list(0, fitting));
   if (fitting < shown)
-    texts.push_back((fitting > 0 ? "with another bore: " : "suitable with another bore: ") + list(fitting, shown));
+    texts.push_back((fitting > 0 ? "with another " : "suitable with another ") +
+                    std::string(has_gearbox ? "gearbox: " : "bore: ") + list(fitting, shown));
   if (shown < sufficient_models.size())
     texts.back() += " or " + std::to_string(sufficient_models.size() - shown) + " more";
   return texts;

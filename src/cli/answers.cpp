@@ -396,27 +396,44 @@ double extract_travel(std::string& simple) {
   return 0;
 }
 
-/// Models of the catalogue whose name has all words; the model of that name alone if there is one.
+/// Models of the catalogue whose name and description have all words, and the name at least one; the model of that name
+/// alone if there is one.
 std::vector<const MotorModel*> matching_models(const std::vector<std::string>& words) {
   std::vector<const MotorModel*> found;
   for (const MotorModel& model : motor_models()) {
-    const std::string name = simplified(model.name);
-    if (model.fits.empty() || words.empty()) continue;
+    const std::string name = simplified(model.name), text = name + " " + simplified(model.description);
     if (words.size() == 1 && words.front() == name) return {&model};
-    const auto has = [&name](const std::string& word) { return name.find(word) != std::string::npos; };
-    if (std::all_of(words.begin(), words.end(), has)) found.push_back(&model);
+    const auto is_in_name = [&name](const std::string& word) { return name.find(word) != std::string::npos; };
+    const auto is_in_text = [&text](const std::string& word) { return text.find(word) != std::string::npos; };
+    if (std::any_of(words.begin(), words.end(), is_in_name) && std::all_of(words.begin(), words.end(), is_in_text))
+      found.push_back(&model);
   }
   return found;
 }
 
-/// The first horn or shaft that fits a model.
-TypedMotor motor_of(const MotorModel& model) {
+/// A model without its horn or shaft.
+TypedMotor bare_motor_of(const MotorModel& model) {
   TypedMotor motor;
+  motor.model = model.name;
+  motor.travel = model.travel;
+  return motor;
+}
+
+/// How to answer with a model of which the catalogue knows neither horn nor shaft.
+Refusal no_fitting(const MotorModel& model) {
+  return {
+      fmt::format("the catalogue has neither horn nor shaft of {0}: type its shaft behind it, such as {0}, 5 mm D, "
+                  "or a horn of the list, such as {0}, disc-25T-M3",
+                  model.name)};
+}
+
+/// A model with its first horn or shaft.
+Answer<TypedMotor> motor_of(const MotorModel& model) {
+  if (model.fits.empty()) return no_fitting(model);
+  TypedMotor motor = bare_motor_of(model);
   const std::string& name = model.fits.front();
   const ShaftType* shaft = find_shaft(name);
   (shaft != nullptr ? motor.shaft : motor.horn) = name;
-  motor.model = model.name;
-  motor.travel = model.travel;
   motor.words = fmt::format("{}, {} ({})", model.name,
                             shaft != nullptr ? shaft->description : find_horn(name)->description, name);
   return motor;
@@ -452,13 +469,38 @@ std::optional<Answer<TypedMotor>> read_shaft(std::string_view text, LengthUnit p
 
 /// The words of an answer that may be part of a name.
 std::vector<std::string> words_of_name(std::string_view text) {
-  constexpr std::array<std::string_view, 9> k_fillers{"hobby", "small", "standard", "a",    "with",
-                                                      "for",   "and",   "that",     "turns"};
+  constexpr std::array<std::string_view, 10> k_fillers{"hobby", "small", "standard", "a",     "with",
+                                                       "for",   "and",   "that",     "turns", "encoder"};
   std::vector<std::string> words = split_words(text);
   std::erase_if(words, [&](const std::string& word) {
     return std::find(k_fillers.begin(), k_fillers.end(), word) != k_fillers.end();
   });
   return words;
+}
+
+/// A model of the catalogue and a shaft or horn of the list: "STS3032, disc-25T-M3". Empty for any other words.
+std::optional<TypedMotor> read_model_with_entry(const std::vector<std::string>& words) {
+  for (const MotorModel& model : motor_models()) {
+    std::vector<std::string> others = words;
+    if (std::erase(others, simplified(model.name)) == 0 || others.empty()) continue;
+    const std::vector<const ShaftType*> of_shafts = matching(shafts(), others);
+    const std::vector<const HornType*> of_horns = matching(horns(), others);
+    TypedMotor motor = bare_motor_of(model);
+    std::string description;
+    if (is_one_family(of_shafts) && of_horns.empty()) {
+      motor.shaft = of_shafts.front()->name;
+      motor.choice = choice_words(of_shafts);
+      description = of_shafts.front()->description;
+    } else if (of_horns.size() == 1 && of_shafts.empty()) {
+      motor.horn = of_horns.front()->name;
+      description = of_horns.front()->description;
+    } else {
+      continue;
+    }
+    motor.words = fmt::format("{}, {} ({})", model.name, description, motor.shaft + motor.horn);
+    return motor;
+  }
+  return std::nullopt;
 }
 
 /// An entry of the catalogue by words of its name. `typed`: the whole answer, for the refusal.
@@ -480,6 +522,7 @@ Answer<TypedMotor> read_entry(const std::vector<std::string>& words, std::string
     motor.words = of_horns.front()->description;
     return motor;
   }
+  if (const auto with_entry = read_model_with_entry(words)) return *with_entry;
   std::string names;
   if (of_shafts.empty() && of_horns.empty()) {
     const std::vector<const MotorModel*> models = matching_models(words);
@@ -566,8 +609,7 @@ std::optional<TypedMotor> read_model_with_shaft(const std::string& simple, Lengt
   const ModelAnswer answer = split_model(simple, plain);
   if (!answer.bore || answer.models.size() != 1) return std::nullopt;
   const MotorModel& model = *answer.models.front();
-  if (find_shaft(model.fits.front()) == nullptr) return std::nullopt;
-  TypedMotor motor = motor_of(model);
+  TypedMotor motor = bare_motor_of(model);
   for (const std::string& name : model.fits) {
     const ShaftType* shaft = find_shaft(name);
     if (shaft == nullptr || std::abs(shaft->diameter - *answer.bore) > 0.005) continue;
@@ -576,7 +618,6 @@ std::optional<TypedMotor> read_model_with_shaft(const std::string& simple, Lengt
     motor.words = fmt::format("{}, {} ({})", model.name, shaft->description, name);
     return motor;
   }
-  motor.shaft.clear();
   motor.bore = *answer.bore;
   motor.flat = answer.flat;
   motor.words = fmt::format("{}, a {} shaft of {} mm", model.name, answer.flat ? "D" : "round", rounded(*answer.bore));
@@ -590,6 +631,10 @@ Answer<TypedMotor> read_geared(const std::string& simple, double ratio, std::str
     return Refusal{fmt::format("a gear ratio of {}:1 is not within {} to {}", rounded(ratio), rounded(field.least),
                                rounded(field.most))};
   const auto [models, bore, flat] = split_model(simple, plain);
+  // "N20 298:1": the ratio is part of the model's name.
+  const std::string ratio_in_name = "-" + rounded(ratio) + "-";
+  for (const MotorModel* model : models)
+    if (!bore && models.size() > 1 && model->name.find(ratio_in_name) != std::string::npos) return motor_of(*model);
   if (models.size() != 1) {
     std::string names;
     add_names(names, models);
@@ -597,14 +642,18 @@ Answer<TypedMotor> read_geared(const std::string& simple, double ratio, std::str
                                names.empty() ? in_quotes(typed) + " names none, type such as NEMA17-48mm 5:1"
                                              : in_quotes(typed) + " fits several: " + names + ". Which one?")};
   }
-  TypedMotor motor = motor_of(*models.front());
+  const MotorModel& model = *models.front();
+  TypedMotor motor = bare_motor_of(model);
+  if (!bore) {
+    Answer<TypedMotor> own = motor_of(model);
+    if (std::holds_alternative<Refusal>(own)) return own;
+    motor = std::get<TypedMotor>(std::move(own));
+  }
   motor.gear_ratio = ratio;
   motor.travel /= ratio;
-  const std::string gear = fmt::format("{} with a gearbox {}:1", models.front()->name, rounded(ratio));
+  const std::string gear = fmt::format("{} with a gearbox {}:1", model.name, rounded(ratio));
   motor.words = gear + ", with the motor's own shaft: type the gearbox's shaft behind it if it differs, such as 8 mm D";
   if (!bore) return motor;
-  motor.shaft.clear();
-  motor.horn.clear();
   motor.bore = *bore;
   motor.flat = flat;
   motor.words = fmt::format("{}, a {} shaft of {} mm", gear, flat ? "D" : "round", rounded(*bore));

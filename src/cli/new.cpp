@@ -9,6 +9,7 @@
 #include "fusee/analysis.h"
 #include "fusee/mechanism_file.h"
 #include "mechanism/catalogue.h"
+#include "mechanism/embedded.h"
 #include "mechanism/lengths.h"
 #include "mechanism/linear_relation.h"
 
@@ -115,6 +116,10 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
   const formats::Product& product = layout.built.product;
   reply.text = asked.text;
   reply.diagnostics = product.file.warnings;
+  for (Diagnostic& diagnostic : reply.diagnostics) {
+    diagnostic.message = lengths_in(asked.units, diagnostic.message);
+    diagnostic.hint = lengths_in(asked.units, diagnostic.hint);
+  }
   for (const std::vector<std::string>* warnings : {&product.synthesis.warnings, &product.holding.warnings}) {
     for (const std::string& warning : *warnings)
       reply.diagnostics.push_back(make_diagnostic(Severity::warning, warning));
@@ -135,9 +140,9 @@ Reply ask_questions(const Arguments& arguments, Console& console, const RunConte
     reply.diagnostics.push_back(
         make_diagnostic(layout.is_held ? Severity::note : Severity::warning, layout.price_words));
   if (asked.room)
-    reply.diagnostics.push_back(make_diagnostic(
-        Severity::note, lengths_in(asked.units, "the motor holds the load with a larger drum and pulley: " +
-                                                    other_answer_words(*asked.room))));
+    reply.diagnostics.push_back(
+        make_diagnostic(Severity::note, lengths_in(asked.units, "the motor holds the load with " + asked.room_words +
+                                                                    ": " + other_answer_words(*asked.room))));
   if (!product.file.mechanism.motor.is_there())
     reply.diagnostics.push_back(motor_note(layout));
   else if (const auto& motor = product.under_load.motor; motor && motor->torque_limit >= motor->torque.value)
@@ -197,6 +202,25 @@ Reply open_print(const Arguments& arguments, FileAccess& files) {
   return reply;
 }
 
+/// Files on the disk, and a template's table where there is none of its name.
+class TemplateFiles : public FileAccess {
+ public:
+  TemplateFiles(const std::optional<TemplateTable>& table, FileAccess& files) : table_(table), files_(files) {}
+
+  void read(const ReadRequest& request, const TakeBlock& take) override {
+    const bool is_of_template = table_ && request.path.filename() == table_->file;
+    if (is_of_template && (files_.is_bundled() || !std::filesystem::exists(request.path)))
+      take(table_->text);
+    else
+      files_.read(request, take);
+  }
+  bool is_bundled() const override { return files_.is_bundled(); }
+
+ private:
+  const std::optional<TemplateTable>& table_;
+  FileAccess& files_;
+};
+
 /// Writes the file of -o, and the table of its law beside it.
 void write_new_file(const Arguments& arguments, FileAccess& files, Reply& reply) {
   const std::filesystem::path path = *arguments.text("--out");
@@ -220,8 +244,20 @@ Reply template_or_list(const Arguments& arguments, FileAccess& files) {
   const std::string& name = arguments.positionals().front();
   Reply reply;
   reply.text = find_template(name);
-  if (const auto settings = arguments.settings(); !settings.empty())
-    reply.text = with_settings(reply.text, name, settings, reply.diagnostics, files);
+  std::optional<TemplateTable> table;
+  for (TemplateTable& known : template_tables())
+    if (known.template_name == name) table = std::move(known);
+  if (const auto settings = arguments.settings(); !settings.empty()) {
+    TemplateFiles with_table(table, files);
+    reply.text = with_settings(reply.text, name, settings, reply.diagnostics, with_table);
+  }
+  if (table && reply.text.find('"' + table->file + '"') != std::string::npos) {
+    reply.fields["table"] = {{"file", table->file}, {"text", table->text}};
+    if (!arguments.has("--out"))
+      reply.diagnostics.push_back(make_diagnostic(Severity::note,
+                                                  fmt::format("its law needs the table {} beside it", table->file),
+                                                  fmt::format("'fusee new {0} -o {0}.toml' writes both", name)));
+  }
   reply.fields["template"] = name;
   reply.fields["text"] = reply.text;
   return reply;

@@ -13,6 +13,7 @@
 #include "cli/arguments.h"
 #include "cli/interrupt.h"
 #include "cli/joint_picture.h"
+#include "fusee/solid.h"
 #include "mechanism/catalogue.h"
 #include "mechanism/field_text.h"
 #include "mechanism/lengths.h"
@@ -278,6 +279,7 @@ std::vector<std::string> keys_to_write(const DeclaredMechanism& mechanism) {
   else
     keys += mechanism.body.bore == Bore::horn ? "body.bore body.horn" : "body.bore body.bore_diameter_mm";
   if (mechanism.body.set_screw != default_mechanism().body.set_screw) keys += " body.set_screw body.nut_trap";
+  if (mechanism.body.hub_height != default_mechanism().body.hub_height) keys += " body.hub_height_mm";
   if (mechanism.motor.model != Motor{}.model) keys += " motor.model";
   if (mechanism.motor.travel > 0) keys += " motor.travel_deg";
   if (mechanism.motor.gear_ratio != 1) keys += " motor.gear_ratio";
@@ -359,11 +361,12 @@ class Layouts {
     return found;
   }
 
-  /// A larger room with which a layout exists: for a pulley and a drum.
-  std::optional<OtherAnswer> other_room(const Answers& answers) const {
+  /// A larger room with which a layout exists: for a pulley and a drum. `found`: set to it, mm.
+  std::optional<OtherAnswer> other_room(const Answers& answers, double* found = nullptr) const {
     constexpr int k_room_question = 4;  // number in questions()
     const auto room = nearest(answers, &Answers::room, {1.1, 1.25, 1.5, 2, 3, 5, 8});
     if (!room) return std::nullopt;
+    if (found != nullptr) *found = *room;
     return OtherAnswer{k_room_question, std::string(questions()[k_room_question - 1].subject), rounded(*room) + " mm",
                        rounded(answers.room) + " mm"};
   }
@@ -444,6 +447,23 @@ std::string about(const pipeline::ChosenLayout& layout, const Answers& answers) 
                      lengths_in(answers.units, answers.tendon.words), shortcoming);
 }
 
+/// "a drum of 42.3 mm radius (now 36.7 mm) and a pulley 34 mm wide and 58.7 mm high (now 35.7 mm and 23 mm)".
+std::string words_beside(const pipeline::ChosenLayout& other, const pipeline::ChosenLayout& now) {
+  const auto height = [](const pipeline::ChosenLayout& layout) {
+    return rounded(solid::outer_size(layout.built.product.pulley).height, 3);
+  };
+  const double drum = other.file.mechanism.joint.drum_radius, drum_now = now.file.mechanism.joint.drum_radius;
+  std::string words;
+  if (drum > 0)
+    words = fmt::format("a drum of {} mm radius ({}) and ", rounded(drum),
+                        drum_now > 0 ? "now " + rounded(drum_now) + " mm" : "now a lever");
+  words += fmt::format("a pulley {} mm wide and {} mm high (now {} mm and {} mm)", rounded(other.diameter, 3),
+                       height(other), rounded(now.diameter, 3), height(now));
+  if (other.built.product.helix && !now.built.product.helix) words += ", of several turns";
+  if (!other.is_held && now.is_held) words += ", which nothing holds on its shaft";
+  return words;
+}
+
 bool sets_units(const Setting& setting) { return setting.key == "units"; }
 
 /// The file of a layout: the keys of answers, layout and settings. A setting of a list needs every key.
@@ -490,7 +510,9 @@ AskedMechanism ask_for_mechanism(Console& console, const std::vector<Setting>& s
   }
   const Layouts layouts(settings, context);
   while (true) {
-    AskedMechanism asked{layouts.search(answers, context), {}, {}, {}, answers.units};
+    AskedMechanism asked;
+    asked.search = layouts.search(answers, context);
+    asked.units = answers.units;
     if (asked.search.chosen) {
       const pipeline::ChosenLayout& layout = *asked.search.chosen;
       asked.text = text_of(layout, answers, settings);
@@ -498,7 +520,17 @@ AskedMechanism ask_for_mechanism(Console& console, const std::vector<Setting>& s
         // With the limit of the motor, a layout that the motor cannot hold is none.
         std::vector<Setting> with_limit = settings;
         with_limit.push_back({"motor.enforce", "true"});
-        asked.room = Layouts(with_limit, context).other_room(answers);
+        double room = 0;
+        asked.room = Layouts(with_limit, context).other_room(answers, &room);
+        if (asked.room) {
+          Answers wider = answers;
+          wider.room = room;
+          const pipeline::LayoutSearch search = layouts.search(wider, context.without_progress());
+          if (search.chosen && !search.chosen->stalls)
+            asked.room_words = words_beside(*search.chosen, layout);
+          else
+            asked.room.reset();
+        }
       }
       console.write("\n" + lengths_in(answers.units, joint_picture(layout.built.product)) + "\n");
       return asked;

@@ -27,6 +27,7 @@ struct AskedMechanism {
   std::string text;                 ///< the file; "" without a layout
   std::vector<OtherAnswer> others;  ///< without a layout
   std::optional<OtherAnswer> room;  ///< with which the named motor holds the load, if it cannot hold it now
+  std::string room_words;           ///< the layout with that room beside the chosen one
   LengthUnit units = LengthUnit::mm;
 };
 

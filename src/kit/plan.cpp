@@ -466,12 +466,10 @@ void add_notes(KitPlan& plan, const Mechanism& mechanism, const solid::BodyLayou
         ": the base plate has only a hole for it. Mount yours so that the pulley's lower face is " +
         rounded(sizes.pulley_low, 3) + " mm above the plate, or add it to profiles/catalogue/motors.toml");
   } else if (sizes.motor->shaft > 0) {
-    const double needed =
-        sizes.base + sizes.pulley_low + (layout.set_screw.present ? layout.set_screw.z + 1.5 : 0.5 * layout.z_hub);
-    if (needed > sizes.motor->shaft_length)
+    const double needed = sizes.base + sizes.pulley_low + 0.5 * layout.z_hub;
+    if (!layout.set_screw.present && needed > sizes.motor->shaft_length)
       plan.notes.push_back("the motor's shaft must reach " + rounded(std::ceil(needed), 3) + " mm above its face, " +
-                           rounded(sizes.motor->shaft_length, 3) + " mm is usual: buy one with a long shaft" +
-                           (layout.set_screw.present ? ", or set body.hub_height_mm = 0 and press the pulley on" : ""));
+                           rounded(sizes.motor->shaft_length, 3) + " mm is usual: buy one with a long shaft");
   }
   constexpr double k_usual_bed = 220;  // mm
   // The legs' positions are corners of a rectangle, the first and the third opposite.

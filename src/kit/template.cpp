@@ -20,11 +20,11 @@ namespace {
 
 // All in mm.
 constexpr double k_between_holes = 1.2;  // least wall: three lines of a 0.4 mm nozzle
-constexpr double k_plate = 4;            // thickness of the plates
-constexpr double k_ledge = 1.2;          // ledge below the bearings and around a spacer
-constexpr double k_clearance = 0.5;      // of moving parts
-constexpr double k_around_hole = 5;      // width of a plate around its holes
-constexpr double k_hole_at_C = 1.6;      // radius
+constexpr double k_plate = k_template_plate;
+constexpr double k_ledge = 1.2;      // ledge below the bearings and around a spacer
+constexpr double k_clearance = 0.5;  // of moving parts
+constexpr double k_around_hole = 5;  // width of a plate around its holes
+constexpr double k_hole_at_C = 1.6;  // radius
 
 struct NamedHole {
   std::string name;

@@ -1,4 +1,4 @@
-# cmake -DOUTPUT=… "-DTEMPLATES=a.toml|b.toml" "-DCATALOGUE=…" -P embed_profiles.cmake
+# cmake -DOUTPUT=… "-DTEMPLATES=a.toml|b.toml" "-DTABLES=a_law.csv" "-DCATALOGUE=…" -P embed_profiles.cmake
 # Writes a C++ source that holds the files of profiles/ as raw strings.
 
 function(append_files list_name files)
@@ -18,8 +18,10 @@ endfunction()
 
 set(source "// Made by embed_profiles.cmake from profiles/.\n#include \"mechanism/embedded.h\"\n\nnamespace fusee {\n\n")
 string(REPLACE "|" ";" TEMPLATES "${TEMPLATES}")
+string(REPLACE "|" ";" TABLES "${TABLES}")
 string(REPLACE "|" ";" CATALOGUE "${CATALOGUE}")
 append_files(embedded_templates "${TEMPLATES}")
+append_files(embedded_tables "${TABLES}")
 append_files(embedded_catalogue "${CATALOGUE}")
 string(APPEND source "\n}  // namespace fusee\n")
 file(WRITE "${OUTPUT}" "${source}")

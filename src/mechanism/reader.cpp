@@ -12,6 +12,7 @@
 #include "fusee/base.h"
 #include "fusee/mechanism_file.h"
 #include "mechanism/catalogue.h"
+#include "mechanism/embedded.h"
 #include "mechanism/field_text.h"
 #include "mechanism/horn_faults.h"
 #include "mechanism/law_table.h"
@@ -769,8 +770,13 @@ void MechanismReader::load_law_table() {
       pulley.rows = parse_law_table(csv, path.string(), mechanism_.joint, table_errors_);
   } catch (const InputError& error) {
     const Diagnostic& cause = error.diagnostics().front();
+    std::string of_template;
+    for (const TemplateTable& known : template_tables())
+      if (known.file == path.filename())
+        of_template = "'fusee new " + known.template_name + " -o " + known.template_name +
+                      ".toml' writes the template's table beside its file; ";
     fail(entries_[key].place, key + ": " + cause.place.file + ": " + cause.message,
-         std::string("a CSV file with columns ") + (torque ? "theta_deg,motor_torque_Nmm" : "alpha_deg,theta_deg") +
+         of_template + "a CSV file with columns " + (torque ? "theta_deg,motor_torque_Nmm" : "alpha_deg,theta_deg") +
              "; its path is relative to the mechanism file");
   }
 }

@@ -25,4 +25,15 @@ std::string_view find_template(std::string_view name) {
                    (nearest.empty() ? "" : "did you mean " + nearest + "? ") + std::string("Known templates: ") + list);
 }
 
+std::vector<TemplateTable> template_tables() {
+  std::vector<TemplateTable> all;
+  for (const EmbeddedFile& table : embedded_tables()) {
+    const std::string file = std::string(table.name) + ".csv";
+    for (const EmbeddedFile& known : embedded_templates())
+      if (known.text.find('"' + file + '"') != std::string_view::npos)
+        all.push_back({std::string(known.name), file, table.text});
+  }
+  return all;
+}
+
 }  // namespace fusee

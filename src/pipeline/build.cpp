@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <memory>
+#include <mutex>
 
 #include "analysis/plausibility.h"
 #include "base/thread_pool.h"
@@ -19,6 +21,7 @@
 #include "pipeline/motor_advice.h"
 #include "pipeline/multi_turn.h"
 #include "pipeline/omissions.h"
+#include "pipeline/shaft_reach.h"
 #include "pipeline/thin_walls.h"
 #include "pipeline/wide_parts.h"
 #include "solid/print.h"
@@ -509,14 +512,24 @@ std::optional<std::array<kit::KitTendon, 2>> rig_of(const formats::Product& prod
 std::vector<std::string> advised_notes(const formats::Product& product, const BuildOptions& options,
                                        const RunContext& context) {
   if (!options.advice) return product.pulley.layout.notes;
-  const BuildOmissions build = [&](const Mechanism& changed) -> std::optional<std::vector<std::string>> {
+  const BuildOmissions build = [&](const Mechanism& changed) -> std::optional<BuiltTrial> {
     const auto trial = passing_product(with_declared(product.file, changed), options, context);
     if (!trial) return std::nullopt;
-    std::vector<std::string> features;
-    for (const solid::Omission& omission : trial->pulley.layout.omissions) features.push_back(omission.feature);
-    return features;
+    BuiltTrial built;
+    for (const solid::Omission& omission : trial->pulley.layout.omissions) built.omitted.push_back(omission.feature);
+    built.cost = costs(*trial, product);
+    return built;
   };
   return notes_with_advice(product, build, context);
+}
+
+/// Notes about omissions of the plates, for a file that declares a cutter. Others are printed.
+std::vector<std::string> plate_notes(const formats::Product& product) {
+  const auto is_of_cut = [](const auto& entry) { return entry.first.starts_with("cut."); };
+  std::vector<std::string> notes;
+  if (product.helix || std::none_of(product.file.places.begin(), product.file.places.end(), is_of_cut)) return notes;
+  for (const std::string& omission : formats::plate_omissions(product)) notes.push_back("plates.dxf: " + omission);
+  return notes;
 }
 
 std::vector<Diagnostic> parts_in_the_way(const formats::Product& product, const BuildOptions& options,
@@ -526,16 +539,28 @@ std::vector<Diagnostic> parts_in_the_way(const formats::Product& product, const 
   });
 }
 
+std::optional<Diagnostic> screw_beyond_shaft(const formats::Product& product, const BuildOptions& options,
+                                             const RunContext& context) {
+  return shaft_reach_warning(product, 0, [&](const Mechanism& changed) {
+    return options.advice ? passing_product(with_declared(product.file, changed), options, context) : std::nullopt;
+  });
+}
+
 void write_and_check(BuildContext& context) {
   formats::Product& product = context.result.product;
   product.rig = rig_of(product);
   const RunContext trials = context.run.without_progress();
   auto notes = run_async([&] { return advised_notes(product, context.options, trials); });
+  auto of_plates = run_async([&] { return plate_notes(product); });
   auto in_the_way = run_async([&] { return parts_in_the_way(product, context.options, trials); });
+  auto beyond_shaft = run_async([&] { return screw_beyond_shaft(product, context.options, trials); });
   auto loaded = run_async([&joint = product.joint] { return analysis::under_load(joint.mechanism); });
   Tables tables = write_and_check_parts(context);
+  std::vector<std::string> omissions = of_plates.get();
   product.pulley.layout.notes = notes.get();
+  std::move(omissions.begin(), omissions.end(), std::back_inserter(product.pulley.layout.notes));
   for (Diagnostic& part : in_the_way.get()) product.file.warnings.push_back(std::move(part));
+  if (auto missed = beyond_shaft.get()) product.file.warnings.push_back(std::move(*missed));
   product.under_load = loaded.get();
   if (auto lost = analysis::no_equilibrium(product.under_load)) {
     lost->severity = Severity::warning;
@@ -565,12 +590,27 @@ profile::Advice motor_advice(const formats::Product& product, const BuildOptions
     };
   else
     judge.obstacles = [&check](const Mechanism& changed) { return check(changed); };
+  // Trials that passed, with their disadvantages in words. The oracle is called by two threads.
+  std::vector<std::pair<Mechanism, std::string>> passed;
+  std::mutex guard;
   judge.made = [&](const Mechanism& changed) {
-    const MechanismFile trial = with_declared(file, changed);
-    return is_made(trial, options, context) && motor_suffices(trial);
+    const auto trial = passing_product(with_declared(file, changed), options, context);
+    if (!trial || !motor_suffices(trial->file)) return false;
+    const std::string lost = lost_with(*trial, product);
+    const std::lock_guard lock(guard);
+    passed.emplace_back(changed, lost);
+    return true;
   };
   judge.is_expensive = true;
-  return profile::find_advice(file.mechanism, judge);
+  profile::Advice advice = profile::find_advice(file.mechanism, judge);
+  for (profile::Change& change : advice.alone) {
+    const Field* field = find_field(change.key);
+    if (field == nullptr || field->kind != FieldKind::number) continue;
+    for (const auto& [trial, lost] : passed) {
+      if (std::abs(number_of(trial, *field) - change.to) < 1e-9 * std::abs(change.to)) change.cost = lost;
+    }
+  }
+  return advice;
 }
 
 const std::vector<std::string>& output_names() {

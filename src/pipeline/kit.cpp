@@ -11,6 +11,7 @@
 #include "pipeline/design.h"
 #include "pipeline/law_table_copy.h"
 #include "pipeline/multi_turn.h"
+#include "pipeline/shaft_reach.h"
 #include "solid/print.h"
 
 namespace fusee::pipeline {
@@ -152,6 +153,20 @@ std::vector<std::string> kit_names() {
   return names;
 }
 
+/// Warning about a set screw that the shaft of the motor below the plate does not reach.
+std::optional<Diagnostic> screw_beyond_shaft(const formats::KitProduct& product, double chord_error_mm,
+                                             const RunContext& context) {
+  const kit::KitSizes& sizes = product.plan.sizes;
+  const double below = product.plan.drilled ? kit::k_template_plate : sizes.base + sizes.pulley_low;
+  return shaft_reach_warning(product.pulley, below, [&](const Mechanism& changed) -> std::optional<formats::Product> {
+    formats::Product pulley;
+    pulley.file = with_declared(product.pulley.file, changed);
+    pulley.joint = joint::identified_joint(pulley.file.mechanism);
+    if (!design_any(pulley, chord_error_mm, {}, context, solid::TieOffSearch::brief)) return std::nullopt;
+    return pulley;
+  });
+}
+
 }  // namespace
 
 std::vector<Check> kit_fit_checks(const kit::KitPlan& plan) {
@@ -183,6 +198,10 @@ KitResult kit(const MechanismFile& file, const KitOptions& options, const RunCon
     context.begin_step("searching for changes that avoid collisions");
     result.advice = advice_for_kit(file, product, options, context.without_progress());
     return result;
+  }
+  if (const auto missed = screw_beyond_shaft(product, options.chord_error_mm, context.without_progress())) {
+    product.plan.warnings.push_back(missed->message + (missed->hint.empty() ? "" : ": " + missed->hint));
+    product.pulley.file.warnings.push_back(*missed);
   }
   const plan::PlanOptions bench;
   auto planned = run_async([&] { return plan::plan_runs(file.mechanism, bench, context.without_progress()); });

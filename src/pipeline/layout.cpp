@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <compare>
+#include <iterator>
 #include <limits>
 
 #include "base/text.h"
@@ -17,6 +18,7 @@
 #include "mechanism/catalogue.h"
 #include "pipeline/design.h"
 #include "pipeline/multi_turn.h"
+#include "pipeline/shaft_reach.h"
 #include "solid/plan.h"
 #include "transmission/load.h"
 
@@ -331,11 +333,24 @@ bool is_loose(const Mechanism& mechanism, const solid::BodyLayout& layout) {
   return body.bore != Bore::horn && body.set_screw != "none" && body.hub_height > 0 && !layout.set_screw.present;
 }
 
+/// True if the motor's shaft does not reach the set screw.
+bool is_beyond_shaft(const Mechanism& mechanism, const solid::BodyLayout& layout) {
+  const std::optional<ShaftReach> reach = shaft_reach(mechanism, layout);
+  return reach && !reach->suffices();
+}
+
+/// 0: a set screw or a horn holds the pulley, or the file wants none. 1: the shaft is too short for the set screw; another
+/// motor or a coupling helps. 2: nothing holds it.
+std::size_t looseness(const Mechanism& mechanism, const solid::BodyLayout& layout) {
+  if (is_loose(mechanism, layout)) return 2;
+  return is_beyond_shaft(mechanism, layout) ? 1 : 0;
+}
+
 /// Fewer are better, in this order.
 struct Rank {
   std::size_t stalls = 0;        ///< 1: the motor cannot hold the load
-  std::size_t warnings = 0;      ///< of the build, without those on the motor
-  std::size_t loose = 0;         ///< 1: nothing holds the pulley on its shaft
+  std::size_t warnings = 0;      ///< of the build, without those on the motor and its shaft
+  std::size_t loose = 0;         ///< looseness()
   std::size_t weakness = 0;      ///< missing share of the motor's advised margin, in quarters
   std::size_t shortcomings = 0;  ///< of a pulley of one turn; several turns always have the same notes
 
@@ -365,7 +380,7 @@ Rank planned_rank(const DeclaredMechanism& declared, double torque) {
   if (!curves.obstacles.empty()) return rank;
   const solid::BodyPlan plan = solid::plan_body(curves.joint.mechanism, curves.synthesis);
   if (!plan.is_possible()) return rank;
-  rank.loose = is_loose(declared, plan.layout) ? 1 : 0;
+  rank.loose = looseness(declared, plan.layout);
   rank.shortcomings = shortcomings(plan.layout);
   return rank;
 }
@@ -377,21 +392,34 @@ Rank rank_of(const formats::Product& product) {
                                                ? analysis::motor_warnings(*product.under_load.motor, product.file)
                                                : std::vector<Diagnostic>{};
   rank.warnings = product.file.warnings.size() + product.synthesis.warnings.size() + product.holding.warnings.size();
-  rank.warnings -= std::min(rank.warnings, of_motor.size());
-  rank.loose = is_loose(product.file.mechanism, product.pulley.layout) ? 1 : 0;
+  const bool misses_shaft = is_beyond_shaft(product.joint.mechanism, product.pulley.layout);
+  rank.warnings -= std::min(rank.warnings, of_motor.size() + (misses_shaft ? 1 : 0));
+  rank.loose = looseness(product.file.mechanism, product.pulley.layout);
   rank.shortcomings = product.helix ? 0 : shortcomings(product.pulley.layout);
   return rank;
 }
 
 /// Declares the smallest set screw, in a thread of the hub. The hub that a declared screw requires has precedence over
-/// marks and slots. Empty if the pulley has a set screw or must not have one, or if that hub does not fit.
-std::optional<DeclaredMechanism> with_small_screw(const DeclaredMechanism& declared, const Rank& planned) {
-  if (planned.loose == 0 || declared.body.set_screw != "auto" || declared.body.hub_diameter > 0) return std::nullopt;
+/// marks and slots. Empty if the file names a set screw or must not have one, or if that hub does not fit.
+std::optional<DeclaredMechanism> with_small_screw(const DeclaredMechanism& declared) {
+  if (declared.body.set_screw != "auto" || declared.body.hub_diameter > 0) return std::nullopt;
   DeclaredMechanism changed = declared;
   changed.body.set_screw = declared.units == LengthUnit::inch ? "#2-56" : "M2";
   changed.body.nut_trap = false;
-  if (quick_obstacle(changed)) return std::nullopt;
-  return planned_rank(changed, 0).loose == 0 ? std::optional(changed) : std::nullopt;
+  return quick_obstacle(changed) ? std::nullopt : std::optional(changed);
+}
+
+/// A variant that holds the pulley better on its shaft, with a lower hub, the smallest set screw, or both. Empty if the
+/// plan is held already, or if there is none.
+std::optional<DeclaredMechanism> held_variant(const DeclaredMechanism& declared, const Rank& planned) {
+  if (planned.loose == 0) return std::nullopt;
+  if (auto lower = with_lower_hub(declared)) return lower;
+  const std::optional<DeclaredMechanism> small = with_small_screw(declared);
+  if (!small) return std::nullopt;
+  const std::size_t loose = planned_rank(*small, 0).loose;
+  if (loose == 0) return small;
+  if (auto lower = with_lower_hub(*small)) return lower;
+  return loose < planned.loose ? small : std::nullopt;
 }
 
 /// The tendons' moment arm at home, mm.
@@ -552,10 +580,11 @@ class LayoutChoice {
     }
     if (requirements_.any) return try_build(candidate.mechanism, candidate, /*is_last=*/true);
     const Rank planned = planned_rank(file.mechanism, candidate.torque);
-    if (const auto with_screw = with_small_screw(file.mechanism, planned)) {
+    if (const auto held = held_variant(file.mechanism, planned)) {
       Candidate screwed = candidate;
-      screwed.mechanism.body.set_screw = with_screw->body.set_screw;
-      screwed.mechanism.body.nut_trap = false;
+      screwed.mechanism.body.set_screw = held->body.set_screw;
+      screwed.mechanism.body.nut_trap = held->body.nut_trap;
+      screwed.mechanism.body.hub_height = held->body.hub_height;
       if (may_be_better(screwed, planned_rank(file_of_(screwed.mechanism).mechanism, candidate.torque))) {
         if (!try_build(screwed.mechanism, screwed, /*is_last=*/false)) return false;
         if (chosen_ && best_.loose == 0) return true;
@@ -566,8 +595,9 @@ class LayoutChoice {
 
   bool may_be_better(const Candidate& candidate, Rank planned) const {
     if (!chosen_ || best_.warnings > 0) return true;
-    // Several turns are not planned. A pulley that is no larger than a loose one is loose, too.
-    if (candidate.mechanism.pulley.r1 <= largest_loose_) planned.loose = 1;
+    // Several turns are not planned. A pulley that is no larger than a loose one is at least as loose.
+    for (std::size_t loose = 1; loose < largest_loose_.size(); ++loose)
+      if (candidate.mechanism.pulley.r1 <= largest_loose_[loose]) planned.loose = loose;
     return planned < best_;
   }
 
@@ -593,9 +623,11 @@ class LayoutChoice {
     }
     const formats::Product& product = layout.built.product;
     const Rank rank = rank_of(product);
-    if (product.helix && rank.loose > 0) largest_loose_ = std::max(largest_loose_, layout.file.mechanism.pulley.r1);
+    if (product.helix)
+      largest_loose_[rank.loose] = std::max(largest_loose_[rank.loose], layout.file.mechanism.pulley.r1);
     const double torque = product.under_load.largest_torque.value;
-    if (rank.loose > 0 && torque > 0) least_loose_torque_ = std::min(least_loose_torque_, torque);
+    const bool has_no_screw = is_loose(product.file.mechanism, product.pulley.layout);
+    if (has_no_screw && torque > 0) least_loose_torque_ = std::min(least_loose_torque_, torque);
     if (chosen_ && !(rank < best_)) return true;
     best_ = rank;
     layout.stalls = rank.stalls > 0;
@@ -612,6 +644,8 @@ class LayoutChoice {
   void add_price() {
     const double share = least_loose_torque_ / chosen_->built.product.under_load.largest_torque.value;
     chosen_->is_held = best_.loose == 0;
+    // A warning of the build tells that the shaft does not reach the set screw.
+    if (chosen_->built.product.pulley.layout.set_screw.present && !chosen_->is_held) return;
     if (!chosen_->is_held) {
       chosen_->price_words =
           "nothing holds the pulley on its shaft, as there is no space for a hub with a set screw: glue it, or take a "
@@ -630,7 +664,8 @@ class LayoutChoice {
   Rank best_;            ///< of the choice
   Obstacles obstacles_;  ///< of candidates that fail
   int builds_ = 0;
-  double largest_loose_ = 0;  ///< r1 of the largest pulley of several turns that nothing holds on its shaft, mm
+  /// r1 of the largest pulley of several turns by its looseness(), mm.
+  std::array<double, 3> largest_loose_{};
   /// Least torque of the motor with a pulley that nothing holds on its shaft, N·mm.
   double least_loose_torque_ = std::numeric_limits<double>::infinity();
 };
@@ -682,29 +717,57 @@ double mean_ratio(const Mechanism& mechanism) {
   return (rows.back().alpha - rows.front().alpha) / (rows.back().theta - rows.front().theta);
 }
 
-/// Drums for the pulley of the file, then for larger and smaller ones.
-std::vector<DeclaredMechanism> drums_for(const DeclaredMechanism& declared) {
+/// A drum for a file, with the largest error of the joint angle under the declared load.
+struct Drum {
+  DeclaredMechanism mechanism;
+  bool stalls = false;  ///< the motor of the file cannot hold the load
+  double error = 0;     ///< rad
+};
+
+/// A drum with this pitch radius (mm) and a pulley that reaches this far; empty if it is infeasible.
+std::optional<Drum> drum_of(DeclaredMechanism declared, double rho, double reach) {
+  if (declared.body.room > 0) rho = std::min(rho, widest_drum(declared.body.room, declared.tendon.diameter));
+  if (!is_drum(rho, declared.tendon.diameter)) return std::nullopt;
+  put_drum(declared, rho, reach);
+  if (quick_obstacle(declared)) return std::nullopt;
+  const Mechanism joint = joint::identified_joint(declared, joint::LawSearch::brief).mechanism;
+  const analysis::UnderLoad load = analysis::under_load(joint);
+  if (load.lost_at) return std::nullopt;
+  Drum drum{std::move(declared), false, load.theta_error.value};
+  drum.stalls = load.motor && !load.motor->ok();
+  return drum;
+}
+
+/// Pitch radii of drums over the link length: the usual one and wider ones, which are stiffer.
+constexpr std::array k_drum_shares{0.15, 0.2, 0.27, 0.36};
+
+/// Drums for the pulley of the file, then for larger and smaller ones. For one pulley the drum with the least error under
+/// the load comes first, among those with which the motor holds the load.
+std::vector<Drum> drums_for(const DeclaredMechanism& declared, const RunContext& context) {
   const double span = declared.joint.theta_max - declared.joint.theta_min;
   const bool has_r1 = declared.pulley.law == Law::compensate;
   const double ratio = has_r1 ? 0 : mean_ratio(declared);
-  std::vector<DeclaredMechanism> all;
+  std::vector<Drum> all;
   if (!has_r1 && !(ratio > 0)) return all;
-  const double usual = 0.15 * declared.joint.R, bend = 0.5 * declared.tendon.bend_ratio * declared.tendon.diameter;
-  for (const double factor : {1.0, 1.4, 2.0, 0.7}) {
-    DeclaredMechanism changed = declared;
-    double reach = 0, rho = 0;
-    if (has_r1) {
-      changed.pulley.r1 = factor == 1.0 ? declared.pulley.r1 : in_three_digits(factor * declared.pulley.r1);
-      reach = changed.pulley.r1;
-      rho = std::min(std::max(usual, bend), reach * k_one_turn / span);
-    } else {
-      rho = std::max(usual, bend) * factor;
-      reach = rho / ratio;
+  const double bend = 0.5 * declared.tendon.bend_ratio * declared.tendon.diameter;
+  const std::vector<double> factors = has_r1 ? std::vector{1.0, 1.4, 2.0, 0.7} : std::vector{1.0};
+  for (const double factor : factors) {
+    std::vector<Drum> of_pulley;
+    for (const double share : k_drum_shares) {
+      context.throw_if_stopped();
+      DeclaredMechanism changed = declared;
+      double rho = std::max(share * declared.joint.R, bend), reach = rho / ratio;
+      if (has_r1) {
+        if (factor != 1.0) changed.pulley.r1 = in_three_digits(factor * declared.pulley.r1);
+        reach = changed.pulley.r1;
+        rho = std::min(rho, reach * k_one_turn / span);
+      }
+      if (auto drum = drum_of(std::move(changed), rho, reach)) of_pulley.push_back(std::move(*drum));
     }
-    if (declared.body.room > 0) rho = std::min(rho, widest_drum(declared.body.room, declared.tendon.diameter));
-    if (!is_drum(rho, declared.tendon.diameter)) continue;
-    put_drum(changed, rho, reach);
-    all.push_back(std::move(changed));
+    std::stable_sort(of_pulley.begin(), of_pulley.end(), [](const Drum& one, const Drum& other) {
+      return one.stalls != other.stalls ? other.stalls : one.error < other.error;
+    });
+    std::move(of_pulley.begin(), of_pulley.end(), std::back_inserter(all));
   }
   return all;
 }
@@ -718,14 +781,13 @@ std::optional<profile::LayoutAdvice> drum_advice(const MechanismFile& file, cons
   dry.dry_run = dry.force = true;
   dry.advice = dry.step = false;
   dry.folder = temporary_folder() / "fusee-layout";
-  for (const DeclaredMechanism& changed : drums_for(file.mechanism)) {
+  for (const Drum& drum : drums_for(file.mechanism, context)) {
     context.throw_if_stopped();
-    if (quick_obstacle(changed)) continue;
     MechanismFile with_drum = file;
-    with_drum.mechanism = changed;
+    with_drum.mechanism = drum.mechanism;
     if (build(with_drum, dry, context.without_progress()).status != BuildStatus::done) continue;
     return profile::LayoutAdvice{"put a drum on the joint, on which both tendons stay over the whole range",
-                                 "finger_mcp", settings_of(changed, file.mechanism)};
+                                 "finger_mcp", settings_of(drum.mechanism, file.mechanism)};
   }
   return std::nullopt;
 }

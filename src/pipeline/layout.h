@@ -36,7 +36,7 @@ struct ChosenLayout {
   /// About a pretension that keeps both tendons taut under the load; "" if the usual one does.
   std::string pretension_words;
   bool stalls = false;  ///< the motor cannot hold the load
-  bool is_held = true;  ///< by a set screw or a horn, or as the file wants it
+  bool is_held = true;  ///< by a set screw that the shaft reaches or a horn, or as the file wants it
   /// Price of holding the pulley on its shaft, or the reason why nothing holds it; "" without a price.
   std::string price_words;
 };
@@ -51,7 +51,7 @@ struct LayoutSearch {
 /// Tries candidates by a quick check, then by full dry builds, in order of preference: a lever where the range allows
 /// it, a drum with one turn of the pulley, a drum with several turns. No drum is wider than the room. Candidates that the motor turns with its advised
 /// margin come first. A candidate is preferred over an earlier one if the motor can hold the load, if its build has
-/// fewer warnings, if a set screw or a horn holds it on its shaft, if the motor has more of its advised margin, and if
+/// fewer warnings, if a horn or a set screw that the shaft reaches holds it, if the motor has more of its advised margin, and if
 /// fewer features are omitted, in this order. The choice keeps its room as body.room_diameter_mm, and has
 /// the pretension that keeps both tendons taut under the load if tendons and motor bear it.
 LayoutSearch choose_layout(const LayoutRequirements& requirements, const CandidateFile& file_of,

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "base/text.h"
+#include "fusee/analysis.h"
 #include "pipeline/design.h"
 #include "solid/hub.h"
 #include "solid/plan.h"
@@ -79,6 +80,23 @@ double in_two_digits(double value, bool up) {
   return number_of(rounded((up ? std::ceil(scaled - 1e-9) : std::floor(scaled + 1e-9)) * unit, 3));
 }
 
+/// "the nut, the home mark": features in `omitted` that are not in `omitted_before`.
+std::string words_of_lost(const std::vector<std::string>& omitted, const std::vector<std::string>& omitted_before) {
+  std::string lost;
+  for (const std::string& feature : omitted) {
+    if (!has(omitted_before, feature)) lost += (lost.empty() ? "" : ", ") + words_of(feature);
+  }
+  return lost;
+}
+
+/// ", which omits the nut and takes 12 % more motor torque"; "" without a clause.
+std::string which(const std::vector<std::string>& clauses) {
+  std::string words;
+  for (const std::string& clause : clauses)
+    if (!clause.empty()) words += (words.empty() ? ", which " : " and ") + clause;
+  return words;
+}
+
 class OmissionSearch {
  public:
   OmissionSearch(const formats::Product& product, const BuildOmissions& build, const RunContext& context)
@@ -102,9 +120,9 @@ class OmissionSearch {
         context_.throw_if_stopped();
         ++builds_;
         const auto built = build_(trial->mechanism);
-        if (!built || loses_fastening(*built)) continue;
+        if (!built || loses_fastening(built->omitted)) continue;
         for (const std::string& feature : without_advice) {
-          if (!has(*built, feature)) advice[feature] = sentence(*trial, *built);
+          if (!has(built->omitted, feature)) advice[feature] = sentence(*trial, *built);
         }
       }
     }
@@ -173,15 +191,12 @@ class OmissionSearch {
   }
 
   /// "try pulley.r1_mm = 11 (now 9)", and the further features that it omits.
-  std::string sentence(const Trial& trial, const std::vector<std::string>& built) const {
+  std::string sentence(const Trial& trial, const BuiltTrial& built) const {
     const double now = number_of(product_.file.mechanism, *find_field(trial.change.key));
     std::string text = fmt::format("try {} = {} (now {})", trial.change.key, rounded(trial.new_value, 3),
                                    now > 0 ? rounded(now) : "automatic, " + rounded(trial.change.value, 3));
-    std::string lost;
-    for (const std::string& feature : built) {
-      if (!has(omitted_, feature)) lost += (lost.empty() ? "" : ", ") + words_of(feature);
-    }
-    return lost.empty() ? text : text + ", which omits " + lost;
+    const std::string lost = words_of_lost(built.omitted, omitted_);
+    return text + which({lost.empty() ? "" : "omits " + lost, built.cost});
   }
 
   const formats::Product& product_;
@@ -206,6 +221,33 @@ std::vector<std::string> notes_with_advice(const formats::Product& product, cons
         found != advice.end() ? "; " + found->second : "; no change of a single number that was tried brings it back";
   }
   return notes;
+}
+
+std::string costs(const formats::Product& changed, const formats::Product& before) {
+  constexpr double k_more = 1.05;  // a ratio of torques or sizes that is worth a word
+  std::string words;
+  const auto add = [&words](const std::string& clause) { words += (words.empty() ? "" : " and ") + clause; };
+  const auto torque = [](const formats::Product& product) {
+    return analysis::under_load(product.joint.mechanism).largest_torque.value;
+  };
+  const double torque_before = torque(before), ratio = torque_before > 0 ? torque(changed) / torque_before : 1;
+  if (ratio > k_more) add(fmt::format("takes {} % more motor torque", rounded(100 * (ratio - 1), 2)));
+  const double pocket = 2 * changed.pulley.layout.pocket_radius, pocket_before = 2 * before.pulley.layout.pocket_radius;
+  if (pocket > 0 && pocket * k_more < pocket_before && changed.file.mechanism.body.knot_pocket == 0)
+    add(fmt::format("narrows the knot pockets to {} mm (now {})", rounded(pocket, 3), rounded(pocket_before, 3)));
+  return words;
+}
+
+std::string lost_with(const formats::Product& changed, const formats::Product& before) {
+  const std::string omitted = lost_features(changed.pulley.layout, before.pulley.layout);
+  const bool bends = changed.synthesis.warnings.size() > before.synthesis.warnings.size();
+  return which({omitted.empty() ? "" : "omits " + omitted,
+                changed.helix && !before.helix ? "requires several turns of the pulley" : "",
+                bends ? "bends the tendon more tightly than tendon.bend_ratio advises" : ""});
+}
+
+std::string lost_features(const solid::BodyLayout& changed, const solid::BodyLayout& before) {
+  return words_of_lost(features_of(changed), features_of(before));
 }
 
 }  // namespace fusee::pipeline

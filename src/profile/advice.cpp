@@ -633,10 +633,11 @@ std::string setting_words(const Change& change) {
   constexpr int k_digits = 10;
   const std::string now = " (now " + rounded(change.from, k_digits) + ")";
   const auto [least, most] = std::minmax({change.to, change.until.value_or(change.to)});
-  if (least != most) return change.key + " = " + rounded(least, k_digits) + " to " + rounded(most, k_digits) + now;
+  if (least != most)
+    return change.key + " = " + rounded(least, k_digits) + " to " + rounded(most, k_digits) + now + change.cost;
   const std::string direction = change.to > change.from ? " or more" : " or less";
   const std::string end = change.until ? "" : direction;
-  return change.key + " = " + rounded(change.to, k_digits) + end + now;
+  return change.key + " = " + rounded(change.to, k_digits) + end + now + change.cost;
 }
 
 std::string advice_sentence(const std::vector<Change>& changes) {

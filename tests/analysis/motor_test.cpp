@@ -122,6 +122,35 @@ TEST(Motor, ListsMarginsAndWhetherModelsFit) {
                                         rounded(strongest / motor.torque.value, 3) + ", and 2 is advised");
 }
 
+TEST(Motor, DividesListByDiameterOfBore) {
+  DeclaredMechanism mechanism = with_motor(100, 0, 0);
+  mechanism.body.bore_diameter = 4;  // no motor of the catalogue has this shaft
+  MotorCheck motor = *under_load(mechanism).motor;
+  EXPECT_EQ(motor.fitting_models, 0u);
+  EXPECT_THAT(motor.models_text(), ::testing::StartsWith("suitable with another bore: "));
+  mechanism.body.bore_diameter = 5;
+  mechanism.joint.R *= 0.1;  // NEMA 17 steppers hold a tenth of the torque
+  motor = *under_load(mechanism).motor;
+  ASSERT_GT(motor.fitting_models, 0u);
+  EXPECT_THAT(motor.models_text(), ::testing::StartsWith("suitable: NEMA17-40mm (margin "));
+  EXPECT_THAT(motor.models_text(), HasSubstr("; with another bore: "));
+}
+
+TEST(Motor, NoServoStandsBehindGearbox) {
+  DeclaredMechanism mechanism = with_motor(100, 0, 0);
+  mechanism.motor = {};
+  mechanism.motor.model = "NEMA17-48mm";
+  mechanism.motor.gear_ratio = 50;
+  const MotorCheck motor = *under_load(mechanism).motor;
+  EXPECT_THAT(motor.sufficient_models, Not(Contains(HasSubstr("XL430"))));
+  EXPECT_THAT(motor.sufficient_models, Not(Contains(HasSubstr("STS3215"))));
+  ASSERT_GE(motor.sufficient_models.size(), 3u);
+  EXPECT_EQ(motor.sufficient_models[0], "NEMA17-48mm 50:1");
+  EXPECT_EQ(motor.sufficient_models[1], "NEMA17-40mm 50:1");
+  EXPECT_EQ(motor.fitting_models, 2u);
+  EXPECT_THAT(motor.models_text(), HasSubstr("; with another gearbox: N20-"));
+}
+
 TEST(Motor, GearboxAppliesToEverySuitableModel) {
   DeclaredMechanism mechanism = with_motor(100, 0, 0);
   mechanism.motor = {};

@@ -19,6 +19,47 @@ import harness
 OUTPUTS = {"pulley.stl", "pulley.obj", "pulley.3mf", "pulley.drc", "pulley.scad", "profile.dxf", "plates.dxf",
            "profile.csv", "profile_p1.csv", "profile_p2.csv", "transmission.csv", "mechanism.toml", "report.html",
            "manifest.json"}
+ELBOW = """schema = 1
+name = "arm"
+
+[joint]
+length_mm = 250
+range_deg = [-10, 120]
+drum_radius_mm = 58.8
+attachment1_mm = [-52.266, 27.587]
+attachment2_mm = [-43.799, 39.679]
+
+[guides]
+EB_mm = 62.9
+ED_mm = 62.9
+OE_mm = 103
+radius_mm = 14.4
+kind = "idler"
+bearing_radius_mm = 3.3
+bearing_friction = 0.003
+
+[pulley]
+EF_mm = 38.2
+r1_mm = 15.2
+law = "compensate"
+
+[tendon]
+diameter_mm = 1.2
+modulus_MPa = 57300
+pretension_N = 38
+bend_ratio = 25
+strength_N = 1220
+
+[load]
+tip_force_N = 19.6133
+
+[motor]
+model = "NEMA17-48mm"
+
+[body]
+shaft = "nema17-d5"
+room_diameter_mm = 120
+"""  # the motor is too weak: an elbow of 250 mm that lifts 2 kg
 PARTS = {"pulley_p1.stl", "pulley_p2.stl"}  # of a pulley printed in two parts, like that of arm.toml
 
 
@@ -82,6 +123,17 @@ class Build(harness.Scratch):
         self.assertEqual(self.files("one")["pulley.stl"], self.files("two")["pulley.stl"])
         self.assertEqual(self.files("one")["gripper_law.csv"], self.files("two")["gripper_law.csv"])
 
+    def test_template_is_written_with_its_table(self):
+        done = self.expect("new gripper", 0, 'table = "gripper_law.csv"', "note: its law needs the table gripper_law.csv beside it.*fusee new gripper -o gripper.toml")
+        (self.folder / "gripper.toml").write_bytes(done.stdout)
+        self.expect("build gripper.toml --dry-run", 3, "^$", "gripper_law.csv: cannot be read.*'fusee new gripper -o gripper.toml' writes the template's table")
+        (self.folder / "new").mkdir()
+        self.expect("new gripper -o new/jaw.toml", 0, "", "^$")
+        self.assertEqual(self.files("new")["gripper_law.csv"], (harness.SOURCE / "profiles/gripper_law.csv").read_bytes())
+        self.expect("build new/jaw.toml --dry-run", 0)
+        self.expect("new gripper --set joint.length_mm=90", 0, "length_mm = 90")
+        self.expect("new forearm", 0, "", "^$")
+
     def test_writes_step_on_request(self):
         done = self.fusee("build arm.toml -o out/cad --step")
         if b"built without STEP" in done.stderr:
@@ -94,6 +146,14 @@ class Build(harness.Scratch):
         # The next run without --step removes the older pulley.step.
         self.expect("build arm.toml -o out/cad", 0, "pulley.scad")
         self.assertFalse((self.folder / "out/cad/pulley.step").exists())
+
+    def test_plates_report_what_they_lack(self):
+        for settings, words in (("cut.kerf_mm=6", "plates.dxf: the bore is omitted: a kerf of 6 mm is wider"),
+                                ("cut.kerf_mm=6", "plates.dxf: a tendon channel is omitted"),
+                                ("cut.dowel_mm=20", "plates.dxf: no dowels: there is no space for two of 20 mm"),
+                                ("cut.sheet_width_mm=20", "plates.dxf: a sheet of 20 x ")):
+            self.expect(f"build arm.toml --dry-run --set {settings}", 0, "", "note: " + words)
+        self.assertNotIn("plates.dxf", self.expect("build arm.toml --dry-run", 0).stderr.decode())
 
     def test_is_reproducible(self):
         first = self.build("one")
@@ -217,6 +277,13 @@ class Build(harness.Scratch):
         self.assertEqual(self.files("out/arm"), earlier)
         self.expect("build arm.toml --max-theta-error-deg 0 --force", 5, "report.html")
         self.assertNotEqual(self.files("out/arm"), earlier)
+
+    def test_hints_name_their_cost(self):
+        # A small pulley holds the load with less motor torque, but it bends the cable and has no hub.
+        (self.folder / "elbow.toml").write_text(ELBOW)
+        hints = re.findall(r"try (pulley\.r1_mm = [^;]*)", self.expect("build elbow.toml --dry-run", 0).stderr.decode())
+        self.assertTrue(any("which omits the hub, the set screw" in hint and "bends the tendon more tightly than tendon.bend_ratio" in hint
+                            for hint in hints), hints)
 
     def test_infeasible_design_has_advice(self):
         document = self.expect_json("build arm.toml --set pulley.r1_mm=60", 4)

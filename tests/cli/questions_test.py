@@ -196,7 +196,8 @@ class Questions(harness.Scratch):
     def test_weak_motor_gets_a_larger_reduction(self):
         for words in ("new --ask", "new --ask --set motor.enforce=true"):
             text, asked = self.ask(answers("elbow", "250 mm", "±60", "240 mm", "2 kg", "NEMA17-48mm", "1 mm"), words=words)
-            self.assertNotIn("warning", asked)
+            # Several turns are too high for the shaft. That is the only warning.
+            self.assertEqual([words.split(":")[0] for words in re.findall("warning: (.*)", asked)], ["the shaft does not reach the set screw"])
             motor = self.builds(text, 240)["motor"]
             self.assertGreaterEqual(motor["torque"]["margin"], 1)
             self.assertLess(len(text.splitlines()), 90)
@@ -214,10 +215,19 @@ class Questions(harness.Scratch):
         elbow = answers("elbow", "250", "±60", "80", "2 kg", "NEMA17-48mm", "1")
         asked = self.ask(elbow)[1]
         self.assertIn("warning: the motor NEMA17-48mm holds 590 Nmm, and the load requires", asked)
-        room = re.search(r"the motor holds the load with a larger drum and pulley: try ([\d.]+) mm in place of 80 mm for question 4 \(room\)", asked)
+        room = re.search(r"the motor holds the load with a drum of ([\d.]+) mm radius \(now ([\d.]+) mm\) and a pulley ([\d.]+) mm wide and ([\d.]+) mm high "
+                         r"\(now ([\d.]+) mm and ([\d.]+) mm\).*: try ([\d.]+) mm in place of 80 mm for question 4 \(room\)", asked)
         self.assertTrue(room, asked)
-        self.assertIn(f"try {room[1]} mm in place of 80 mm for question 4", self.ask(elbow, 4, "new --ask --set motor.enforce=true")[1])
-        self.assertNotIn("warning: the motor", self.ask(elbow.replace("\n80\n", f"\n{room[1]}\n"))[1])
+        self.assertEqual(self.sizes(elbow), room.group(2, 5, 6))
+        self.assertEqual(self.sizes(elbow.replace("\n80\n", f"\n{room[7]}\n")), room.group(1, 3, 4))
+        self.assertIn(f"try {room[7]} mm in place of 80 mm for question 4", self.ask(elbow, 4, "new --ask --set motor.enforce=true")[1])
+        self.assertNotIn("warning: the motor", self.ask(elbow.replace("\n80\n", f"\n{room[7]}\n"))[1])
+
+    def sizes(self, typed):
+        """Drum radius, and the pulley's width and height, of these answers, with three digits."""
+        text = self.ask(typed)[0]
+        size = self.builds(text)["size_mm"]
+        return tuple(f"{value:.3g}" for value in (tomllib.loads(text)["joint"]["drum_radius_mm"], size["diameter"], size["height"]))
 
     def test_pulley_is_held_on_its_shaft(self):
         # A pulley of several turns is smaller, and has no space for a hub with a set screw.
@@ -231,6 +241,32 @@ class Questions(harness.Scratch):
         # No set screw fits this room.
         asked = self.ask(answers(room="9 mm", load="0.5 N"))[1]
         self.assertIn("warning: nothing holds the pulley on its shaft", asked)
+
+    def test_set_screw_reaches_the_shaft(self):
+        # An N20 has 10 mm of shaft: the hub of 8 mm, with the screw in its middle, is too high for it.
+        text, asked = self.ask(answers("my finger", "38 mm", "0..75", "25 mm", "6 N", "N20", "braid 0.5"))
+        self.assertNotIn("does not reach", asked)
+        self.assertLess(tomllib.loads(text)["body"]["hub_height_mm"], 8)
+        self.builds(text, 25)
+        self.assertNotIn("does not reach", self.expect("build asked.toml --dry-run", 0).stderr.decode())
+        found = re.search(r"asked.toml:\d+:\d+: warning: the shaft does not reach the set screw: M[\d.]+ at ([\d.]+) mm above the pulley's lower face "
+                          r"requires ([\d.]+) mm of shaft, and the shaft of N20 is 10 mm long\n  hint: try body.hub_height_mm = ([\d.]+) \(now 8\)",
+                          self.expect("build asked.toml --set body.hub_height_mm=8 -o high", 0).stderr.decode())
+        self.assertTrue(found)
+        self.assertGreater(float(found[2]), float(found[1]))
+        self.assertGreater(float(found[2]), 10)
+        self.assertIn("the shaft of N20 is 10 mm long", (self.folder / "high/report.html").read_text())
+        self.assertNotIn("does not reach", self.expect(f"build asked.toml --dry-run --set body.hub_height_mm={found[3]}", 0).stderr.decode())
+        # The plate of a kit takes 4 mm of it.
+        words = "the shaft does not reach the set screw: .* mm above the motor's face \\(4 mm of it below the pulley\\).*coupling"
+        self.expect("kit asked.toml -o kit", 0, "", "warning: " + words)
+        self.assertRegex((self.folder / "kit/kit.html").read_text().replace("&#39;", "'"), words)
+
+    def test_several_turns_are_too_high_for_a_shaft(self):
+        text, asked = self.ask(answers("elbow", "250 mm", "±60", "240 mm", "2 kg", "NEMA17-48mm", "1 mm"))
+        found = re.search(r"warning: the shaft does not reach the set screw: .* at ([\d.]+) mm above the pulley's lower face .* NEMA 17 is 24 mm long", asked)
+        self.assertTrue(found, asked)
+        self.assertGreater(float(found[1]), 24)
 
     def test_refusal_names_least_torque_of_layouts(self):
         out, err = self.ask(answers(load="20 N", motor="N20-298-LP"), 4, "new --ask --set motor.enforce=true")
@@ -265,6 +301,28 @@ class Questions(harness.Scratch):
         text, asked = self.ask(answers(load="2 N", room="40", motor="NEMA17-40mm, 5 mm D"))
         read = tomllib.loads(text)
         self.assertEqual((read["motor"], read["body"]["shaft"]), ({"model": "NEMA17-40mm"}, "nema17-d5"))
+
+    def test_every_model_is_accepted_or_has_a_remedy(self):
+        begun = ("a", "45", "0 80", "30", "10 N")
+        listed = self.expect("explain motor.model", 0).stdout.decode().split("default")[0]
+        models = [name for name in re.findall(r'"([^"]+)"', listed) if name != "none"]
+        self.assertIn("STS3032", models)
+        for model in models:
+            answered, err = self.understood(*begun, model)
+            if f", motor: {model}, " in answered:
+                continue
+            if several := re.search(r'" fits several entries: (\S+), .* Which one\?', err):  # a servo with several horns
+                self.assertIn(", motor: ", self.understood(*begun, f"{model}, {several[1]}")[0])
+                continue
+            self.assertIn(f"the catalogue has neither horn nor shaft of {model}: type its shaft behind it, such as {model}, 5 mm D, "
+                          f"or a horn of the list, such as {model}, disc-25T-M3", err)
+            self.assertIn(f", motor: {model}, a D shaft of 5 mm", self.understood(*begun, f"{model}, 5 mm D")[0])
+        for typed, words in (("STS3032, disc-25T-M3", "STS3032, aluminium disc"), ("N20 with encoder", "N20 gear motor"), ("N20 298:1", "N20-298-LP, "),
+                             ("MG90S micro servo, 4 mm", "MG90S, a round shaft of 4 mm")):
+            self.assertIn(f"motor: {words}", self.understood(*begun, typed)[0], typed)
+        text, _ = self.ask(answers(load="1 N", motor="STS3032, 5 mm D"))
+        self.assertEqual(tomllib.loads(text)["motor"], {"model": "STS3032"})
+        self.builds(text, 30)
 
     def test_motor_of_the_answers_has_a_margin(self):
         for typed, limit in (("NEMA17-48mm 5:1, 8 mm D", "NEMA17-48mm 5:1 holds 2655 Nmm"), ("NEMA17-48mm", "NEMA17-48mm holds 590 Nmm")):
@@ -408,6 +466,15 @@ class Refusals(harness.Scratch):
             self.assertIn("put a drum on the joint", self.fusee(words).stderr.decode())
             settings = [word for one in layout["settings"] for word in ("--set", f"{one['key']}={one['value']}")]
             self.expect_json(["build", "forearm.toml", "--dry-run", "--set", "joint.range_deg=[-60, 60]", *settings], 0)
+
+    def test_drum_of_the_advice_is_stiff(self):
+        for r1 in (5.6, 15):
+            (self.folder / "finger.toml").write_bytes(self.fusee("new finger").stdout)
+            words = ["build", "finger.toml", "--dry-run", "--set", "joint.range_deg=[-15, 60]", "--set", f"pulley.r1_mm={r1}"]
+            layout = self.expect_json(words, 4)["advice_layout"]
+            settings = [word for one in layout["settings"] for word in ("--set", f"{one['key']}={one['value']}")]
+            load = self.expect_json([*words, *settings], 0)["under_load"]
+            self.assertLess(load["max_theta_error_deg"], 1.0)
 
     def test_other_obstacles_name_no_drum(self):
         self.assertNotIn("advice_layout", self.expect_json("build forearm.toml --dry-run --set pulley.r1_mm=25", 4))
