@@ -70,7 +70,7 @@ std::vector<Option> with_reading_options(std::vector<Option> options) {
                      true});
   options.push_back({"--zero-ticks", "ROLE=N", "counts of that encoder at home (default 0)", true});
   options.push_back({"--home-reading", "ROLE=X",
-                     "what the sensor of alpha or theta reads at home,\nin its column's unit (default 0)", true});
+                     "what the sensor of alpha or theta reads at\nhome, in its column's unit (default 0)", true});
   return options;
 }
 
