@@ -136,17 +136,19 @@ void drop_idle_members(const Evidence& evidence, const Selection& selection, con
   }
 }
 
-/// Adds effects that are reported beside the found set to the first group that contains them.
+/// Adds effects that are reported beside the found set to the first group that contains them or has them as companions.
 void place_beside(const Evidence& evidence, const Selection& selection, const Fit& numbers,
                   std::vector<FoundEffect>& found) {
   const std::vector<ConfidenceInterval> both = intervals(numbers);
   const Ranges ranges{both, both};
   for (const fusee::Effect* effect : numbers.effects) {
     if (contains(selection.best.effects, *effect)) continue;
-    const auto group = std::find_if(selection.groups.begin(), selection.groups.end(),
-                                    [&](const CredibleGroup& own) { return contains(own.members, *effect); });
-    found[static_cast<std::size_t>(group - selection.groups.begin())].beside.push_back(
-        {effect->name, fitted_parameters(evidence, numbers, ranges, *effect)});
+    const auto group = std::find_if(selection.groups.begin(), selection.groups.end(), [&](const CredibleGroup& own) {
+      return contains(own.members, *effect) || contains(own.companions, *effect);
+    });
+    FoundEffect& one = found[static_cast<std::size_t>(group - selection.groups.begin())];
+    one.beside.push_back({effect->name, fitted_parameters(evidence, numbers, ranges, *effect)});
+    if (!contains(group->members, *effect)) one.group.push_back(effect->name);
   }
 }
 

@@ -22,6 +22,7 @@ struct WeightedSet {
 struct CredibleGroup {
   EffectSet members;  ///< members, the reported effect first
   double absence_probability = 0;
+  EffectSet companions = {};  ///< effects that may be present beside a member, but are no alternatives to it
 };
 
 /// Group of the effect `named` of the set `best`: alternatives, which other sets have in its place, are added until

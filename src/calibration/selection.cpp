@@ -146,6 +146,12 @@ class SharedLinearization {
   std::vector<Eigen::Index> first_;  ///< first column of each candidate, and the end
 };
 
+/// Exchange of an effect beside the best set with one of its members.
+struct Trade {
+  std::size_t member = 0;    ///< index in the best set
+  bool can_replace = false;  ///< the effect can take over half of the member within two standard deviations
+};
+
 class Selector {
  public:
   Selector(const Evidence& evidence, FitterPool& pool, const CalibrationOptions& options)
@@ -194,7 +200,7 @@ class Selector {
   std::vector<LinearizedCandidate> candidates_beside_best();
   bool test_rivals();
   std::vector<WeightedSet> weigh_sets();
-  std::optional<std::size_t> find_trading_member(const Fit& wider) const;
+  std::optional<Trade> find_trade(const Fit& wider) const;
   void add_companions();
   std::optional<double> square_deviation(const Fit& fit, Eigen::Index place) const;
   void estimate_variance();
@@ -877,32 +883,31 @@ double rms_contribution(const Evidence& evidence, const Fit& fit, const fusee::E
   return std::sqrt(moved.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, moved.size())));
 }
 
-/// Index of the member that is correlated most with the last effect of `wider`, by the amount that they trade: the
-/// regression of the member's contribution on the effect's, a standard deviation. None if that is small, or if two
-/// standard deviations would replace less than half of the member: the effect may be present beside it then, but is no
-/// alternative to it.
-std::optional<std::size_t> Selector::find_trading_member(const Fit& wider) const {
+/// The member that is correlated most with the last effect of `wider`, by the amount that they trade: the
+/// regression of the member's contribution on the effect's, a standard deviation. None if that is small.
+std::optional<Trade> Selector::find_trade(const Fit& wider) const {
   const Fit& best = selection_.best;
   const Tangent tangent = tangent_of(evidence_, wider);
   const Eigen::MatrixXd C = selection_.temperature * wider.posterior.covariance;
   const std::vector<Eigen::Index> own = places_of(wider, *wider.effects.back());
   const double least = k_thresholds.least_shared * evidence_.floor;
   if (own.empty() || rms_by(tangent.J(Eigen::all, own), C(own, own)) < least) return {};
-  std::optional<std::size_t> most;
+  std::optional<Trade> most;
   double most_shared = least;
   for (std::size_t i = 0; i < best.effects.size(); ++i) {
     const std::vector<Eigen::Index> others = places_of(wider, *best.effects[i]);
     if (others.empty()) continue;
     const double shared =
         rms_by(tangent.J(Eigen::all, others), C(others, own) * solved(C(own, own), Eigen::MatrixXd(C(own, others))));
-    const bool can_replace = 2 * shared > 0.5 * rms_contribution(evidence_, best, *best.effects[i]);
-    if (can_replace && shared > most_shared) most_shared = shared, most = i;
+    if (!(shared > most_shared)) continue;
+    most_shared = shared;
+    most = {i, 2 * shared > 0.5 * rms_contribution(evidence_, best, *best.effects[i])};
   }
   return most;
 }
 
 /// Adds effects to the group of the member with which they trade: the data do not require them, but allow them with a
-/// smaller member.
+/// smaller member. Those that cannot replace it are its companions.
 void Selector::add_companions() {
   const Fit& best = selection_.best;
   if (best.effects.empty() || best.effects.size() >= k_most_effects) return;
@@ -915,9 +920,10 @@ void Selector::add_companions() {
   for (Fit& fit : fits) {
     if (!fit.usable || !(score(fit) > least)) continue;
     const fusee::Effect* effect = fit.effects.back();
-    if (const std::optional<std::size_t> place = find_trading_member(fit)) {
-      EffectSet& members = selection_.groups[*place].members;
-      if (!contains(members, *effect)) members.push_back(effect);
+    if (const std::optional<Trade> trade = find_trade(fit)) {
+      CredibleGroup& group = selection_.groups[trade->member];
+      EffectSet& effects = trade->can_replace ? group.members : group.companions;
+      if (!contains(group.members, *effect)) effects.push_back(effect);
     }
     record_tried(std::move(fit));
   }

@@ -215,15 +215,16 @@ HeldOutErrors held_out_errors_of_mode(const Evidence& evidence, const Estimate& 
   return {mean_square(evidence.run_folds), mean_square(evidence.factor_folds)};
 }
 
-/// Members of groups beside the found set that a table or the sensor can correct.
+/// Members and companions of groups beside the found set that a table or the sensor can correct.
 EffectSet members_without_pulley(const Selection& selection) {
   EffectSet all;
   for (const CredibleGroup& group : selection.groups) {
-    for (const fusee::Effect* member : group.members) {
-      const bool is_correctable =
-          member->correctable_by == CorrectableBy::table || member->place == ChainPlace::joint_sensor;
-      if (is_correctable && !contains(selection.best.effects, *member) && !contains(all, *member))
-        all.push_back(member);
+    for (const EffectSet* effects : {&group.members, &group.companions}) {
+      for (const fusee::Effect* one : *effects) {
+        const bool is_correctable =
+            one->correctable_by == CorrectableBy::table || one->place == ChainPlace::joint_sensor;
+        if (is_correctable && !contains(selection.best.effects, *one) && !contains(all, *one)) all.push_back(one);
+      }
     }
   }
   return all;

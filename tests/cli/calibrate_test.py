@@ -271,6 +271,17 @@ class Calibrate(harness.Scratch):
         self.expect(f"calibrate joint.toml {home} --dry-run --no-audit", 0, err="alpha: the sensor reads 200 deg at home; theta: the sensor reads -2.5 rad at home")
         self.expect("calibrate joint.toml rad.csv --column alpha=motor --column time=t --column 'theta=joint [mrad]'", 3, err="as s, the rows are 20 s apart")
 
+    def test_caliper_reading_decides(self):
+        """The sample's pulleys are 1.2 % too small. Measured to 0.2 %, no other effect can take over half of that."""
+        profiles = harness.SOURCE / "profiles"
+        runs = " ".join(str(run) for run in sorted((profiles / "measured").glob("forearm_*.csv")))
+        line = f"calibrate {profiles / 'forearm.toml'} {runs} --no-audit --dry-run"
+        groups = [effect["group"] for effect in self.expect_json(line, 0)["effects"]]
+        self.assertGreater(len(groups[0]), 1)
+        read = self.expect_json(line + " --set 'prior.pulley_scale=[0.988, 0.002]'", 0)
+        self.assertEqual([effect["group"] for effect in read["effects"]], [["pulley_scale"]])
+        self.assertEqual(read["verdict"], "explained")
+
     def test_rejects_reading_options(self):
         for option, message in (("--unit time=furlong", "units: s, ms, us"), ("--unit tim=ms", "did you mean 'time'"), ("--unit ms", "role=value"),
                              ("--ticks-per-turn load=4096", "no role 'load'"), ("--ticks-per-turn alpha=many", "'many' is none"),

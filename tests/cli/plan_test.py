@@ -39,7 +39,7 @@ class Plan(harness.Scratch):
         (self.folder / "inch.toml").write_bytes(self.fusee("new finger_mcp --set units=inch").stdout)
         self.expect("plan inch.toml -o bench --loads 0,5", 0)
         page = (self.folder / "bench/plan.html").read_text()
-        self.assertRegex(page, r"a disc of radius 1\.\d+ in on the joint")
+        self.assertIn("a disc of radius 3.54 in on the joint", page)  # 90 mm
         self.assertNotRegex(page, r"\d mm\b")
 
     def test_is_reproducible(self):
