@@ -643,9 +643,8 @@ class LayoutChoice {
   /// States what a pulley that is held on its shaft costs, or that none was found.
   void add_price() {
     const double share = least_loose_torque_ / chosen_->built.product.under_load.largest_torque.value;
-    chosen_->is_held = best_.loose == 0;
-    // A warning of the build tells that the shaft does not reach the set screw.
-    if (chosen_->built.product.pulley.layout.set_screw.present && !chosen_->is_held) return;
+    // A screw that the shaft does not reach is a warning of the build.
+    chosen_->is_held = best_.loose < 2;
     if (!chosen_->is_held) {
       chosen_->price_words =
           "nothing holds the pulley on its shaft, as there is no space for a hub with a set screw: glue it, or take a "

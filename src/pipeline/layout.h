@@ -36,7 +36,7 @@ struct ChosenLayout {
   /// About a pretension that keeps both tendons taut under the load; "" if the usual one does.
   std::string pretension_words;
   bool stalls = false;  ///< the motor cannot hold the load
-  bool is_held = true;  ///< by a set screw that the shaft reaches or a horn, or as the file wants it
+  bool is_held = true;  ///< by a set screw, even if the shaft is too short for it, or a horn, or as the file wants it
   /// Price of holding the pulley on its shaft, or the reason why nothing holds it; "" without a price.
   std::string price_words;
 };
