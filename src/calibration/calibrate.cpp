@@ -88,10 +88,10 @@ void validate(const Mechanism& declared, const measurement::Measurement& kept, c
   const auto residuals_at = [&](const Imperfections& at) {
     return residuals(kept, joint::predict(declared, at, measurement::bench_log(kept)));
   };
-  const std::vector<std::vector<double>> about_declared = residuals_at(answer.declared.fit.at);
+  const RowsOfRuns outliers = outliers_of(kept, calibration.noise.rms, residuals_at(answer.declared.fit.at));
   const auto rms = [&](const Imperfections& at) {
     std::vector<std::vector<double>> all = residuals_at(at);
-    leave_out_outliers(kept, calibration.noise.rms, about_declared, all);
+    exclude_rows(outliers, all);
     return figures(kept, all, 0).rms;
   };
   calibration.before.held_out_rms = rms(answer.declared.fit.at);
@@ -149,10 +149,9 @@ void describe_errors(const Evidence& evidence, const measurement::Measurement& m
   const Estimate &before = answer.declared, &after = answer.reported.estimate;
   calibration.residuals_before = residuals_of(before);
   calibration.residuals_after = residuals_of(after);
-  const std::vector<std::vector<double>> about_declared = calibration.residuals_before;
-  leave_out_outliers(measurement, evidence.floor, about_declared, calibration.residuals_after);
-  calibration.rows_left_out =
-      leave_out_outliers(measurement, evidence.floor, about_declared, calibration.residuals_before);
+  const RowsOfRuns outliers = outliers_of(measurement, evidence.floor, calibration.residuals_before);
+  exclude_rows(outliers, calibration.residuals_after);
+  calibration.rows_left_out = exclude_rows(outliers, calibration.residuals_before);
   calibration.before = figures(measurement, calibration.residuals_before, held_out_rms(before));
   calibration.after = figures(measurement, calibration.residuals_after, held_out_rms(after));
   calibration.iso_before = measurement::iso230(measurement, calibration.residuals_before);
@@ -174,13 +173,10 @@ measurement::Measurement about_declared(const Mechanism& declared, const measure
   return about;
 }
 
-/// Settled numbers; those that have no effect are reset to the declared value. The numbers of a difference between two
-/// states are not settled: they are no joint.
+/// Settled numbers; those that have no effect are reset to the declared value.
 Imperfections meaningful_numbers(const Evidence& evidence, const Fit& fit, const Imperfections& numbers) {
   Imperfections at = numbers;
-  for (const fusee::Effect* effect : fit.effects) {
-    if (effect->settle != nullptr && !evidence.earlier) effect->settle(at, *evidence.declared);
-  }
+  for (const fusee::Effect* effect : fit.effects) at = settled(evidence, *effect, at);
   for (const EffectParameter* parameter : fit.parameters) {
     if (is_idle(*parameter, numbers)) reset(at, *parameter);
   }

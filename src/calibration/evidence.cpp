@@ -304,25 +304,29 @@ std::vector<HandReading> hand_readings(const DeclaredMechanism& declared) {
 
 }  // namespace
 
-std::size_t leave_out_outliers(const measurement::Measurement& measurement, double floor,
-                               const std::vector<std::vector<double>>& about_declared,
-                               std::vector<std::vector<double>>& residuals) {
-  std::size_t count = 0;
+RowsOfRuns outliers_of(const measurement::Measurement& measurement, double floor,
+                       const std::vector<std::vector<double>>& about_declared) {
+  RowsOfRuns outliers(measurement.runs.size());
   for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
     const std::vector<double>& about = about_declared[r];
     const Eigen::VectorXd all =
         Eigen::Map<const Eigen::VectorXd>(about.data(), static_cast<Eigen::Index>(about.size()));
     for (const measurement::Segment& segment : measurement::segments_of(measurement.runs[r])) {
       const std::vector<std::size_t> kept = without_outliers(all, segment.first, segment.last, floor);
-      auto next = kept.begin();
       for (std::size_t i = segment.first; i <= segment.last; ++i) {
-        if (next != kept.end() && *next == i) {
-          ++next;
-        } else if (std::isfinite(residuals[r][i])) {
-          residuals[r][i] = std::numeric_limits<double>::quiet_NaN();
-          ++count;
-        }
+        if (!std::binary_search(kept.begin(), kept.end(), i)) outliers[r].push_back(i);
       }
+    }
+  }
+  return outliers;
+}
+
+std::size_t exclude_rows(const RowsOfRuns& rows, std::vector<std::vector<double>>& residuals) {
+  std::size_t count = 0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (const std::size_t i : rows[r]) {
+      count += std::isfinite(residuals[r][i]) ? 1 : 0;
+      residuals[r][i] = std::numeric_limits<double>::quiet_NaN();
     }
   }
   return count;

@@ -73,11 +73,15 @@ void weigh(Evidence& evidence);
 /// Thins each run to a number of rows, evenly over its strokes.
 measurement::Measurement with_fewer_rows(measurement::Measurement measurement, std::size_t most_a_run);
 
-/// Replaces residuals of rows far from their neighbours by NaN: a fit leaves such rows out, and so must every figure.
-/// `about_declared`: residuals of the declared joint, run by run. Returns the number of rows.
-std::size_t leave_out_outliers(const measurement::Measurement& measurement, double floor,
-                               const std::vector<std::vector<double>>& about_declared,
-                               std::vector<std::vector<double>>& residuals);
+/// Indices of samples, run by run, ascending.
+using RowsOfRuns = std::vector<std::vector<std::size_t>>;
+
+/// Rows far from their neighbours: a fit leaves such rows out, and so must every figure. `about_declared`: residuals of
+/// the declared joint, run by run.
+RowsOfRuns outliers_of(const measurement::Measurement& measurement, double floor,
+                       const std::vector<std::vector<double>>& about_declared);
+/// Replaces the residuals of these rows by NaN. Returns the number that were finite.
+std::size_t exclude_rows(const RowsOfRuns& rows, std::vector<std::vector<double>>& residuals);
 
 /// Joint angles of all runs, one after another.
 Eigen::VectorXd flat(const joint::Readings& readings);

@@ -37,15 +37,12 @@ ConfidenceInterval settled_interval(const fusee::Effect& effect, const EffectPar
   };
   const double x = settled_value(fit.at);
   double variance = 0;
-  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
-    const EffectParameter& moved = *fit.parameters[k];
-    if (std::none_of(effect.parameters.begin(), effect.parameters.end(),
-                     [&](const auto& one) { return &one == &moved; }))
-      continue;
+  for (const Eigen::Index k : places_of(fit, effect)) {
+    const EffectParameter& moved = *fit.parameters[static_cast<std::size_t>(k)];
     Imperfections beside = fit.at;
     set_value(beside, moved, value_of(fit.at, moved) + k_small_step * moved.step);
-    const double slope = (settled_value(beside) - x) / k_small_step;
-    variance += slope * slope * fitted[k].deviation * fitted[k].deviation;
+    const double change = (settled_value(beside) - x) / k_small_step * fitted[static_cast<std::size_t>(k)].deviation;
+    variance += change * change;
   }
   return ConfidenceInterval::about(x, variance);
 }
@@ -60,14 +57,13 @@ double effect_on_joint(const Evidence& evidence, const Fit& fit, Eigen::Index k)
 /// `ranges`: intervals of the parameters of `fit`.
 std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const Fit& fit, const Ranges& ranges,
                                                const fusee::Effect& effect) {
+  const Imperfections at = settled(evidence, effect, fit.at);
+  const bool is_settled = !(at == fit.at);
   std::vector<FittedParameter> fitted;
   for (const EffectParameter& own : effect.parameters) {
     FittedParameter& number = fitted.emplace_back();
     number.name = own.name;
     if (is_idle(own, fit.at)) continue;
-    Imperfections at = fit.at;
-    if (effect.settle != nullptr && !evidence.earlier) effect.settle(at, *evidence.declared);
-    const bool is_settled = !(at == fit.at);
     const double value = value_of(at, own);
     std::pair<double, double> overall{value, value}, if_only{value, value};
     for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
@@ -121,10 +117,8 @@ double share(const Selection& selection, std::size_t place) {
 
 /// True if the fitted `effect` moves the rows by no more than a fit of its numbers to noise alone would.
 bool moves_nothing(const Evidence& evidence, const Fit& fit, const fusee::Effect& effect) {
-  const std::vector<Eigen::Index> places = places_of(fit, effect);
-  const Eigen::VectorXd moved = fit.J(evidence.rows(), places) * fit.x(places);
-  const double seen = moved.squaredNorm() * evidence.evidence_model->independent_share();
-  return seen < static_cast<double>(places.size()) * evidence.floor * evidence.floor;
+  const double seen = contribution(evidence, fit, effect).squaredNorm() * evidence.evidence_model->independent_share();
+  return seen < static_cast<double>(places_of(fit, effect).size()) * evidence.floor * evidence.floor;
 }
 
 /// Removes rivals that do nothing in the place of `effect` from the group of `found`.

@@ -162,6 +162,16 @@ std::vector<Eigen::Index> places_of(const Fit& fit, const fusee::Effect& effect)
   return own;
 }
 
+Eigen::VectorXd contribution(const Evidence& evidence, const Fit& fit, const fusee::Effect& effect) {
+  const std::vector<Eigen::Index> places = places_of(fit, effect);
+  return fit.J(evidence.rows(), places) * fit.x(places);
+}
+
+Imperfections settled(const Evidence& evidence, const fusee::Effect& effect, Imperfections at) {
+  if (effect.settle != nullptr && !evidence.earlier) effect.settle(at, *evidence.declared);
+  return at;
+}
+
 Fit with_fixed_parameters(const Evidence& evidence, Fit fit) {
   fit.parameters.clear();
   fit.x.resize(0);

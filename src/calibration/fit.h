@@ -47,6 +47,12 @@ void hold_at_bounds(Fit& fit);
 
 /// Indices of an effect's parameters in the fit.
 std::vector<Eigen::Index> places_of(const Fit& fit, const fusee::Effect& effect);
+/// Contribution of a fitted effect to the angles of the rows in use, rad.
+Eigen::VectorXd contribution(const Evidence& evidence, const Fit& fit, const fusee::Effect& effect);
+
+/// The numbers `at` with those of the effect settled (Effect::settle). The numbers of a difference between two states
+/// stay as they are: they are no joint.
+Imperfections settled(const Evidence& evidence, const fusee::Effect& effect, Imperfections at);
 
 /// Fits the joint to the evidence, the discrepancy marginalised. For one thread.
 class Fitter {

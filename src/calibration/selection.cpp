@@ -878,8 +878,7 @@ double rms_by(const Eigen::MatrixXd& J, const Eigen::MatrixXd& C) {
 
 /// Root mean square over the rows in use, rad, of the contribution of `effect` to the fitted angles.
 double rms_contribution(const Evidence& evidence, const Fit& fit, const fusee::Effect& effect) {
-  const std::vector<Eigen::Index> places = places_of(fit, effect);
-  const Eigen::VectorXd moved = fit.J(evidence.rows(), places) * fit.x(places);
+  const Eigen::VectorXd moved = contribution(evidence, fit, effect);
   return std::sqrt(moved.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, moved.size())));
 }
 
