@@ -110,11 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
               {{"pulley.r1_mm", "221"}},
               0.00262,
               pipeline::BuildStatus::done},
-        Repro{"bridge_of_a_giant",
-              "tests/data/repro/bridge_of_a_giant.toml",
-              {},
-              0.00434,
-              pipeline::BuildStatus::done},
+        Repro{"bridge_of_a_giant", "tests/data/repro/bridge_of_a_giant.toml", {}, 0.00434, pipeline::BuildStatus::done},
         Repro{
             "range_past_table", "tests/data/repro/range_past_table.toml", {}, 0.01, pipeline::BuildStatus::infeasible},
         Repro{"arc_16_km_out",
